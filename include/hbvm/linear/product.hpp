@@ -1,0 +1,27 @@
+#pragma once
+
+#include "hbvm/linear/matrix.hpp"
+
+namespace hbvm {
+
+/// c = a b, for a (n x l) and b (l x m); c is resized. Column by column, as a b applies one small coefficient
+/// matrix (n stages, l Fourier coefficients) to each of m coordinates.
+template <Scalar S>
+void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
+
+/// c = a^T b, for a (l x n) and b (l x m).
+template <Scalar S>
+void transposed_product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
+
+/// sum_i a_i b_i.
+template <Scalar S>
+S dot(const Vector<S>& a, const Vector<S>& b);
+
+#define HBVM_DECLARE(S)                                                                            \
+  extern template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);                 \
+  extern template void transposed_product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);      \
+  extern template S dot<S>(const Vector<S>&, const Vector<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "hbvm/linear/matrix.hpp"
+#include "hbvm/method/method_name.hpp"
+
+namespace hbvm {
+
+/// The coefficients of HBVM(k, s), k >= s >= 1: all a step needs and no more. They do not depend on the step.
+/// Names and labels are the paper's: (matrici), (Xs), (new). k = s is the s-stage Gauss method.
+template <Scalar S>
+struct Hbvm {
+  int k = 0, s = 0;
+  Vector<S> c, b;          ///< the s nodes and weights where the constraints are met
+  Vector<S> c_hat, b_hat;  ///< the k nodes and weights of the potential's integrals (psij)
+  Matrix<S> P_s, I_s;      ///< s x s: P_j(c_i) and int_0^{c_i} P_j
+  Matrix<S> P_hat, I_hat;  ///< k x s: the same at c_hat
+  Matrix<S> X_s;           ///< s x s, tridiagonal: I_s = P_s X_s (IsPs)
+  Matrix<S> projection;      ///< s x s: P_s^T Omega = P_s^{-1}, nodal values to Fourier coefficients
+  Matrix<S> projection_hat;  ///< s x k: P_hat^T Omega_hat
+  Matrix<S> A;               ///< s x s: I_s P_s^T Omega, the Butcher matrix of the s-stage Gauss method (azzera1)
+  Vector<S> lagrange_at_1;   ///< s: l_i(1) of (lagmul)
+  /// s x (s + 1): takes the s + 1 Fourier coefficients of a polynomial of degree s on [0, 1] to the first s of the
+  /// same polynomial on [1, 2], which is how a step starts from the previous one.
+  Matrix<S> extrapolation;
+};
+
+/// Every coefficient is computed with guard digits and rounded once.
+/// \throws InputError unless 1 <= s <= k <= max_stages
+template <Scalar S>
+Hbvm<S> make_hbvm(int k, int s);
+
+#define HBVM_DECLARE(S) extern template Hbvm<S> make_hbvm<S>(int, int);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "hbvm/scalar/scalar.hpp"
+
+namespace hbvm {
+
+/// Arithmetic that writes into an existing value: r = a op b. For Mpfr this is the mpfr call itself, without the
+/// temporary (an allocation) that an operator returns; for the others it is the operator.
+
+template <Scalar S>
+void set(S& r, const S& a) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_set(raw(r), raw(a), MPFR_RNDN);
+  else
+    r = a;
+}
+
+template <Scalar S>
+void set_zero(S& r) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_set_zero(raw(r), 1);
+  else
+    r = 0;
+}
+
+template <Scalar S>
+void add(S& r, const S& a, const S& b) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_add(raw(r), raw(a), raw(b), MPFR_RNDN);
+  else
+    r = a + b;
+}
+
+template <Scalar S>
+void subtract(S& r, const S& a, const S& b) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_sub(raw(r), raw(a), raw(b), MPFR_RNDN);
+  else
+    r = a - b;
+}
+
+template <Scalar S>
+void multiply(S& r, const S& a, const S& b) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_mul(raw(r), raw(a), raw(b), MPFR_RNDN);
+  else
+    r = a * b;
+}
+
+template <Scalar S>
+void divide(S& r, const S& a, const S& b) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_div(raw(r), raw(a), raw(b), MPFR_RNDN);
+  else
+    r = a / b;
+}
+
+/// r += a b and r -= a b, each rounded twice; `t` is scratch.
+template <Scalar S>
+void add_product(S& r, const S& a, const S& b, [[maybe_unused]] S& t) {
+  if constexpr (std::same_as<S, Mpfr>) {
+    mpfr_mul(raw(t), raw(a), raw(b), MPFR_RNDN);
+    mpfr_add(raw(r), raw(r), raw(t), MPFR_RNDN);
+  } else {
+    r += a * b;
+  }
+}
+
+template <Scalar S>
+void subtract_product(S& r, const S& a, const S& b, [[maybe_unused]] S& t) {
+  if constexpr (std::same_as<S, Mpfr>) {
+    mpfr_mul(raw(t), raw(a), raw(b), MPFR_RNDN);
+    mpfr_sub(raw(r), raw(r), raw(t), MPFR_RNDN);
+  } else {
+    r -= a * b;
+  }
+}
+
+}  // namespace hbvm

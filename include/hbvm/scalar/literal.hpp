@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string_view>
+
+#include "hbvm/scalar/expression.hpp"
+#include "hbvm/scalar/scalar.hpp"
+
+namespace hbvm {
+
+/// The value of an expression in the working precision, right to the last bit.
+/// \throws ExpressionError as Expression::evaluate_to_bits does, and if the value overflows or underflows S
+template <Scalar S>
+S evaluate(const Expression& expression, const Constants& constants = {}) {
+  const BigFloat exact = expression.evaluate_to_bits(significand_bits<S>(), constants);
+  const S value = rounded_to<S>(raw(exact));
+  if (!is_finite(value) || (value == 0) != (mpfr_zero_p(raw(exact)) != 0))
+    throw ExpressionError("'" + expression.text() + "' is outside the range of the working precision");
+  return value;
+}
+
+/// The number written as exact text: literal<S>("0.1"), literal<S>("2^(3/4)*pi/5").
+template <Scalar S>
+S literal(std::string_view text) {
+  return evaluate<S>(Expression::parse(text));
+}
+
+}  // namespace hbvm

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "hbvm/scalar/scalar.hpp"
+
+namespace hbvm {
+
+/// The shortest decimal text that reads back as the same number of the same precision ("0.1", "1.5e-60", "nan").
+std::string to_text(double x);
+std::string to_text(const Quad& x);
+std::string to_text(const Mpfr& x);
+
+/// `digits` significant digits, correctly rounded, in the form d.ddde±xx of C's %e. For tables and messages.
+std::string to_scientific(double x, int digits);
+std::string to_scientific(const Quad& x, int digits);
+std::string to_scientific(const Mpfr& x, int digits);
+
+}  // namespace hbvm

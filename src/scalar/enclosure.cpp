@@ -1,0 +1,261 @@
+// The value of an Expression by interval arithmetic: every operation rounds its lower bound down and its upper bound
+// up, so that the truth lies between them whatever the cancellation.
+
+#include <algorithm>
+#include <optional>
+
+#include "expression_node.hpp"
+#include "hbvm/scalar/expression.hpp"
+
+namespace hbvm {
+
+using Node = Expression::Node;
+using Kind = Node::Kind;
+
+namespace {
+
+struct Interval {
+  BigFloat low, high;
+};
+
+/// The bounds are too far apart for this operation; more working digits may help.
+struct Undecided {
+  const char* reason;
+};
+
+constexpr long max_exponent = 131'072;
+
+}  // namespace
+
+class Encloser {
+ public:
+  /// With `last` set, an argument that may be 0 is taken for 0, and what then has no value is an error.
+  Encloser(const Constants& constants, long bits, bool last) : constants_(constants), bits_(bits), last_(last) {}
+
+  Interval value(const Expression& expression) { return value(*expression.root_); }
+
+ private:
+  Interval fresh() const { return {BigFloat(bits_), BigFloat(bits_)}; }
+
+  Interval value(const Node& node) {
+    Interval result = operation(node);
+    for (const BigFloat* bound : {&result.low, &result.high}) {
+      if (!mpfr_number_p(raw(*bound)) ||
+          (mpfr_regular_p(raw(*bound)) && std::labs(mpfr_get_exp(raw(*bound))) > max_exponent))
+        throw ExpressionError("a value outside 2^±131072 comes up");
+    }
+    return result;
+  }
+
+  Interval operation(const Node& node) {
+    Interval r = fresh();
+    switch (node.kind) {
+      case Kind::decimal:
+        mpfr_set_str(raw(r.low), node.text.c_str(), 10, MPFR_RNDD);
+        mpfr_set_str(raw(r.high), node.text.c_str(), 10, MPFR_RNDU);
+        return r;
+      case Kind::pi:
+        mpfr_const_pi(raw(r.low), MPFR_RNDD);
+        mpfr_const_pi(raw(r.high), MPFR_RNDU);
+        return r;
+      case Kind::name: return named(node.text);
+      case Kind::negate: {
+        const Interval a = value(*node.left);
+        mpfr_neg(raw(r.low), raw(a.high), MPFR_RNDD);
+        mpfr_neg(raw(r.high), raw(a.low), MPFR_RNDU);
+        return r;
+      }
+      case Kind::add: {
+        const Interval a = value(*node.left), b = value(*node.right);
+        mpfr_add(raw(r.low), raw(a.low), raw(b.low), MPFR_RNDD);
+        mpfr_add(raw(r.high), raw(a.high), raw(b.high), MPFR_RNDU);
+        return r;
+      }
+      case Kind::subtract: {
+        const Interval a = value(*node.left), b = value(*node.right);
+        mpfr_sub(raw(r.low), raw(a.low), raw(b.high), MPFR_RNDD);
+        mpfr_sub(raw(r.high), raw(a.high), raw(b.low), MPFR_RNDU);
+        return r;
+      }
+      case Kind::multiply: return corners(value(*node.left), value(*node.right), mpfr_mul);
+      case Kind::divide: {
+        const Interval a = value(*node.left), b = value(*node.right);
+        if (holds_zero(b)) no_value("division by 0");
+        return corners(a, b, mpfr_div);
+      }
+      case Kind::power: return power(value(*node.left), value(*node.right));
+      case Kind::sqrt: {
+        Interval a = value(*node.left);
+        if (mpfr_sgn(raw(a.high)) < 0) throw ExpressionError("square root of a negative number");
+        if (mpfr_sgn(raw(a.low)) < 0) take_for_zero(a, "square root of a number near 0");
+        return monotone(a, mpfr_sqrt);
+      }
+      case Kind::exp: return monotone(value(*node.left), mpfr_exp);
+      case Kind::log: {
+        const Interval a = value(*node.left);
+        if (mpfr_sgn(raw(a.high)) <= 0) throw ExpressionError("logarithm of a number that is not positive");
+        if (mpfr_sgn(raw(a.low)) <= 0) no_value("logarithm of 0");
+        return monotone(a, mpfr_log);
+      }
+      case Kind::sin: return lipschitz(value(*node.left), mpfr_sin);
+      case Kind::cos: return lipschitz(value(*node.left), mpfr_cos);
+    }
+    throw ExpressionError("unknown operation");
+  }
+
+  Interval named(const std::string& name) {
+    const auto known = constants_.find(name);
+    if (known == constants_.end()) throw ExpressionError("unknown name '" + name + "'");
+    const auto [entry, fresh_entry] = values_.try_emplace(name);
+    if (fresh_entry) {
+      if (++chain_ > 100) throw ExpressionError("the constants refer to one another too deeply at '" + name + "'");
+      entry->second = value(known->second);
+      --chain_;
+    }
+    if (!entry->second) throw ExpressionError("the constant '" + name + "' is defined by itself");
+    return *entry->second;
+  }
+
+  static bool holds_zero(const Interval& a) { return mpfr_sgn(raw(a.low)) <= 0 && mpfr_sgn(raw(a.high)) >= 0; }
+  static bool is_point(const Interval& a) { return mpfr_equal_p(raw(a.low), raw(a.high)) != 0; }
+
+  [[noreturn]] void no_value(const char* reason) const {
+    if (last_) throw ExpressionError(reason);
+    throw Undecided{reason};
+  }
+
+  /// The bounds reach below 0, where the operation has no value: at the last attempt the argument counts as 0.
+  void take_for_zero(Interval& a, const char* reason) const {
+    if (!last_) throw Undecided{reason};
+    mpfr_set_zero(raw(a.low), 1);
+  }
+
+  template <class F>
+  Interval monotone(const Interval& a, F f) const {
+    Interval r = fresh();
+    f(raw(r.low), raw(a.low), MPFR_RNDD);
+    f(raw(r.high), raw(a.high), MPFR_RNDU);
+    return r;
+  }
+
+  /// sin and cos at the middle of a, give or take half its width.
+  template <class F>
+  Interval lipschitz(const Interval& a, F f) const {
+    Interval r = fresh();
+    BigFloat middle(bits_), radius(bits_);
+    mpfr_add(raw(middle), raw(a.low), raw(a.high), MPFR_RNDN);
+    mpfr_div_2ui(raw(middle), raw(middle), 1, MPFR_RNDN);
+    mpfr_sub(raw(r.low), raw(middle), raw(a.low), MPFR_RNDU);
+    mpfr_sub(raw(r.high), raw(a.high), raw(middle), MPFR_RNDU);
+    mpfr_max(raw(radius), raw(r.low), raw(r.high), MPFR_RNDU);
+    f(raw(r.low), raw(middle), MPFR_RNDD);
+    f(raw(r.high), raw(middle), MPFR_RNDU);
+    mpfr_sub(raw(r.low), raw(r.low), raw(radius), MPFR_RNDD);
+    mpfr_add(raw(r.high), raw(r.high), raw(radius), MPFR_RNDU);
+    return r;
+  }
+
+  /// Bounds of f over a x b for an f that is monotone in each argument: its extremes lie at the corners.
+  template <class F>
+  Interval corners(const Interval& a, const Interval& b, F f) const {
+    Interval r = fresh();
+    BigFloat probe(bits_);
+    bool first = true;
+    for (const BigFloat* x : {&a.low, &a.high}) {
+      for (const BigFloat* y : {&b.low, &b.high}) {
+        f(raw(probe), raw(*x), raw(*y), MPFR_RNDD);
+        if (first || mpfr_less_p(raw(probe), raw(r.low))) mpfr_set(raw(r.low), raw(probe), MPFR_RNDD);
+        f(raw(probe), raw(*x), raw(*y), MPFR_RNDU);
+        if (first || mpfr_greater_p(raw(probe), raw(r.high))) mpfr_set(raw(r.high), raw(probe), MPFR_RNDU);
+        first = false;
+      }
+    }
+    return r;
+  }
+
+  Interval power(Interval a, const Interval& b) const {
+    const bool whole = is_point(b) && mpfr_integer_p(raw(b.low));
+    if (whole && mpfr_zero_p(raw(b.low))) {
+      Interval one = fresh();
+      mpfr_set_ui(raw(one.low), 1, MPFR_RNDN);
+      mpfr_set_ui(raw(one.high), 1, MPFR_RNDN);
+      return one;
+    }
+    if (mpfr_sgn(raw(a.low)) > 0) return corners(a, b, mpfr_pow);
+    if (whole && mpfr_sgn(raw(a.high)) < 0) {
+      Interval mirrored = fresh();
+      mpfr_neg(raw(mirrored.low), raw(a.high), MPFR_RNDN);
+      mpfr_neg(raw(mirrored.high), raw(a.low), MPFR_RNDN);
+      Interval r = corners(mirrored, b, mpfr_pow);
+      if (is_odd(b.low)) {
+        mpfr_neg(raw(r.low), raw(r.low), MPFR_RNDN);
+        mpfr_neg(raw(r.high), raw(r.high), MPFR_RNDN);
+        std::swap(r.low, r.high);
+      }
+      return r;
+    }
+    if (mpfr_sgn(raw(a.high)) < 0) throw ExpressionError("power of a negative number with an exponent that is not whole");
+    // The base may be 0.
+    if (mpfr_sgn(raw(b.low)) <= 0) no_value("0 to a power that is not positive");
+    if (mpfr_sgn(raw(a.low)) < 0) take_for_zero(a, "power of a number near 0");
+    return corners(a, b, mpfr_pow);
+  }
+
+  static bool is_odd(const BigFloat& whole) {
+    BigFloat half(mpfr_get_prec(raw(whole)));
+    mpfr_div_2ui(raw(half), raw(whole), 1, MPFR_RNDN);
+    return mpfr_integer_p(raw(half)) == 0;
+  }
+
+  const Constants& constants_;
+  long bits_;
+  bool last_;
+  int chain_ = 0;
+  std::map<std::string, std::optional<Interval>, std::less<>> values_;
+};
+
+namespace {
+
+/// Both bounds rounded to `bits`; nothing if they differ.
+std::optional<BigFloat> common_rounding(const Interval& a, int bits) {
+  BigFloat low(bits), high(bits);
+  mpfr_set(raw(low), raw(a.low), MPFR_RNDN);
+  mpfr_set(raw(high), raw(a.high), MPFR_RNDN);
+  if (!mpfr_equal_p(raw(low), raw(high))) return std::nullopt;
+  return low;
+}
+
+}  // namespace
+
+BigFloat Expression::evaluate_to_bits(int bits, const Constants& constants) const {
+  const long zero_bits = 4L * bits;
+  try {
+    for (long guard = 32;; guard *= 2) {
+      const long working = bits + guard;
+      const bool last = working >= zero_bits;
+      try {
+        const Interval bounds = Encloser(constants, working, last).value(*this);
+        if (const auto value = common_rounding(bounds, bits)) return *value;
+        if (!last) continue;
+        BigFloat middle(bits);
+        if (mpfr_sgn(raw(bounds.low)) <= 0 && mpfr_sgn(raw(bounds.high)) >= 0) {
+          mpfr_set_zero(raw(middle), 1);
+          return middle;
+        }
+        // Not 0, yet the bounds round apart: the truth is half way between two numbers (either will do), or too much
+        // has cancelled and more digits will tell.
+        if (working > 4 * zero_bits) {
+          mpfr_add(raw(middle), raw(bounds.low), raw(bounds.high), MPFR_RNDN);
+          mpfr_div_2ui(raw(middle), raw(middle), 1, MPFR_RNDN);
+          return middle;
+        }
+      } catch (const Undecided&) {
+        // Thrown only before the last attempt: go on with more digits.
+      }
+    }
+  } catch (const ExpressionError& error) {
+    throw ExpressionError("'" + text_ + "': " + error.what());
+  }
+}
+
+}  // namespace hbvm

@@ -1,0 +1,35 @@
+#include "hbvm/scalar/precision.hpp"
+
+#include <charconv>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+
+Precision Precision::parse(std::string_view name) {
+  if (name == "double") return {Kind::binary64, 15};
+  if (name == "quad") return {Kind::binary128, 33};
+  constexpr std::string_view prefix = "mpfr:";
+  if (name.starts_with(prefix)) {
+    const std::string_view number = name.substr(prefix.size());
+    unsigned digits = 0;
+    const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), digits);
+    if (status == std::errc() && end == number.data() + number.size() && digits >= min_digits &&
+        digits <= max_digits)
+      return {Kind::mpfr, digits};
+    throw InputError("precision '" + std::string(name) + "': mpfr:N takes a whole number of digits from " +
+                     std::to_string(min_digits) + " to " + std::to_string(max_digits));
+  }
+  throw InputError("unknown precision '" + std::string(name) + "': use double, quad or mpfr:N (N digits)");
+}
+
+std::string Precision::name() const {
+  switch (kind_) {
+    case Kind::binary64: return "double";
+    case Kind::binary128: return "quad";
+    case Kind::mpfr: break;
+  }
+  return "mpfr:" + std::to_string(digits_);
+}
+
+}  // namespace hbvm
