@@ -27,7 +27,7 @@ bool Lu<S>::factor() {
       using std::swap;
       for (Index j = 0; j < n; ++j) swap(lu_(k, j), lu_(pivot, j));
     }
-    for (Index i = k + 1; i < n; ++i) divide(lu_(i, k), lu_(i, k), lu_(k, k));
+    for (Index i = k + 1; i < n; ++i) set_quotient(lu_(i, k), lu_(i, k), lu_(k, k));
     for (Index j = k + 1; j < n; ++j)
       for (Index i = k + 1; i < n; ++i) subtract_product(lu_(i, j), lu_(i, k), lu_(k, j), t);
   }
@@ -38,13 +38,15 @@ template <Scalar S>
 void Lu<S>::solve(Vector<S>& x) {
   const Index n = lu_.rows();
   S t;
+  // factor() swapped whole rows, the part of L already there included: permute first, then substitute.
   for (Index k = 0; k < n; ++k) {
     using std::swap;
     swap(x[k], x[pivots_[static_cast<std::size_t>(k)]]);
-    for (Index i = k + 1; i < n; ++i) subtract_product(x[i], lu_(i, k), x[k], t);
   }
+  for (Index k = 0; k < n; ++k)
+    for (Index i = k + 1; i < n; ++i) subtract_product(x[i], lu_(i, k), x[k], t);
   for (Index k = n - 1; k >= 0; --k) {
-    divide(x[k], x[k], lu_(k, k));
+    set_quotient(x[k], x[k], lu_(k, k));
     for (Index i = 0; i < k; ++i) subtract_product(x[i], lu_(i, k), x[k], t);
   }
 }

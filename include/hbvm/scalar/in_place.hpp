@@ -24,7 +24,7 @@ void set_zero(S& r) {
 }
 
 template <Scalar S>
-void add(S& r, const S& a, const S& b) {
+void set_sum(S& r, const S& a, const S& b) {
   if constexpr (std::same_as<S, Mpfr>)
     mpfr_add(raw(r), raw(a), raw(b), MPFR_RNDN);
   else
@@ -32,7 +32,7 @@ void add(S& r, const S& a, const S& b) {
 }
 
 template <Scalar S>
-void subtract(S& r, const S& a, const S& b) {
+void set_difference(S& r, const S& a, const S& b) {
   if constexpr (std::same_as<S, Mpfr>)
     mpfr_sub(raw(r), raw(a), raw(b), MPFR_RNDN);
   else
@@ -40,7 +40,15 @@ void subtract(S& r, const S& a, const S& b) {
 }
 
 template <Scalar S>
-void multiply(S& r, const S& a, const S& b) {
+void set_negative(S& r, const S& a) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_neg(raw(r), raw(a), MPFR_RNDN);
+  else
+    r = -a;
+}
+
+template <Scalar S>
+void set_product(S& r, const S& a, const S& b) {
   if constexpr (std::same_as<S, Mpfr>)
     mpfr_mul(raw(r), raw(a), raw(b), MPFR_RNDN);
   else
@@ -48,7 +56,7 @@ void multiply(S& r, const S& a, const S& b) {
 }
 
 template <Scalar S>
-void divide(S& r, const S& a, const S& b) {
+void set_quotient(S& r, const S& a, const S& b) {
   if constexpr (std::same_as<S, Mpfr>)
     mpfr_div(raw(r), raw(a), raw(b), MPFR_RNDN);
   else

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hbvm/method/method_name.hpp"
+#include "hbvm/scalar/precision.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "hbvm/solver/stage_solver.hpp"
+
+namespace hbvm {
+
+/// One run as a user asks for it.
+struct RunRequest {
+  Scene scene;
+  MethodName method;
+  SolverKind solver = SolverKind::fixed_point;
+  Expression step, until;
+  Precision precision;
+};
+
+/// What came out, every number of the working precision as decimal text that reads back exactly.
+struct RunResult {
+  std::string step, t;
+  long steps = 0;
+  std::vector<std::string> q, p, lambda;                ///< lambda: (lagmul)
+  std::vector<std::string> output_p, output_lambda;     ///< the output state
+  std::string output_delta_H;                           ///< H(q, output p) - H_0
+  std::string e_H, e_g, e_hid;
+  double iterations_per_step = 0, cpu_seconds = 0;
+};
+
+struct RunHooks {
+  std::function<std::unique_ptr<std::ostream>()> open_csv;  ///< called once the request is known to be right
+  std::vector<std::string> provenance;             ///< comment lines of the CSV
+  long every = 1;                                  ///< mesh points a CSV line
+  std::function<void(long, long)> progress;        ///< (steps made, of)
+};
+
+/// \throws InputError, IntegrationError
+RunResult run(const RunRequest& request, const RunHooks& hooks);
+
+}  // namespace hbvm

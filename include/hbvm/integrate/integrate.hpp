@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/integrate/time_grid.hpp"
+
+namespace hbvm {
+
+/// The solution at one mesh point. `lambda` is (lagmul) of the step that ends there; at n = 0 that of the exact state,
+/// (Theorem lamex).
+template <Scalar S>
+struct Snapshot {
+  long n = 0;
+  S t;
+  Vector<S> q, p, lambda;
+};
+
+/// Looks at every mesh point, in order. What it throws ends the integration.
+template <Scalar S>
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void observe(const Snapshot<S>& snapshot) = 0;
+};
+
+/// A step that could not be made. What was computed before it has been shown to the observers.
+class StepError : public IntegrationError {
+ public:
+  StepError(long step, std::string time, const StageFailure& failure);
+  long step() const { return step_; }
+  const std::string& time() const { return time_; }
+  const std::string& increment() const { return increment_; }
+
+ private:
+  long step_;
+  std::string time_, increment_;
+};
+
+template <Scalar S>
+struct Integration {
+  Snapshot<S> end;
+  long steps = 0, sweeps = 0;
+  double cpu_seconds = 0;  ///< processor time of this thread in steps alone: observers and output excluded
+};
+
+/// Steps through the grid from `state` and shows t_0, t_1, …, t_N to the observers.
+/// \throws StepError
+template <Scalar S>
+Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
+                         const std::vector<Observer<S>*>& observers);
+
+#define HBVM_DECLARE(S)                                                                            \
+  extern template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&,          \
+                                              const std::vector<Observer<S>*>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

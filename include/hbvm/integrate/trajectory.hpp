@@ -1,0 +1,34 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/problem/point.hpp"
+
+namespace hbvm {
+
+/// Writes every `every`-th mesh point and the last as a line of comma-separated decimals that read back exactly:
+/// t, q, p, (lagmul), the output state's p and multiplier, H - H_0, and the max-norms of g and of the hidden
+/// constraint. Column names and provenance stand above in lines that begin with #, the names first.
+template <Scalar S>
+class Trajectory final : public Observer<S> {
+ public:
+  /// \param provenance lines without the #
+  Trajectory(const Problem<S>& problem, std::ostream& out, long every, long steps,
+             const std::vector<std::string>& provenance);
+  void observe(const Snapshot<S>& snapshot) override;
+
+ private:
+  Point<S> point_;
+  std::ostream& out_;
+  long every_, steps_;
+  S H0_;
+};
+
+#define HBVM_DECLARE(S) extern template class Trajectory<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "hbvm/problem/problem.hpp"
+
+namespace hbvm {
+
+/// grad g in several lanes, stored by its pattern: for each constraint the coordinates it depends on. Owns the
+/// storage, so that evaluating allocates nothing. The problem must outlive it.
+template <Scalar S>
+class ConstraintGradient {
+ public:
+  ConstraintGradient(const Problem<S>& problem, Index lanes);
+
+  /// grad g and M^-1 grad g at q. What is linear in q is not computed again.
+  void update(Lanes<const S> q);
+
+  /// (grad g^T v)_a in lane i.
+  void transposed_times(Index i, Index a, Lanes<const S> v, S& result);
+  /// out += grad g lambda in every lane, with lambda (lanes x nu).
+  void add_times(const Matrix<S>& lambda, Lanes<S> out);
+  /// out += M^-1 grad g lambda in every lane.
+  void add_weighted_times(const Matrix<S>& lambda, Lanes<S> out);
+
+  /// grad g_a(q_i)^T M^-1 grad g_b(q_j) is 0 but for these pairs (a, b).
+  struct Coupling {
+    Index a, b;
+    std::vector<std::pair<Index, Index>> terms;  ///< columns of the stored gradients that meet
+  };
+  const std::vector<Coupling>& couplings() const { return couplings_; }
+  void coupling(const Coupling& pair, Index i, Index j, S& result);
+
+ private:
+  /// The stored columns of one constraint: coordinates_[k] is the coordinate of column first + k.
+  struct Pattern {
+    Index first = 0;
+    std::vector<Index> coordinates;
+    Index column(Index coordinate) const;
+  };
+  static void add_times(const std::vector<Pattern>& patterns, const Matrix<S>& values, const Matrix<S>& lambda,
+                        Lanes<S> out, S& t);
+  void update(const DisplacementProduct<S>& form, const Pattern& pattern, Lanes<const S> q);
+  void update(const Quadric<S>& form, const Pattern& pattern, Lanes<const S> q);
+  void weigh();
+
+  const Problem<S>& problem_;
+  Index lanes_;
+  std::vector<Pattern> patterns_, weighted_patterns_;
+  Matrix<S> values_, weighted_;  // lanes x stored columns
+  std::vector<Coupling> couplings_;
+  Matrix<S> x_, y_;  // scratch: lanes x dimension
+  S t_;
+};
+
+#define HBVM_DECLARE(S) extern template class ConstraintGradient<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+
+#include "hbvm/problem/effect/interaction.hpp"
+
+namespace hbvm {
+
+/// The J2 term of an oblate centre's field, without its monopole (see central_gravity): with the sine z = axis.x/r of
+/// the latitude, U = -strength m J2 radius^2 (3 z^2 - 1) / (2 r^3). The axis may have any length.
+struct Oblateness {
+  static constexpr std::string_view kind = "oblateness";
+  static constexpr Acts acts = Acts::about_a_center;
+  static constexpr bool needs_mass = true, needs_charge = false;
+  static constexpr std::array<EffectKey, 4> keys{{{"strength"}, {"radius"}, {"J2"}, {"axis", true}}};
+
+  template <class T>
+  static T U(const Interaction<T>& body) {
+    const std::vector<T>& axis = body.vector("axis");
+    const T along = Interaction<T>::dot(axis, body.x);
+    const T r2 = body.squared_distance(), r = body.distance();
+    const T radius = body.number("radius");
+    const T factor = body.number("strength") * body.number("J2") * radius * radius / 2 * body.masses[0];
+    const T z2 = along * along / (Interaction<T>::dot(axis, axis) * r2);
+    return -(factor * (3 * z2 - 1) / (r2 * r));
+  }
+};
+
+}  // namespace hbvm

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "hbvm/linear/matrix.hpp"
+
+namespace hbvm {
+
+/// The operations a formula is made of; the first three take two operands.
+enum class Op : std::uint8_t { add, subtract, multiply, negate, abs, sign, reciprocal, sqrt, sin, cos, exp, log };
+inline constexpr std::size_t op_count = 12;
+const char* name_of(Op op);
+
+/// How often each operation of the working precision is done, indexed by Op.
+using OperationCounts = std::array<std::uint64_t, op_count>;
+
+/// Straight-line code over registers that hold one number per lane (a node of the quadrature, of a body or pair).
+/// It has no branches and allocates nothing when it runs.
+template <Scalar S>
+class Program {
+ public:
+  enum class Bank : std::uint8_t { input, constant, temporary };
+  struct Operand {
+    Bank bank = Bank::constant;
+    std::uint32_t index = 0;
+  };
+  struct Instruction {
+    Op op;
+    Operand a, b;
+    std::uint32_t result;  // temporary
+  };
+
+  Program() = default;
+  Program(std::vector<S> constants, std::vector<Instruction> instructions, std::vector<Operand> outputs,
+          std::uint32_t temporaries)
+      : constants_(std::move(constants)),
+        instructions_(std::move(instructions)),
+        outputs_(std::move(outputs)),
+        temporaries_(temporaries) {}
+
+  std::size_t outputs() const { return outputs_.size(); }
+  /// True if output i does not depend on the inputs.
+  bool is_constant(std::size_t i) const { return outputs_[i].bank == Bank::constant; }
+  /// Operations per lane.
+  OperationCounts operations() const;
+
+  /// registers: lanes x temporaries, from make_registers; inputs: one pointer to `lanes` numbers for each input.
+  void run(Matrix<S>& registers, const std::vector<const S*>& inputs) const;
+  Matrix<S> make_registers(Index lanes) const { return Matrix<S>(lanes, temporaries_); }
+  /// Output i in one lane, after run().
+  const S& output(std::size_t i, Index lane, const Matrix<S>& registers, const std::vector<const S*>& inputs) const;
+
+ private:
+  std::vector<S> constants_;
+  std::vector<Instruction> instructions_;
+  std::vector<Operand> outputs_;
+  std::uint32_t temporaries_ = 0;
+};
+
+#define HBVM_DECLARE(S) extern template class Program<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

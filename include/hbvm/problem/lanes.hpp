@@ -1,0 +1,75 @@
+#pragma once
+
+#include <type_traits>
+#include <vector>
+
+#include "hbvm/linear/matrix.hpp"
+#include "hbvm/scalar/in_place.hpp"
+
+namespace hbvm {
+
+/// Positions (or velocities, forces …) of all coordinates in several lanes, a lane being one node of a quadrature:
+/// coordinate j of lane i is data[j * count + i]. A matrix with a row a lane has this layout, and so has one vector,
+/// with a single lane.
+template <class T>
+struct Lanes {
+  T* data;
+  Index count;
+  T* operator[](Index coordinate) const { return data + coordinate * count; }
+  operator Lanes<const T>() const
+    requires(!std::is_const_v<T>)
+  {
+    return {data, count};
+  }
+};
+
+template <Scalar S>
+Lanes<const S> lanes(const Matrix<S>& rows) {
+  return {rows.data(), rows.rows()};
+}
+template <Scalar S>
+Lanes<const S> lanes(const Vector<S>& one) {
+  return {one.data(), 1};
+}
+template <Scalar S>
+Lanes<S> lanes(Matrix<S>& rows) {
+  return {rows.data(), rows.rows()};
+}
+template <Scalar S>
+Lanes<S> lanes(Vector<S>& one) {
+  return {one.data(), 1};
+}
+
+/// A vector in space made of coordinate blocks: sum_i weight_i q[offset_i .. offset_i + d) + shift. A body's position
+/// is one block; a displacement two, or a block and minus a fixed point; a rigid body's centre four.
+template <Scalar S>
+struct Displacement {
+  struct Block {
+    Index offset;
+    S weight;
+  };
+  std::vector<Block> blocks;
+  Vector<S> shift;  ///< d entries, or none for 0
+};
+
+/// r += weight a, which for the usual weights 1 and -1 is one addition; `t` is scratch.
+template <Scalar S>
+void add_weighted(S& r, const S& weight, const S& a, S& t) {
+  if (weight == 1)
+    set_sum(r, r, a);
+  else if (weight == -1)
+    set_difference(r, r, a);
+  else
+    add_product(r, weight, a, t);
+}
+
+/// The displacement at q: component j of lane i goes to out[j * stride + i].
+template <Scalar S>
+void displace(const Displacement<S>& x, Index dimension, Lanes<const S> q, S* out, Index stride);
+
+#define HBVM_DECLARE(S) \
+  extern template void displace<S>(const Displacement<S>&, Index, Lanes<const S>, S*, Index);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

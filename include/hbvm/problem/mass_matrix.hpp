@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "hbvm/problem/lanes.hpp"
+
+namespace hbvm {
+
+/// The symmetric positive definite M of (Hqp): constant, block-diagonal, a block a body. A scalar mass costs one
+/// product a coordinate, mass 1 none, a full block its square.
+template <Scalar S>
+class MassMatrix {
+ public:
+  struct Block {
+    Index offset, size;
+    bool full;         ///< M and W are size x size; else mass and inverse_mass hold
+    S mass, inverse_mass;
+    Matrix<S> M, W;    ///< W = M^-1, correctly rounded but for a unit in the last place
+  };
+
+  void add_scalar(Index size, const S& mass);
+  /// \throws InputError if M is not symmetric and positive definite
+  void add_full(const Matrix<S>& M);
+
+  /// Number of coordinates.
+  Index m() const { return m_; }
+  const std::vector<Block>& blocks() const { return blocks_; }
+
+  /// v = M^-1 p in every lane; v must not be p.
+  void velocity(Lanes<const S> p, Lanes<S> v) const;
+  /// p = M v.
+  Vector<S> momentum(const Vector<S>& v) const;
+
+ private:
+  Index m_ = 0;
+  std::vector<Block> blocks_;
+};
+
+#define HBVM_DECLARE(S) extern template class MassMatrix<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

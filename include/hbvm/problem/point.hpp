@@ -1,0 +1,48 @@
+#pragma once
+
+#include "hbvm/linear/lu.hpp"
+#include "hbvm/problem/constraint_gradient.hpp"
+
+namespace hbvm {
+
+/// What a problem says at one state (q, p). Owns its storage; one a thread. The problem must outlive it.
+template <Scalar S>
+class Point {
+ public:
+  explicit Point(const Problem<S>& problem);
+
+  /// H = 1/2 p^T M^-1 p - U(q), (Hqp).
+  S energy(const Vector<S>& q, const Vector<S>& p);
+  /// g(q), (gq).
+  const Vector<S>& constraints(const Vector<S>& q);
+  /// grad g^T M^-1 p, (Dgp0).
+  const Vector<S>& hidden_constraints(const Vector<S>& q, const Vector<S>& p);
+
+  /// p - grad g (grad g^T M^-1 grad g)^-1 grad g^T M^-1 p: the nearest momentum, in the metric M^-1, that fulfils the
+  /// hidden constraints.
+  /// \throws IntegrationError if the Gram matrix grad g^T M^-1 grad g is singular at q
+  const Vector<S>& tangential(const Vector<S>& q, const Vector<S>& p);
+
+  /// The multiplier of (Theorem lamex) for an exact state,
+  /// (grad g^T M^-1 grad g)^-1 (nabla^2 g (M^-1 p, M^-1 p) + grad g^T M^-1 grad U).
+  /// \throws IntegrationError as tangential does
+  const Vector<S>& multiplier(const Vector<S>& q, const Vector<S>& p);
+
+ private:
+  void move_to(const Vector<S>& q);
+  /// x = (grad g^T M^-1 grad g)^-1 x at the current point.
+  void solve_gram(Vector<S>& x);
+
+  const Problem<S>& problem_;
+  PotentialEvaluator<S> potential_;
+  ConstraintGradient<S> gradient_;
+  Lu<S> gram_;
+  Vector<S> U_, v_, g_, hidden_, tangential_, multiplier_;
+  Matrix<S> force_, row_;
+};
+
+#define HBVM_DECLARE(S) extern template class Point<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "hbvm/problem/effect/program.hpp"
+#include "hbvm/problem/lanes.hpp"
+
+namespace hbvm {
+
+/// One effect as a scene uses it: a formula for the displacement of a body or pair, and all the bodies or pairs it
+/// holds for. Made by trace_effect from the effect's one definition.
+template <Scalar S>
+struct EffectTerm {
+  std::string kind;
+  int degree = 0;               ///< of U as a polynomial in q; Trace::not_polynomial if it is none
+  Program<S> value;             ///< one output, U, from the d displacements and the coefficients
+  Program<S> gradient;          ///< d outputs, dU/dx
+  bool constant_force = false;  ///< dU/dx does not depend on x
+  std::vector<Displacement<S>> displacements;  ///< one an instance
+  Matrix<S> value_coefficients;                ///< instances x coefficients of `value`
+  Matrix<S> gradient_coefficients;
+};
+
+/// How often an effect ran: calls, lanes in all (nodes x bodies or pairs).
+struct EffectCount {
+  std::uint64_t calls = 0, evaluations = 0;
+};
+
+/// U(q) of (Hqp), H = 1/2 p^T M^-1 p - U(q), as the sum of the effects a scene names.
+template <Scalar S>
+struct Potential {
+  Index dimension = 0;  ///< 2 or 3
+  Index m = 0;          ///< coordinates
+  std::vector<EffectTerm<S>> terms;
+};
+
+/// Evaluates a potential in a fixed number of lanes; owns the storage that takes, so that evaluating allocates
+/// nothing. One evaluator per thread. The potential must outlive it.
+template <Scalar S>
+class PotentialEvaluator {
+ public:
+  PotentialEvaluator(const Potential<S>& potential, Index lanes);
+
+  /// U in each lane.
+  void values(Lanes<const S> q, Vector<S>& U);
+
+  /// The part of grad U that is the same everywhere: computed once, m entries.
+  const Vector<S>& constant_force() const { return constant_force_; }
+  bool has_varying_force() const { return varying_; }
+  /// force = the part of grad U that varies with q: lanes x m, overwritten.
+  void varying_force(Lanes<const S> q, Matrix<S>& force);
+
+  /// How often the force of each term was evaluated.
+  const std::vector<EffectCount>& counts() const { return counts_; }
+
+ private:
+  /// One of a term's two programs with its registers.
+  struct Execution {
+    const Program<S>* program;
+    Matrix<S> coefficients, registers;
+    std::vector<const S*> inputs;
+    Execution(const Program<S>& code, const Matrix<S>& per_instance, Matrix<S>& displacement, Index lanes);
+    void run() { program->run(registers, inputs); }
+    const S& output(Index i, Index lane) const {
+      return program->output(static_cast<std::size_t>(i), lane, registers, inputs);
+    }
+  };
+  struct Work {
+    Matrix<S> displacement;  ///< (instances * lanes) x d: all lanes of one instance, then the next
+    Execution value, gradient;
+    Work(const EffectTerm<S>& term, Index dimension, Index lanes);
+  };
+
+  void displace_all(std::size_t term, Lanes<const S> q);
+
+  const Potential<S>& potential_;
+  Index lanes_;
+  bool varying_ = false;
+  std::deque<Work> work_;
+  std::vector<EffectCount> counts_;
+  Vector<S> constant_force_;
+  S t_;  // scratch
+};
+
+#define HBVM_DECLARE(S) extern template class PotentialEvaluator<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

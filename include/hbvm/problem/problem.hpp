@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "hbvm/problem/constraint.hpp"
+#include "hbvm/problem/mass_matrix.hpp"
+#include "hbvm/problem/potential.hpp"
+
+namespace hbvm {
+
+/// The constrained Hamiltonian problem (constrp)
+///
+///     H(q, p) = 1/2 p^T M^-1 p - U(q),   g(q) = 0 in R^nu,
+///     q' = M^-1 p,   p' = grad U(q) - grad g(q) lambda.
+///
+/// Mind the sign: U is minus the potential energy. Coordinates stand body after body.
+template <Scalar S>
+struct Problem {
+  Index dimension = 0;  ///< of space: 2 or 3
+  MassMatrix<S> mass;
+  std::vector<Constraint<S>> constraints;
+  Potential<S> potential;
+
+  Index m() const { return mass.m(); }
+  Index nu() const { return static_cast<Index>(constraints.size()); }
+};
+
+}  // namespace hbvm

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hbvm/scalar/expression.hpp"
+
+namespace hbvm {
+
+/// What a scene file says, as exact text: no number in it has been rounded. Made by read_scene, or in C++. Lines are
+/// those of the file, for messages; 0 if there is none.
+
+using SceneVector = std::vector<Expression>;
+using SceneMatrix = std::vector<SceneVector>;  ///< row by row
+
+struct ScenePoint {
+  std::string name;
+  SceneVector position;
+  std::optional<Expression> charge;
+  std::size_t line = 0;
+};
+
+struct SceneBody {
+  std::string name;
+  std::optional<Expression> mass;    ///< scalar, or
+  std::optional<SceneMatrix> mass_matrix;
+  SceneVector position;
+  SceneVector velocity;              ///< one of velocity and momentum is empty
+  SceneVector momentum;
+  std::optional<Expression> charge;
+  std::size_t line = 0;
+};
+
+/// A rigid body in natural coordinates: reference point (unless fixed) and three directors.
+struct SceneRigidBody {
+  std::string name;
+  bool fixed = false;
+  SceneVector position;  ///< of the reference point
+  SceneVector velocity;  ///< of the reference point, unless fixed
+  Expression mass;
+  SceneVector center;         ///< of mass, in the body frame
+  SceneMatrix second_moment;  ///< integral of X X^T dm about the reference point, body frame
+  SceneMatrix directors;      ///< row i is director i in space
+  SceneVector angular_velocity;
+  std::size_t line = 0;
+};
+
+struct SceneConstraint {
+  std::string kind;                                ///< rod, quadric, plane or angle
+  std::array<std::string, 2> first{}, second{};    ///< rod: first = between; angle: both
+  std::string body;                                ///< quadric, plane
+  SceneMatrix A;                                   ///< quadric
+  SceneVector vector;                              ///< quadric: b; plane: normal
+  std::optional<Expression> number;                ///< rod: length; quadric: c; plane: offset; angle: value
+  std::size_t line = 0;
+};
+
+struct SceneEffect {
+  std::string kind;
+  std::map<std::string, Expression, std::less<>> numbers;
+  std::map<std::string, SceneVector, std::less<>> vectors;
+  std::string center;                                                           ///< of an effect about a centre
+  std::optional<std::vector<std::string>> on;                                   ///< all bodies if absent
+  std::optional<std::vector<std::pair<std::string, std::string>>> between;      ///< all pairs if absent
+  std::size_t line = 0;
+};
+
+struct Scene {
+  std::string name;  ///< built-in name or path
+  std::string title, source;
+  int dimension = 0;  ///< 2 or 3
+  Constants constants;
+  std::vector<ScenePoint> points;
+  std::vector<SceneBody> bodies;
+  std::vector<SceneRigidBody> rigid_bodies;
+  std::vector<SceneConstraint> constraints;
+  std::vector<SceneEffect> effects;
+};
+
+/// Reads the TOML text of a scene and checks all that can be checked without computing.
+/// \param name stands in messages and results
+/// \throws InputError with name, line and what is wrong
+Scene read_scene(const std::string& toml, const std::string& name);
+
+/// The scene of a file, or a built-in one by its name.
+/// \throws InputError
+Scene load_scene(const std::string& path_or_name);
+
+/// Name and text of each scene compiled in.
+const std::vector<std::pair<std::string, std::string>>& built_in_scenes();
+
+}  // namespace hbvm

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "hbvm/solver/stage_solver.hpp"
+
+namespace hbvm {
+
+/// The fixed-point iteration (iter) for the stage equations (dispro1).
+///
+/// In the paper's order a sweep computes all new values from old ones, and the first starts from gamma = psi = 0.
+/// Otherwise a sweep uses each value as soon as it is known (psi from gamma, then lambda and zeta, then gamma), and
+/// starts from the previous step's polynomial v continued beyond its end; if that leads nowhere, once more from the
+/// constant v = p0.
+///
+/// It stops when the max-norm of the increment, scaled, is below C epsilon and has not fallen below its least value
+/// for two sweeps in a row: then it is round-off. The increment is that of gamma and h psi; the scale is the largest
+/// of |p0|, |gamma|, h |psi|, h |zeta| and |M q0|/h (positions are rounded, too, and h M^-1 gamma is added to them);
+/// C = 4 (k + 3 s + m + s nu), an upper bound of the lengths of the sums of one sweep, where a sum of n terms
+/// carries n roundings, and 4 for what they are passed through. It also stops where the increment is below
+/// epsilon/8 of the scale without the positions: a component that decays towards 0 could go on for ever.
+///
+/// It fails if an increment is not finite, if (lam) is singular, and if the increments, above C epsilon, do not fall
+/// below their least value for `patience` sweeps: they stagnate or grow.
+template <Scalar S>
+class FixedPoint final : public StageSolver<S> {
+ public:
+  enum class Order { paper, newest };
+  static constexpr long patience = 40;
+
+  FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, const S& step, Order order);
+
+  long solve(const Vector<S>& q0, const Vector<S>& p0) override;
+  const StageUnknowns<S>& unknowns() const override { return x_; }
+  const StageEquations<S>& equations() const override { return equations_; }
+
+ private:
+  enum class Start { zero, constant, previous };
+  void prepare(Start start, const Vector<S>& p0);
+  long iterate();
+  [[nodiscard]] bool sweep();
+
+  StageEquations<S> equations_;
+  Order order_;
+  StageUnknowns<S> x_;
+  Matrix<S> gamma_before_, psi_before_;
+  Matrix<S> continued_;  ///< (s + 1) x m: the coefficients of the last step's v, degree s included
+  S position_scale_;
+  S tolerance_;
+  bool has_previous_ = false;
+};
+
+#define HBVM_DECLARE(S) extern template class FixedPoint<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "hbvm/linear/lu.hpp"
+#include "hbvm/method/hbvm.hpp"
+#include "hbvm/problem/constraint_gradient.hpp"
+
+namespace hbvm {
+
+/// The unknowns of one step, by Fourier coefficient or node.
+template <Scalar S>
+struct StageUnknowns {
+  Matrix<S> gamma;   ///< s x m: coefficients of v, (lim2)
+  Matrix<S> psi;     ///< s x m: psi_hat, coefficients of grad U, (psij)
+  Matrix<S> zeta;    ///< s x m: coefficients of grad g lambda, (lim2)
+  Matrix<S> lambda;  ///< s x nu: multipliers at the nodes c_i
+};
+
+/// The maps of which the stage equations (dispro1) consist, for steps of one size. Owns all storage they need.
+/// Problem and method must outlive it.
+template <Scalar S>
+class StageEquations {
+ public:
+  StageEquations(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+
+  const Problem<S>& problem() const { return problem_; }
+  const Hbvm<S>& method() const { return method_; }
+  const S& step() const { return h_; }
+  StageUnknowns<S> make_unknowns() const;
+
+  /// The state the step starts from; the vectors must live as long as the step.
+  void start(const Vector<S>& q0, const Vector<S>& p0);
+  const Vector<S>& p0() const { return *p0_; }
+
+  /// Moves all nodes to the polynomial u of (lim1) with these coefficients: keeps h M^-1 gamma.
+  void move(const Matrix<S>& gamma);
+  /// h M^-1 gamma, s x m; its first row is q1 - q0, (q1p1new).
+  const Matrix<S>& displacement() const { return h_velocity_; }
+  /// psi = P_hat^T Omega_hat grad U(u at c_hat).
+  void forces(Matrix<S>& psi);
+  /// lambda from the linear system (lam) at the current nodes, and zeta = P_s^T Omega (grad g lambda). Without
+  /// constraints it does nothing.
+  /// \return false if the system is singular to working precision
+  [[nodiscard]] bool multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta);
+  /// gamma = e_1 p0 + h X_s (psi - zeta), which is (dispro1) by (IsPs).
+  void momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
+
+  /// Sweeps over the stage equations since construction.
+  const PotentialEvaluator<S>& potential() const { return potential_; }
+
+ private:
+  void positions(const Matrix<S>& integrals, Matrix<S>& u);
+
+  const Problem<S>& problem_;
+  const Hbvm<S>& method_;
+  S h_;
+  PotentialEvaluator<S> potential_;
+  ConstraintGradient<S> gradient_;
+  Lu<S> system_;
+  const Vector<S>* q0_ = nullptr;
+  const Vector<S>* p0_ = nullptr;
+  Matrix<S> velocity_, h_velocity_;  // s x m
+  Matrix<S> u_hat_, force_;          // k x m
+  Matrix<S> u_, w_, rhs_momentum_;   // s x m
+  Vector<S> rhs_;                    // s nu
+  S t_;
+};
+
+#define HBVM_DECLARE(S) extern template class StageEquations<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

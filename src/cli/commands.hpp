@@ -1,0 +1,12 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace hbvm {
+
+/// Each adds one subcommand to the program; its callback does the work and throws on failure.
+void add_run_command(CLI::App& app);
+void add_nodes_command(CLI::App& app);
+void add_scenes_command(CLI::App& app);
+
+}  // namespace hbvm

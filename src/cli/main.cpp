@@ -1,0 +1,47 @@
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "commands.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/version.hpp"
+
+namespace {
+
+enum Exit { ok = 0, failed = 1, bad_input = 2, integration_failed = 3 };
+
+int report(int code, const char* what) {
+  std::cerr << "hbvm: " << what << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Energy-conserving integration of constrained mechanics, HBVM(k,s), at any precision."};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", hbvm::version());
+  app.footer("Example: hbvm run modified_pendulum --method hbvm:4,2 --step 1/16 --until 20 --precision mpfr:50 --json");
+  hbvm::add_run_command(app);
+  hbvm::add_nodes_command(app);
+  hbvm::add_scenes_command(app);
+  try {
+    app.parse(argc, argv);  // runs the subcommand
+    return ok;
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    std::string line = error.what();
+    for (char& c : line)
+      if (c == '\n') c = ' ';
+    return report(bad_input, (line + " (see hbvm --help)").c_str());
+  } catch (const hbvm::InputError& error) {
+    return report(bad_input, error.what());
+  } catch (const hbvm::Error& error) {
+    return report(integration_failed, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(bad_input, "the request needs more memory than there is: use fewer digits, stages or bodies");
+  } catch (const std::exception& error) {
+    return report(failed, error.what());
+  }
+}

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace hbvm {
+
+/// A bar on standard error for work that takes longer than a second, if standard error is a terminal.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::string what);
+  ~ProgressBar();
+  void update(long done, long total);
+
+ private:
+  std::string what_;
+  bool terminal_, shown_ = false;
+  std::chrono::steady_clock::time_point start_, last_;
+};
+
+}  // namespace hbvm

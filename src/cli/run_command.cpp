@@ -1,0 +1,118 @@
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "hbvm/analysis/run.hpp"
+#include "hbvm/version.hpp"
+#include "progress_bar.hpp"
+
+namespace hbvm {
+namespace {
+
+struct Options {
+  std::string scene, method, step, until;
+  std::string precision = "double", solver = "fixed-point", out;
+  long every = 1;
+  bool json = false;
+};
+
+std::string json_of(const RunRequest& request, const RunResult& result) {
+  nlohmann::ordered_json j;
+  j["scene"] = request.scene.name;
+  j["method"] = request.method.text();
+  j["solver"] = name_of(request.solver);
+  j["precision"] = request.precision.name();
+  j["step"] = result.step;
+  j["until"] = result.t;
+  j["steps"] = result.steps;
+  j["t"] = result.t;
+  j["q"] = result.q;
+  j["p"] = result.p;
+  j["lambda"] = result.lambda;
+  j["output"] = {{"p", result.output_p}, {"lambda", result.output_lambda}, {"delta_H", result.output_delta_H}};
+  j["e_H"] = result.e_H;
+  j["e_g"] = result.e_g;
+  j["e_hid"] = result.e_hid;
+  j["iterations_per_step"] = result.iterations_per_step;
+  j["cpu_seconds"] = result.cpu_seconds;
+  j["version"] = version();
+  return j.dump(2);
+}
+
+void print(const RunRequest& request, const RunResult& result) {
+  const auto list = [](const char* name, const std::vector<std::string>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) fmt::print("  {:<14} {}\n", fmt::format("{}_{}", name, i + 1), values[i]);
+  };
+  fmt::print("{}: {}\n", request.scene.name, request.scene.title);
+  fmt::print("{}, {}, solver {}, {} steps of {}\n\n", request.method.text(), request.precision.name(),
+             name_of(request.solver), result.steps, result.step);
+  fmt::print("state at t = {}\n", result.t);
+  list("q", result.q);
+  list("p", result.p);
+  list("lambda", result.lambda);
+  if (!result.lambda.empty()) {
+    fmt::print("output state (p tangential, exact multiplier; its energy is off by {})\n", result.output_delta_H);
+    list("p", result.output_p);
+    list("lambda", result.output_lambda);
+  }
+  fmt::print("errors over the mesh\n  {:<14} {}\n  {:<14} {}\n  {:<14} {}\n", "e_H", result.e_H, "e_g", result.e_g,
+             "e_hid", result.e_hid);
+  fmt::print("cost\n  {:.2f} iterations per step, {:.3f} s of processor time\n", result.iterations_per_step,
+             result.cpu_seconds);
+}
+
+std::unique_ptr<std::ostream> open(const std::string& path) {
+  auto file = std::make_unique<std::ofstream>(path);
+  if (!*file) throw InputError("cannot write '" + path + "': " + std::strerror(errno));
+  return file;
+}
+
+void run_command(const Options& o) {
+  if (o.every < 1) throw InputError("--every " + std::to_string(o.every) + " is not positive");
+  const RunRequest request{load_scene(o.scene),     MethodName::parse(o.method),  parse_solver(o.solver),
+                           Expression::parse(o.step), Expression::parse(o.until), Precision::parse(o.precision)};
+  RunHooks hooks;
+  hooks.every = o.every;
+  ProgressBar bar(request.scene.name);
+  hooks.progress = [&](long done, long total) { bar.update(done, total); };
+  if (!o.out.empty()) {
+    hooks.open_csv = [&] { return open(o.out); };
+    hooks.provenance = {std::string("hbvm ") + version(),
+                        "scene " + request.scene.name + ": " + request.scene.title,
+                        "command hbvm run " + o.scene + " --method " + request.method.text() + " --step '" + o.step +
+                            "' --until '" + o.until + "' --precision " + request.precision.name() + " --solver " +
+                            std::string(name_of(request.solver)) + " --every " + std::to_string(o.every)};
+  }
+  const RunResult result = run(request, hooks);
+  if (o.json)
+    std::cout << json_of(request, result) << std::endl;
+  else
+    print(request, result);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  CLI::App* const command = app.add_subcommand("run", "Integrate a scene and report the final state and its errors");
+  command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
+  command->add_option("--method", o->method, "hbvm:K,S with K >= S >= 1; K = S is Gauss")->required();
+  command->add_option("--step", o->step, "Step size: a number or an expression, as 2^(3/4)*pi/40")->required();
+  command->add_option("--until", o->until, "Final time, a multiple of the step")->required();
+  command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
+  command->add_option("--solver", o->solver, "fixed-point (newest values, warm start) or paper (iter)")
+      ->capture_default_str();
+  command->add_option("--out", o->out, "Write the trajectory to this CSV file");
+  command->add_option("--every", o->every, "Steps between two lines of the CSV file")->capture_default_str();
+  command->add_flag("--json", o->json, "Print one JSON object and nothing else");
+  command->footer("Example: hbvm run tethered_satellites --method hbvm:5,1 --step 0.1 --until 100 --out satellites.csv");
+  command->callback([o] { run_command(*o); });
+}
+
+}  // namespace hbvm

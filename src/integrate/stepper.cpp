@@ -1,0 +1,48 @@
+#include "hbvm/integrate/stepper.hpp"
+
+#include "hbvm/scalar/in_place.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+Stepper<S>::Stepper(const Problem<S>& problem, const Hbvm<S>& method, const S& step, SolverKind solver)
+    : problem_(problem), method_(method), solver_(make_solver(solver, problem, method, step)),
+      multiplier_(Vector<S>::Zero(problem.nu())) {}
+
+namespace {
+
+/// x += increment, where carry holds what earlier roundings took (Kahan).
+template <Scalar S>
+void add_compensated(S& x, S& carry, S& increment, S& t) {
+  set_sum(increment, increment, carry);
+  set_sum(t, x, increment);
+  set_difference(x, t, x);
+  set_difference(carry, increment, x);
+  set(x, t);
+}
+
+}  // namespace
+
+template <Scalar S>
+long Stepper<S>::step(State<S>& state) {
+  const long sweeps = solver_->solve(state.q, state.p);
+  const StageUnknowns<S>& x = solver_->unknowns();
+  const StageEquations<S>& equations = solver_->equations();
+  for (Index j = 0; j < problem_.m(); ++j) {
+    set(increment_, equations.displacement()(0, j));
+    add_compensated(state.q[j], state.q_carry[j], increment_, t_);
+    set_difference(increment_, x.psi(0, j), x.zeta(0, j));
+    set_product(increment_, increment_, equations.step());
+    add_compensated(state.p[j], state.p_carry[j], increment_, t_);
+  }
+  for (Index a = 0; a < problem_.nu(); ++a) {
+    set_zero(multiplier_[a]);
+    for (Index i = 0; i < method_.s; ++i) add_product(multiplier_[a], method_.lagrange_at_1[i], x.lambda(i, a), t_);
+  }
+  return sweeps;
+}
+
+#define HBVM_DEFINE(S) template class Stepper<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,48 @@
+#include "hbvm/integrate/time_grid.hpp"
+
+#include <cmath>
+
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+S positive(const Expression& expression, const Constants& constants, const std::string& what) {
+  try {
+    const S value = evaluate<S>(expression, constants);
+    if (value > 0) return value;
+  } catch (const InputError& error) {
+    throw InputError(what + " " + error.what());
+  }
+  throw InputError(what + " '" + expression.text() + "' is not positive");
+}
+
+}  // namespace
+
+template <Scalar S>
+TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Constants& constants)
+    : step_(positive<S>(step, constants, "step")), until_(positive<S>(until, constants, "until")) {
+  using std::floor;
+  const S quotient = until_ / step_;
+  if (!(quotient <= S(max_steps)))
+    throw InputError("step '" + step.text() + "' is too small: more than 10^12 steps until '" + until.text() + "'");
+  const S half = S(1) / 2;
+  steps_ = static_cast<long>(S(floor(S(quotient + half))));
+  const S miss = magnitude(S(S(steps_) * step_ - until_));
+  if (steps_ == 0 || miss > 4 * epsilon<S>() * until_)
+    throw InputError("step '" + step.text() + "' does not divide the interval: " + std::to_string(steps_) +
+                     " steps miss until '" + until.text() + "' by " + to_scientific(miss, 3));
+}
+
+template <Scalar S>
+S TimeGrid<S>::time(long n) const {
+  if (n == steps_) return until_;
+  return until_ * S(n) / S(steps_);
+}
+
+#define HBVM_DEFINE(S) template class TimeGrid<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,55 @@
+#include "hbvm/integrate/trajectory.hpp"
+
+#include <ostream>
+
+#include "hbvm/integrate/output_state.hpp"
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+void write(std::ostream& out, const Vector<S>& v) {
+  for (Index i = 0; i < v.size(); ++i) out << ',' << to_text(v[i]);
+}
+
+}  // namespace
+
+template <Scalar S>
+Trajectory<S>::Trajectory(const Problem<S>& problem, std::ostream& out, long every, long steps,
+                          const std::vector<std::string>& provenance)
+    : point_(problem), out_(out), every_(every), steps_(steps) {
+  out << "# t";
+  const auto names = [&](const char* name, Index count) {
+    for (Index i = 1; i <= count; ++i) out << ',' << name << i;
+  };
+  names("q", problem.m());
+  names("p", problem.m());
+  names("lambda", problem.nu());
+  names("output_p", problem.m());
+  names("output_lambda", problem.nu());
+  out << ",delta_H,g,hidden\n";
+  for (const std::string& line : provenance) out << "# " << line << '\n';
+}
+
+template <Scalar S>
+void Trajectory<S>::observe(const Snapshot<S>& s) {
+  const bool wanted = s.n % every_ == 0 || s.n == steps_;
+  if (!wanted) return;
+  const S H = point_.energy(s.q, s.p);
+  if (s.n == 0) H0_ = H;
+  out_ << to_text(s.t);
+  write(out_, s.q);
+  write(out_, s.p);
+  write(out_, s.lambda);
+  const OutputState<S> output = output_state(point_, s.q, s.p);
+  write(out_, output.p);
+  write(out_, output.lambda);
+  out_ << ',' << to_text(S(H - H0_)) << ',' << to_text(max_norm(point_.constraints(s.q))) << ','
+       << to_text(max_norm(point_.hidden_constraints(s.q, s.p))) << '\n';
+}
+
+#define HBVM_DEFINE(S) template class Trajectory<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

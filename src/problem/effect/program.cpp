@@ -1,0 +1,118 @@
+#include "hbvm/problem/effect/program.hpp"
+
+#include <cmath>
+
+#include "hbvm/scalar/in_place.hpp"
+
+namespace hbvm {
+
+const char* name_of(Op op) {
+  constexpr std::array<const char*, op_count> names{"add",        "subtract", "multiply", "negate", "abs", "sign",
+                                                    "reciprocal", "sqrt",     "sin",      "cos",    "exp", "log"};
+  return names[static_cast<std::size_t>(op)];
+}
+
+namespace {
+
+template <Scalar S>
+void apply(Op op, S& r, const S& a) {
+  if constexpr (std::same_as<S, Mpfr>) {
+    switch (op) {
+      case Op::negate: mpfr_neg(raw(r), raw(a), MPFR_RNDN); break;
+      case Op::abs: mpfr_abs(raw(r), raw(a), MPFR_RNDN); break;
+      case Op::sign: mpfr_set_si(raw(r), mpfr_sgn(raw(a)), MPFR_RNDN); break;
+      case Op::reciprocal: mpfr_ui_div(raw(r), 1, raw(a), MPFR_RNDN); break;
+      case Op::sqrt: mpfr_sqrt(raw(r), raw(a), MPFR_RNDN); break;
+      case Op::sin: mpfr_sin(raw(r), raw(a), MPFR_RNDN); break;
+      case Op::cos: mpfr_cos(raw(r), raw(a), MPFR_RNDN); break;
+      case Op::exp: mpfr_exp(raw(r), raw(a), MPFR_RNDN); break;
+      case Op::log: mpfr_log(raw(r), raw(a), MPFR_RNDN); break;
+      default: break;
+    }
+  } else {
+    using std::cos, std::exp, std::log, std::sin, std::sqrt;
+    switch (op) {
+      case Op::negate: r = -a; break;
+      case Op::abs: r = magnitude(a); break;
+      case Op::sign: r = a > 0 ? 1 : a < 0 ? -1 : 0; break;
+      case Op::reciprocal: r = 1 / a; break;
+      case Op::sqrt: r = sqrt(a); break;
+      case Op::sin: r = sin(a); break;
+      case Op::cos: r = cos(a); break;
+      case Op::exp: r = exp(a); break;
+      case Op::log: r = log(a); break;
+      default: break;
+    }
+  }
+}
+
+/// r = f(a, b) in every lane; a constant operand is one number for all.
+template <Scalar S, class F>
+void binary(Index lanes, S* r, const S* a, bool a_constant, const S* b, bool b_constant, F f) {
+  if (a_constant)
+    for (Index i = 0; i < lanes; ++i) f(r[i], a[0], b[i]);
+  else if (b_constant)
+    for (Index i = 0; i < lanes; ++i) f(r[i], a[i], b[0]);
+  else
+    for (Index i = 0; i < lanes; ++i) f(r[i], a[i], b[i]);
+}
+
+}  // namespace
+
+template <Scalar S>
+OperationCounts Program<S>::operations() const {
+  OperationCounts counts{};
+  for (const Instruction& i : instructions_) ++counts[static_cast<std::size_t>(i.op)];
+  return counts;
+}
+
+template <Scalar S>
+void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs) const {
+  const Index lanes = registers.rows();
+  const auto address = [&](const Operand& x) -> const S* {
+    switch (x.bank) {
+      case Bank::input: return inputs[x.index];
+      case Bank::constant: return &constants_[x.index];
+      case Bank::temporary: break;
+    }
+    return registers.data() + lanes * x.index;
+  };
+  for (const Instruction& i : instructions_) {
+    S* const r = registers.data() + lanes * i.result;
+    const S* const a = address(i.a);
+    if (i.op > Op::multiply) {
+      if (i.op == Op::reciprocal) {
+        for (Index lane = 0; lane < lanes; ++lane) apply(Op::reciprocal, r[lane], a[lane]);
+      } else if (i.op == Op::sqrt) {
+        for (Index lane = 0; lane < lanes; ++lane) apply(Op::sqrt, r[lane], a[lane]);
+      } else {
+        for (Index lane = 0; lane < lanes; ++lane) apply(i.op, r[lane], a[lane]);
+      }
+      continue;
+    }
+    const S* const b = address(i.b);
+    const bool a_constant = i.a.bank == Bank::constant, b_constant = i.b.bank == Bank::constant;
+    switch (i.op) {
+      case Op::add: binary(lanes, r, a, a_constant, b, b_constant, set_sum<S>); break;
+      case Op::subtract: binary(lanes, r, a, a_constant, b, b_constant, set_difference<S>); break;
+      default: binary(lanes, r, a, a_constant, b, b_constant, set_product<S>); break;
+    }
+  }
+}
+
+template <Scalar S>
+const S& Program<S>::output(std::size_t i, Index lane, const Matrix<S>& registers,
+                            const std::vector<const S*>& inputs) const {
+  const Operand& x = outputs_[i];
+  switch (x.bank) {
+    case Bank::input: return inputs[x.index][lane];
+    case Bank::constant: return constants_[x.index];
+    case Bank::temporary: break;
+  }
+  return registers.data()[registers.rows() * x.index + lane];
+}
+
+#define HBVM_DEFINE(S) template class Program<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

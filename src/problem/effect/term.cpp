@@ -1,0 +1,90 @@
+#include "hbvm/problem/effect/term.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+/// x if it is a whole number of moderate size.
+template <Scalar S>
+std::optional<long> whole(const S& x) {
+  using std::floor;
+  constexpr long limit = 1'000'000;
+  if (!(x > -limit && x < limit) || floor(x) != x) return std::nullopt;
+  return static_cast<long>(x);
+}
+
+template <Scalar S>
+std::vector<S> parameters_of(const typename EffectUse<S>::Instance& instance) {
+  std::vector<S> p;
+  for (Index i = 0; i < instance.mass_matrix.rows(); ++i)
+    for (Index j = 0; j < instance.mass_matrix.cols(); ++j) p.push_back(instance.mass_matrix(i, j));
+  p.insert(p.end(), std::begin(instance.masses), std::end(instance.masses));
+  p.insert(p.end(), std::begin(instance.charges), std::end(instance.charges));
+  return p;
+}
+
+/// What a program's coefficients are for each instance: instances x coefficients.
+template <Scalar S>
+Matrix<S> coefficients_of(const Program<S>& program, const EffectUse<S>& use) {
+  Matrix<S> result(static_cast<Index>(use.instances.size()), static_cast<Index>(program.outputs()));
+  Matrix<S> registers = program.make_registers(1);
+  for (std::size_t n = 0; n < use.instances.size(); ++n) {
+    const std::vector<S> parameters = parameters_of<S>(use.instances[n]);
+    std::vector<const S*> inputs;
+    for (const S& p : parameters) inputs.push_back(&p);
+    program.run(registers, inputs);
+    for (std::size_t i = 0; i < program.outputs(); ++i)
+      result(static_cast<Index>(n), static_cast<Index>(i)) = program.output(i, 0, registers, inputs);
+  }
+  return result;
+}
+
+}  // namespace
+
+template <Scalar S>
+EffectTerm<S> make_term(const EffectUse<S>& use) {
+  Trace<S> trace;
+  const auto d = static_cast<std::size_t>(use.dimension);
+  Interaction<Traced<S>> formal;
+  const auto constant = [&](const S& value) { return Traced<S>(trace, trace.constant(value)); };
+  for (std::size_t j = 0; j < d; ++j) formal.x.emplace_back(trace, trace.input(j));
+  for (const auto& [key, value] : use.numbers) {
+    formal.numbers.emplace(key, constant(value));
+    if (const auto n = whole(value)) formal.whole_numbers.emplace(key, *n);
+  }
+  for (const auto& [key, values] : use.vectors)
+    for (const S& value : values) formal.vectors[key].push_back(constant(value));
+  std::size_t index = 0;
+  const auto parameter = [&] { return Traced<S>(trace, trace.parameter(index++)); };
+  for (std::size_t i = 0; i < d * d; ++i) formal.mass_matrix.push_back(parameter());
+  for (int i = 0; i < 2; ++i) formal.masses.push_back(parameter());
+  for (int i = 0; i < 2; ++i) formal.charges.push_back(parameter());
+
+  std::optional<typename Trace<S>::Id> U;
+  with_effect(use.kind, [&]<class Effect>() { U = Effect::U(formal).id(); });
+  if (!U) throw Error("no effect of kind '" + use.kind + "'");  // the scene reader has checked
+
+  const auto gradient_ids = trace.gradient(*U, d);
+  auto value = trace.compile({*U}, d, index);
+  auto gradient = trace.compile(gradient_ids, d, index);
+  EffectTerm<S> term;
+  term.kind = use.kind;
+  term.degree = trace.degree(*U);
+  term.constant_force = true;
+  for (const auto id : gradient_ids) term.constant_force = term.constant_force && trace.degree(id) == 0;
+  for (const auto& instance : use.instances) term.displacements.push_back(instance.x);
+  term.value_coefficients = coefficients_of(value.coefficients, use);
+  term.gradient_coefficients = coefficients_of(gradient.coefficients, use);
+  term.value = std::move(value.program);
+  term.gradient = std::move(gradient.program);
+  return term;
+}
+
+#define HBVM_DEFINE(S) template EffectTerm<S> make_term<S>(const EffectUse<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

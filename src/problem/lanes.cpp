@@ -1,0 +1,30 @@
+#include "hbvm/problem/lanes.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+void displace(const Displacement<S>& x, Index dimension, Lanes<const S> q, S* out, Index stride) {
+  S t;
+  for (Index j = 0; j < dimension; ++j, out += stride) {
+    bool first = true;
+    for (const auto& block : x.blocks) {
+      const S* const column = q[block.offset + j];
+      for (Index i = 0; i < q.count; ++i) {
+        if (!first)
+          add_weighted(out[i], block.weight, column[i], t);
+        else if (block.weight == 1)
+          set(out[i], column[i]);
+        else
+          set_product(out[i], block.weight, column[i]);
+      }
+      first = false;
+    }
+    if (x.shift.size() == 0) continue;
+    for (Index i = 0; i < q.count; ++i) set_sum(out[i], out[i], x.shift[j]);
+  }
+}
+
+#define HBVM_DEFINE(S) template void displace<S>(const Displacement<S>&, Index, Lanes<const S>, S*, Index);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

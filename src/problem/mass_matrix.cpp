@@ -1,0 +1,108 @@
+#include "hbvm/problem/mass_matrix.hpp"
+
+#include "hbvm/error.hpp"
+#include "hbvm/scalar/in_place.hpp"
+
+namespace hbvm {
+namespace {
+
+/// M^-1 by M = L D L^T with twice the working digits, rounded once.
+template <Scalar S>
+Matrix<S> inverse(const Matrix<S>& M) {
+  const Index n = M.rows();
+  const int digits = digits10<S>();
+  const PrecisionScope guarded(static_cast<unsigned>(2 * digits + 10));
+  Matrix<Mpfr> L = Matrix<Mpfr>::Identity(n, n);
+  Vector<Mpfr> D(n);
+  const auto exact = [&](Index i, Index j) { return rounded_to<Mpfr>(raw(exactly(M(i, j)))); };
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = j; i < n; ++i) {
+      Mpfr sum = exact(i, j);
+      for (Index l = 0; l < j; ++l) sum -= L(i, l) * L(j, l) * D[l];
+      if (i > j)
+        L(i, j) = sum / D[j];
+      else if (sum > 0)
+        D[j] = sum;
+      else
+        throw InputError("the mass matrix is not positive definite");
+    }
+  }
+  Matrix<Mpfr> W(n, n);
+  for (Index column = 0; column < n; ++column) {
+    Vector<Mpfr> x = Vector<Mpfr>::Unit(n, column);
+    for (Index i = 0; i < n; ++i)
+      for (Index l = 0; l < i; ++l) x[i] -= L(i, l) * x[l];
+    for (Index i = 0; i < n; ++i) x[i] /= D[i];
+    for (Index i = n - 1; i >= 0; --i)
+      for (Index l = i + 1; l < n; ++l) x[i] -= L(l, i) * x[l];
+    W.col(column) = x;
+  }
+  const PrecisionScope working(static_cast<unsigned>(digits));
+  Matrix<S> result(n, n);
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i < n; ++i) result(i, j) = rounded_to<S>(raw(W(std::min(i, j), std::max(i, j))));
+  return result;
+}
+
+}  // namespace
+
+template <Scalar S>
+void MassMatrix<S>::add_scalar(Index size, const S& mass) {
+  if (!(mass > 0)) throw InputError("a mass must be positive");
+  blocks_.push_back({m_, size, false, mass, S(1 / mass), {}, {}});
+  m_ += size;
+}
+
+template <Scalar S>
+void MassMatrix<S>::add_full(const Matrix<S>& M) {
+  for (Index j = 0; j < M.cols(); ++j)
+    for (Index i = 0; i < j; ++i)
+      if (M(i, j) != M(j, i)) throw InputError("the mass matrix is not symmetric");
+  blocks_.push_back({m_, M.rows(), true, S(0), S(0), M, inverse(M)});
+  m_ += M.rows();
+}
+
+template <Scalar S>
+void MassMatrix<S>::velocity(Lanes<const S> p, Lanes<S> v) const {
+  S t;
+  for (const Block& block : blocks_) {
+    for (Index j = 0; j < block.size; ++j) {
+      S* const out = v[block.offset + j];
+      if (!block.full) {
+        const S* const in = p[block.offset + j];
+        if (block.mass == 1)
+          for (Index i = 0; i < p.count; ++i) set(out[i], in[i]);
+        else
+          for (Index i = 0; i < p.count; ++i) set_product(out[i], block.inverse_mass, in[i]);
+        continue;
+      }
+      for (Index i = 0; i < p.count; ++i) set_zero(out[i]);
+      for (Index l = 0; l < block.size; ++l) {
+        const S* const in = p[block.offset + l];
+        for (Index i = 0; i < p.count; ++i) add_product(out[i], block.W(j, l), in[i], t);
+      }
+    }
+  }
+}
+
+template <Scalar S>
+Vector<S> MassMatrix<S>::momentum(const Vector<S>& v) const {
+  Vector<S> p(m_);
+  for (const Block& block : blocks_) {
+    for (Index j = 0; j < block.size; ++j) {
+      S& sum = p[block.offset + j];
+      if (!block.full) {
+        sum = block.mass * v[block.offset + j];
+        continue;
+      }
+      sum = 0;
+      for (Index l = 0; l < block.size; ++l) sum += block.M(j, l) * v[block.offset + l];
+    }
+  }
+  return p;
+}
+
+#define HBVM_DEFINE(S) template class MassMatrix<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

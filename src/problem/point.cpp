@@ -1,0 +1,88 @@
+#include "hbvm/problem/point.hpp"
+
+#include "hbvm/error.hpp"
+#include "hbvm/linear/product.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+Point<S>::Point(const Problem<S>& problem)
+    : problem_(problem), potential_(problem.potential, 1), gradient_(problem, 1), U_(1), v_(problem.m()),
+      g_(problem.nu()), hidden_(problem.nu()), tangential_(problem.m()), multiplier_(problem.nu()),
+      force_(1, problem.m()), row_(1, problem.nu()) {
+  gram_.matrix().resize(problem.nu(), problem.nu());
+}
+
+template <Scalar S>
+S Point<S>::energy(const Vector<S>& q, const Vector<S>& p) {
+  problem_.mass.velocity(lanes(p), lanes(v_));
+  potential_.values(lanes(q), U_);
+  return dot(p, v_) / 2 - U_[0];
+}
+
+template <Scalar S>
+const Vector<S>& Point<S>::constraints(const Vector<S>& q) {
+  for (Index a = 0; a < problem_.nu(); ++a)
+    g_[a] = value(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, q).g;
+  return g_;
+}
+
+template <Scalar S>
+void Point<S>::move_to(const Vector<S>& q) {
+  gradient_.update(lanes(q));
+}
+
+template <Scalar S>
+const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S>& p) {
+  if (problem_.nu() == 0) return hidden_;
+  move_to(q);
+  problem_.mass.velocity(lanes(p), lanes(v_));
+  for (Index a = 0; a < problem_.nu(); ++a) gradient_.transposed_times(0, a, lanes(v_), hidden_[a]);
+  return hidden_;
+}
+
+template <Scalar S>
+void Point<S>::solve_gram(Vector<S>& x) {
+  gram_.matrix().setZero();
+  for (const auto& pair : gradient_.couplings()) gradient_.coupling(pair, 0, 0, gram_.matrix()(pair.a, pair.b));
+  if (!gram_.factor())
+    throw IntegrationError("the constraints' gradients are linearly dependent: (regular) does not hold here");
+  gram_.solve(x);
+}
+
+template <Scalar S>
+const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
+  tangential_ = p;
+  if (problem_.nu() == 0) return tangential_;
+  hidden_constraints(q, p);
+  solve_gram(hidden_);
+  for (Index a = 0; a < problem_.nu(); ++a) row_(0, a) = -hidden_[a];
+  gradient_.add_times(row_, lanes(tangential_));
+  return tangential_;
+}
+
+template <Scalar S>
+const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
+  if (problem_.nu() == 0) return multiplier_;
+  move_to(q);
+  if (potential_.has_varying_force()) {
+    potential_.varying_force(lanes(q), force_);
+  } else {
+    force_.setZero();
+  }
+  force_ += potential_.constant_force().transpose();
+  Vector<S> acceleration(problem_.m());
+  problem_.mass.velocity(lanes(force_), lanes(acceleration));
+  problem_.mass.velocity(lanes(p), lanes(v_));
+  for (Index a = 0; a < problem_.nu(); ++a) {
+    gradient_.transposed_times(0, a, lanes(acceleration), multiplier_[a]);
+    multiplier_[a] += curvature(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, v_);
+  }
+  solve_gram(multiplier_);
+  return multiplier_;
+}
+
+#define HBVM_DEFINE(S) template class Point<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,99 @@
+#include "hbvm/problem/potential.hpp"
+
+#include "hbvm/scalar/in_place.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+PotentialEvaluator<S>::Execution::Execution(const Program<S>& code, const Matrix<S>& per_instance,
+                                            Matrix<S>& displacement, Index lanes)
+    : program(&code), coefficients(displacement.rows(), per_instance.cols()),
+      registers(code.make_registers(displacement.rows())) {
+  for (Index j = 0; j < coefficients.cols(); ++j)
+    for (Index i = 0; i < coefficients.rows(); ++i) coefficients(i, j) = per_instance(i / lanes, j);
+  for (const Matrix<S>* columns : {&std::as_const(displacement), &std::as_const(coefficients)})
+    for (Index j = 0; j < columns->cols(); ++j) inputs.push_back(columns->data() + j * columns->rows());
+}
+
+template <Scalar S>
+PotentialEvaluator<S>::Work::Work(const EffectTerm<S>& term, Index dimension, Index lanes)
+    : displacement(Matrix<S>::Zero(static_cast<Index>(term.displacements.size()) * lanes, dimension)),
+      value(term.value, term.value_coefficients, displacement, lanes),
+      gradient(term.gradient, term.gradient_coefficients, displacement, lanes) {}
+
+template <Scalar S>
+PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index lanes)
+    : potential_(potential), lanes_(lanes), counts_(potential.terms.size()) {
+  constant_force_ = Vector<S>::Zero(potential.m);
+  for (std::size_t t = 0; t < potential.terms.size(); ++t) {
+    const EffectTerm<S>& term = potential.terms[t];
+    Work& work = work_.emplace_back(term, potential.dimension, lanes);
+    if (!term.constant_force) {
+      varying_ = true;
+      continue;
+    }
+    // The same everywhere: evaluated once, here.
+    work.gradient.run();
+    counts_[t] = {1, 1};
+    for (std::size_t n = 0; n < term.displacements.size(); ++n) {
+      for (const auto& block : term.displacements[n].blocks) {
+        for (Index j = 0; j < potential.dimension; ++j) {
+          add_weighted(constant_force_[block.offset + j], block.weight,
+                       work.gradient.output(j, static_cast<Index>(n) * lanes), t_);
+        }
+      }
+    }
+  }
+}
+
+template <Scalar S>
+void PotentialEvaluator<S>::displace_all(std::size_t t, Lanes<const S> q) {
+  Matrix<S>& x = work_[t].displacement;
+  S* out = x.data();
+  for (const Displacement<S>& instance : potential_.terms[t].displacements) {
+    displace(instance, potential_.dimension, q, out, x.rows());
+    out += lanes_;
+  }
+}
+
+template <Scalar S>
+void PotentialEvaluator<S>::values(Lanes<const S> q, Vector<S>& U) {
+  U.setZero(lanes_);
+  for (std::size_t t = 0; t < potential_.terms.size(); ++t) {
+    displace_all(t, q);
+    work_[t].value.run();
+    for (Index lane = 0; lane < work_[t].displacement.rows(); ++lane) {
+      S& u = U[lane % lanes_];
+      set_sum(u, u, work_[t].value.output(0, lane));
+    }
+  }
+}
+
+template <Scalar S>
+void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
+  if (force.rows() != lanes_ || force.cols() != potential_.m) force.resize(lanes_, potential_.m);
+  for (Index i = 0; i < force.size(); ++i) set_zero(force.data()[i]);
+  for (std::size_t t = 0; t < potential_.terms.size(); ++t) {
+    const EffectTerm<S>& term = potential_.terms[t];
+    if (term.constant_force) continue;
+    displace_all(t, q);
+    work_[t].gradient.run();
+    ++counts_[t].calls;
+    counts_[t].evaluations += static_cast<std::uint64_t>(work_[t].displacement.rows());
+    for (std::size_t n = 0; n < term.displacements.size(); ++n) {
+      const Index first_lane = static_cast<Index>(n) * lanes_;
+      for (const auto& block : term.displacements[n].blocks) {
+        for (Index j = 0; j < potential_.dimension; ++j) {
+          S* const f = force.data() + (block.offset + j) * lanes_;
+          for (Index i = 0; i < lanes_; ++i)
+            add_weighted(f[i], block.weight, work_[t].gradient.output(j, first_lane + i), t_);
+        }
+      }
+    }
+  }
+}
+
+#define HBVM_DEFINE(S) template class PotentialEvaluator<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

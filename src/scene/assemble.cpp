@@ -1,0 +1,368 @@
+#include "hbvm/scene/assemble.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "hbvm/problem/constraint_gradient.hpp"
+#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+class Assembler {
+ public:
+  explicit Assembler(const Scene& scene) : scene_(scene), d_(scene.dimension) {}
+
+  Assembled<S> assemble() {
+    problem().dimension = d_;
+    for (const ScenePoint& point : scene_.points)
+      at_line(point.line, "point '" + point.name + "'", [&] { add(point); });
+    for (const SceneBody& body : scene_.bodies) at_line(body.line, "body '" + body.name + "'", [&] { add(body); });
+    for (const SceneRigidBody& body : scene_.rigid_bodies)
+      at_line(body.line, "rigid_body '" + body.name + "'", [&] { add(body); });
+    std::size_t number = 0;
+    for (const SceneConstraint& constraint : scene_.constraints)
+      at_line(constraint.line, "constraint " + std::to_string(++number) + " (" + constraint.kind + ")",
+              [&] { add(constraint); });
+    problem().potential.dimension = d_;
+    problem().potential.m = problem().m();
+    number = 0;
+    for (const SceneEffect& effect : scene_.effects)
+      at_line(effect.line, "effect " + std::to_string(++number) + " (" + effect.kind + ")", [&] { add(effect); });
+    initial_state();
+    check_consistency();
+    return std::move(result_);
+  }
+
+ private:
+  /// A body's place among the coordinates, or a point's place in space.
+  struct Place {
+    std::optional<Index> offset;
+    Vector<S> position;       // of a point
+    std::optional<S> mass;    // scalar
+    Matrix<S> mass_matrix;
+    std::optional<S> charge;
+  };
+
+  Problem<S>& problem() { return result_.problem; }
+
+  /// Errors from within say where in the scene they arose.
+  void at_line(std::size_t line, const std::string& what, const std::function<void()>& work) const {
+    try {
+      work();
+    } catch (const InputError& error) {
+      throw InputError(scene_.name + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what + ": " + error.what());
+    }
+  }
+
+  S number(const Expression& e) const { return evaluate<S>(e, scene_.constants); }
+  std::optional<S> number(const std::optional<Expression>& e) const {
+    return e ? std::optional<S>(number(*e)) : std::nullopt;
+  }
+  Vector<S> vector(const SceneVector& v) const {
+    Vector<S> r(static_cast<Index>(v.size()));
+    for (std::size_t i = 0; i < v.size(); ++i) r[static_cast<Index>(i)] = number(v[i]);
+    return r;
+  }
+  Matrix<S> matrix(const SceneMatrix& a) const {
+    const auto n = static_cast<Index>(a.size());
+    Matrix<S> r(n, n);
+    for (Index i = 0; i < n; ++i) r.row(i) = vector(a[static_cast<std::size_t>(i)]).transpose();
+    return r;
+  }
+  static Matrix<S> symmetric(Matrix<S> a, const std::string& what) {
+    for (Index j = 0; j < a.cols(); ++j)
+      for (Index i = 0; i < j; ++i)
+        if (a(i, j) != a(j, i)) throw InputError("the matrix '" + what + "' is not symmetric");
+    return a;
+  }
+
+  void add(const ScenePoint& point) {
+    Place place;
+    place.position = vector(point.position);
+    place.charge = number(point.charge);
+    places_.emplace(point.name, std::move(place));
+  }
+
+  void add(const SceneBody& body) {
+    Place place;
+    place.offset = problem().m();
+    place.charge = number(body.charge);
+    if (body.mass) {
+      place.mass = number(*body.mass);
+      problem().mass.add_scalar(d_, *place.mass);
+      place.mass_matrix = Matrix<S>::Identity(d_, d_) * *place.mass;
+    } else {
+      place.mass_matrix = matrix(*body.mass_matrix);
+      problem().mass.add_full(place.mass_matrix);
+    }
+    append(positions_, vector(body.position));
+    // One of the two stays 0; initial_state() adds them up.
+    const Vector<S> zero = Vector<S>::Zero(d_);
+    append(velocities_, body.velocity.empty() ? zero : vector(body.velocity));
+    append(momenta_, body.momentum.empty() ? zero : vector(body.momentum));
+    places_.emplace(body.name, std::move(place));
+  }
+
+  void add(const SceneRigidBody& body) {
+    const S mass = number(body.mass);
+    if (!(mass > 0)) throw InputError("a mass must be positive");
+    const Vector<S> center = vector(body.center), reference = vector(body.position);
+    const Matrix<S> moment = symmetric(matrix(body.second_moment), "second_moment");
+    const Index origin = problem().m();
+    // x = r + sum_a X_a d_a: the mass matrix is [[m, m c^T], [m c, J]] times the identity of space, r fixed: J alone.
+    const Index first = body.fixed ? 0 : 1, blocks = first + 3;
+    Matrix<S> coefficients(blocks, blocks);
+    if (!body.fixed) coefficients(0, 0) = mass;
+    for (Index a = 0; a < 3; ++a) {
+      if (!body.fixed) coefficients(0, a + 1) = coefficients(a + 1, 0) = mass * center[a];
+      for (Index b = 0; b < 3; ++b) coefficients(first + a, first + b) = moment(a, b);
+    }
+    Matrix<S> M = Matrix<S>::Zero(3 * blocks, 3 * blocks);
+    for (Index a = 0; a < blocks; ++a)
+      for (Index b = 0; b < blocks; ++b)
+        for (Index j = 0; j < 3; ++j) M(3 * a + j, 3 * b + j) = coefficients(a, b);
+    problem().mass.add_full(M);
+
+    const Matrix<S> directors = matrix(body.directors);
+    const Vector<S> omega = vector(body.angular_velocity);
+    if (!body.fixed) {
+      append(positions_, reference);
+      append(velocities_, vector(body.velocity));
+    }
+    Displacement<S> mass_center;
+    if (body.fixed)
+      mass_center.shift = reference;
+    else
+      mass_center.blocks.push_back({origin, S(1)});
+    for (Index a = 0; a < 3; ++a) {
+      const Index offset = origin + 3 * (first + a);
+      const Vector<S> director = directors.row(a).transpose();
+      append(positions_, director);
+      Vector<S> rate(3);
+      for (Index j = 0; j < 3; ++j) {
+        const Index k = (j + 1) % 3, l = (j + 2) % 3;
+        rate[j] = omega[k] * director[l] - omega[l] * director[k];
+      }
+      append(velocities_, rate);
+      if (center[a] != 0) mass_center.blocks.push_back({offset, center[a]});
+      for (Index b = a; b < 3; ++b) {
+        const Displacement<S> x{{{offset, S(1)}}, {}}, y{{{origin + 3 * (first + b), S(1)}}, {}};
+        problem().constraints.push_back(
+            {"directors " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " of '" + body.name + "'",
+             DisplacementProduct<S>{x, y, a == b, S(a == b ? 1 : 0)}});
+      }
+    }
+    append(momenta_, Vector<S>::Zero(3 * blocks));
+    mass_centers_.push_back({std::move(mass_center), mass});
+  }
+
+  const Place& place(const std::string& name) const { return places_.at(name); }
+
+  /// a - b.
+  Displacement<S> difference(const std::string& a, const std::string& b) const {
+    Displacement<S> x;
+    Vector<S> shift = Vector<S>::Zero(d_);
+    bool shifted = false;
+    for (const auto& [name, weight] : {std::pair(a, 1), std::pair(b, -1)}) {
+      const Place& end = place(name);
+      if (end.offset) {
+        x.blocks.push_back({*end.offset, S(weight)});
+      } else {
+        shift += S(weight) * end.position;
+        shifted = shifted || end.position != Vector<S>::Zero(d_);
+      }
+    }
+    if (shifted) x.shift = shift;
+    return x;
+  }
+
+  void add(const SceneConstraint& c) {
+    const S value = number(*c.number);
+    if (c.kind == "rod") {
+      if (!(value > 0)) throw InputError("the length of a rod must be positive");
+      const Displacement<S> x = difference(c.first[0], c.first[1]);
+      problem().constraints.push_back(
+          {"rod '" + c.first[0] + "'-'" + c.first[1] + "'", DisplacementProduct<S>{x, x, true, S(value * value)}});
+    } else if (c.kind == "angle") {
+      problem().constraints.push_back(
+          {"angle", DisplacementProduct<S>{difference(c.first[0], c.first[1]), difference(c.second[0], c.second[1]),
+                                           false, value}});
+    } else if (c.kind == "quadric") {
+      const Matrix<S> A = symmetric(matrix(c.A), "A");
+      const Vector<S> b = vector(c.vector);
+      if (A == Matrix<S>::Zero(d_, d_)) {  // linear, and treated so
+        problem().constraints.push_back({"quadric of '" + c.body + "'", Plane<S>{*place(c.body).offset, b, S(-value)}});
+        return;
+      }
+      problem().constraints.push_back({"quadric of '" + c.body + "'", Quadric<S>{*place(c.body).offset, A, b, value}});
+    } else {
+      problem().constraints.push_back(
+          {"plane of '" + c.body + "'", Plane<S>{*place(c.body).offset, vector(c.vector), value}});
+    }
+  }
+
+  void add(const SceneEffect& effect) {
+    EffectUse<S> use;
+    use.kind = effect.kind;
+    use.dimension = d_;
+    for (const auto& [key, e] : effect.numbers) use.numbers.emplace(key, number(e));
+    for (const auto& [key, e] : effect.vectors) {
+      const Vector<S> v = vector(e);
+      use.vectors.emplace(key, std::vector<S>(v.begin(), v.end()));
+    }
+    with_effect(effect.kind, [&]<class Effect>() { instances<Effect>(effect, use); });
+    if (!use.instances.empty()) problem().potential.terms.push_back(make_term(use));
+  }
+
+  template <class Effect>
+  void instances(const SceneEffect& effect, EffectUse<S>& use) const {
+    const auto instance = [&](const Displacement<S>& x) {
+      typename EffectUse<S>::Instance i;
+      i.x = x;
+      i.mass_matrix = Matrix<S>::Zero(d_, d_);
+      return i;
+    };
+    if constexpr (Effect::acts == Acts::between_pairs) {
+      for (const auto& [a, b] : pairs(effect, Effect::needs_charge)) {
+        auto i = instance(difference(a, b));
+        const std::string* names[2] = {&a, &b};
+        for (int end = 0; end < 2; ++end) give(*names[end], Effect::needs_mass, Effect::needs_charge, i, end);
+        use.instances.push_back(std::move(i));
+      }
+    } else {
+      for (const SceneBody& body : scene_.bodies) {
+        if (effect.on && std::count(effect.on->begin(), effect.on->end(), body.name) == 0) continue;
+        const Place& p = place(body.name);
+        auto i = instance(Effect::acts == Acts::about_a_center ? difference(body.name, effect.center)
+                                                               : Displacement<S>{{{*p.offset, S(1)}}, {}});
+        i.mass_matrix = p.mass_matrix;
+        give(body.name, Effect::needs_mass, Effect::needs_charge, i, 0);
+        use.instances.push_back(std::move(i));
+      }
+      if constexpr (Effect::acts == Acts::on_each_body) {
+        if (effect.on) return;
+        for (const auto& [x, mass] : mass_centers_) {
+          auto i = instance(x);
+          i.mass_matrix = Matrix<S>::Identity(d_, d_) * mass;
+          use.instances.push_back(std::move(i));
+        }
+      }
+    }
+  }
+
+  void give(const std::string& name, bool mass, bool charge, typename EffectUse<S>::Instance& i, int end) const {
+    const Place& p = place(name);
+    if (mass && !p.mass)
+      throw InputError("'" + name + "' has " + (p.offset ? "a mass matrix" : "no mass") + "; a scalar mass is needed");
+    if (mass) i.masses[end] = *p.mass;
+    if (charge && !p.charge) throw InputError("'" + name + "' has no charge");
+    if (charge) i.charges[end] = *p.charge;
+  }
+
+  /// The pairs an effect names, or all: of bodies, and for charges of bodies and points.
+  std::vector<std::pair<std::string, std::string>> pairs(const SceneEffect& effect, bool charged) const {
+    std::vector<std::pair<std::string, std::string>> result;
+    if (effect.between) {
+      for (const auto& [a, b] : *effect.between) {
+        if (!place(a).offset && !place(b).offset) throw InputError("'" + a + "' and '" + b + "' are both fixed points");
+        result.emplace_back(a, b);
+      }
+      return result;
+    }
+    std::vector<std::string> names;
+    for (const SceneBody& body : scene_.bodies)
+      if (!charged || body.charge) names.push_back(body.name);
+    const std::size_t bodies = names.size();
+    if (charged)
+      for (const ScenePoint& point : scene_.points)
+        if (point.charge) names.push_back(point.name);
+    for (std::size_t a = 0; a < bodies; ++a)
+      for (std::size_t b = a + 1; b < names.size(); ++b) result.emplace_back(names[a], names[b]);
+    return result;
+  }
+
+  static void append(std::vector<S>& all, const Vector<S>& part) { all.insert(all.end(), part.begin(), part.end()); }
+
+  void initial_state() {
+    const Index m = problem().m();
+    result_.q0 = Eigen::Map<const Vector<S>>(positions_.data(), m);
+    result_.p0 = problem().mass.momentum(Eigen::Map<const Vector<S>>(velocities_.data(), m)) +
+                 Eigen::Map<const Vector<S>>(momenta_.data(), m);
+  }
+
+  void check_consistency() {
+    const Problem<S>& p = problem();
+    if (p.nu() == 0) return;
+    const S tolerance = S(64) * epsilon<S>();
+    Vector<S> v(p.m());
+    p.mass.velocity(lanes(result_.p0), lanes(v));
+    // The velocity of a coordinate carries the round-off of its block's momenta.
+    S speed = max_norm(v);
+    for (const auto& block : p.mass.blocks())
+      if (block.full)
+        for (Index j = 0; j < block.size; ++j) {
+          S sum = 0;
+          for (Index l = 0; l < block.size; ++l)
+            sum += magnitude(S(block.W(j, l) * result_.p0[block.offset + l]));
+          raise_to(speed, sum);
+        }
+    ConstraintGradient<S> gradient(p, 1);
+    gradient.update(lanes(result_.q0));
+    for (Index a = 0; a < p.nu(); ++a) {
+      const Constraint<S>& constraint = p.constraints[static_cast<std::size_t>(a)];
+      const auto at_start = value(constraint, d_, result_.q0);
+      report(constraint, a, "position", at_start.g, S(tolerance * at_start.size));
+      S w;
+      gradient.transposed_times(0, a, lanes(v), w);
+      report(constraint, a, "velocity", w, S(tolerance * speed * gradient_size(constraint, result_.q0)));
+    }
+  }
+
+  /// An upper bound of the sum of the magnitudes in grad g.
+  S gradient_size(const Constraint<S>& constraint, const Vector<S>& q) const {
+    const S spread = max_norm(q);
+    if (const auto* f = std::get_if<DisplacementProduct<S>>(&constraint.form)) {
+      S size = spread;
+      raise_to(size, max_norm(f->x.shift));
+      raise_to(size, max_norm(f->y.shift));
+      return S(8 * d_) * size;
+    }
+    if (const auto* f = std::get_if<Quadric<S>>(&constraint.form))
+      return S(d_) * (S(2 * d_) * max_norm(f->A) * spread + max_norm(f->b));
+    return S(d_) * max_norm(std::get<Plane<S>>(constraint.form).normal);
+  }
+
+  void report(const Constraint<S>& constraint, Index a, const std::string& what, const S& residual,
+              const S& tolerance) const {
+    if (magnitude(residual) <= tolerance) return;
+    throw InputError(scene_.name + ": the initial " + what + " is not consistent with constraint " +
+                     std::to_string(a + 1) + " (" + constraint.name + "): residual " + to_scientific(residual, 3) +
+                     ", tolerance " + to_scientific(tolerance, 3) + " at this precision");
+  }
+
+  const Scene& scene_;
+  Index d_;
+  Assembled<S> result_;
+  std::map<std::string, Place> places_;
+  std::vector<S> positions_, velocities_, momenta_;
+  std::vector<std::pair<Displacement<S>, S>> mass_centers_;  // of rigid bodies, with their masses
+};
+
+}  // namespace
+
+template <Scalar S>
+Assembled<S> assemble(const Scene& scene) {
+  return Assembler<S>(scene).assemble();
+}
+
+#define HBVM_DEFINE(S) template Assembled<S> assemble<S>(const Scene&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,206 @@
+#include "toml_table.hpp"
+
+#include <algorithm>
+
+namespace hbvm {
+
+TomlSource::TomlSource(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+  line_starts_.push_back(0);
+  for (std::size_t i = 0; i < text_.size(); ++i)
+    if (text_[i] == '\n') line_starts_.push_back(i + 1);
+}
+
+void TomlSource::fail(std::size_t line, const std::string& what) const {
+  throw InputError(name_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
+}
+
+toml::table TomlSource::parse() const {
+  if (const auto mark = text_.find("\xEF\xBB\xBF", 1); mark != std::string::npos)
+    fail(static_cast<std::size_t>(std::upper_bound(line_starts_.begin(), line_starts_.end(), mark) -
+                                  line_starts_.begin()),
+         "a byte order mark (U+FEFF) stands inside the file");
+  try {
+    return toml::parse(text_, name_);
+  } catch (const toml::parse_error& error) {
+    fail(error.source().begin.line, std::string(error.description()));
+  }
+}
+
+std::string TomlSource::number_at(const toml::source_position& begin) const {
+  if (begin.line == 0 || begin.line > line_starts_.size()) return {};
+  std::size_t at = line_starts_[begin.line - 1];
+  // Columns count characters, which may take several bytes: continuation bytes are 10xxxxxx.
+  for (std::size_t column = 1; column < begin.column && at < text_.size(); ++column) {
+    ++at;
+    while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0) == 0x80) ++at;
+  }
+  std::string number;
+  for (; at < text_.size(); ++at) {
+    const char c = text_[at];
+    if (c == '_') continue;
+    if (!((c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E')) break;
+    number += c;
+  }
+  return number;
+}
+
+TomlTable::TomlTable(const TomlSource& source, const toml::table& table, std::string what)
+    : source_(source), table_(table), what_(std::move(what)), line_(table.source().begin.line) {}
+
+void TomlTable::fail(const toml::node& node, const std::string& what) const {
+  const std::size_t line = node.source().begin.line;
+  source_.fail(line > 0 ? line : line_, what_ + ": " + what);
+}
+
+const toml::node* TomlTable::take(std::string_view key) {
+  known_.emplace(key);
+  return table_.get(key);
+}
+
+const toml::node& TomlTable::require(std::string_view key) {
+  const toml::node* const node = take(key);
+  if (!node) {
+    // A misspelt key is more likely than a forgotten one.
+    for (const auto& [present, value] : table_)
+      if (!known_.contains(present.str()) && !nearest(present.str(), {std::string(key)}).empty())
+        fail(value, "unknown key '" + std::string(present.str()) + "': did you mean '" + std::string(key) + "'?");
+    fail("the key '" + std::string(key) + "' is missing");
+  }
+  return *node;
+}
+
+std::string TomlTable::to_string(const toml::node& node, const std::string& where) const {
+  const auto text = node.value_exact<std::string>();
+  if (!text) fail(node, where + " must be a string");
+  return *text;
+}
+
+std::string TomlTable::string(std::string_view key) {
+  const toml::node& node = require(key);
+  const std::string text = to_string(node, "'" + std::string(key) + "'");
+  if (text.empty()) fail(node, "'" + std::string(key) + "' must not be empty");
+  return text;
+}
+
+std::string TomlTable::optional_string(std::string_view key) {
+  const toml::node* const node = take(key);
+  return node ? to_string(*node, "'" + std::string(key) + "'") : std::string();
+}
+
+long TomlTable::integer(std::string_view key) {
+  const toml::node& node = require(key);
+  const auto value = node.value_exact<std::int64_t>();
+  if (!value) fail(node, "'" + std::string(key) + "' must be a whole number");
+  return static_cast<long>(*value);
+}
+
+bool TomlTable::is_array(std::string_view key) const {
+  const toml::node* const node = table_.get(key);
+  return node && node->is_array();
+}
+
+Expression TomlTable::to_number(const toml::node& node, const std::string& where) const {
+  try {
+    if (const auto text = node.value_exact<std::string>()) return Expression::parse(*text);
+    if (const auto whole = node.value_exact<std::int64_t>()) return Expression::parse(std::to_string(*whole));
+    if (node.is_floating_point()) {
+      const std::string text = source_.number_at(node.source().begin);
+      if (text.empty()) fail(node, where + " must be finite");
+      return Expression::parse(text);
+    }
+  } catch (const ExpressionError& error) {
+    fail(node, where + ": " + error.what());
+  }
+  fail(node, where + " must be a number or an expression in quotes");
+}
+
+Expression TomlTable::number(std::string_view key) { return to_number(require(key), "'" + std::string(key) + "'"); }
+
+std::optional<Expression> TomlTable::optional_number(std::string_view key) {
+  const toml::node* const node = take(key);
+  if (!node) return std::nullopt;
+  return to_number(*node, "'" + std::string(key) + "'");
+}
+
+SceneVector TomlTable::to_vector(const toml::node& node, std::size_t size, const std::string& where) const {
+  const toml::array* const array = node.as_array();
+  if (!array) fail(node, where + " must be an array of " + std::to_string(size) + " numbers");
+  if (array->size() != size)
+    fail(node, where + " has " + std::to_string(array->size()) + " entries instead of " + std::to_string(size));
+  SceneVector result;
+  for (const toml::node& entry : *array)
+    result.push_back(to_number(entry, "entry " + std::to_string(result.size() + 1) + " of " + where));
+  return result;
+}
+
+SceneVector TomlTable::vector(std::string_view key, std::size_t size) {
+  return to_vector(require(key), size, "'" + std::string(key) + "'");
+}
+
+SceneMatrix TomlTable::matrix(std::string_view key, std::size_t size) {
+  const toml::node& node = require(key);
+  const std::string where = "'" + std::string(key) + "'";
+  const toml::array* const array = node.as_array();
+  if (!array || array->size() != size)
+    fail(node, where + " must be an array of " + std::to_string(size) + " rows");
+  SceneMatrix result;
+  for (const toml::node& row : *array)
+    result.push_back(to_vector(row, size, "row " + std::to_string(result.size() + 1) + " of " + where));
+  return result;
+}
+
+std::vector<std::string> TomlTable::strings(std::string_view key) {
+  const toml::node& node = require(key);
+  const toml::array* const array = node.as_array();
+  if (!array) fail(node, "'" + std::string(key) + "' must be an array of names");
+  std::vector<std::string> result;
+  for (const toml::node& entry : *array) result.push_back(to_string(entry, "each entry of '" + std::string(key) + "'"));
+  return result;
+}
+
+std::vector<const toml::table*> TomlTable::tables(std::string_view key) {
+  const toml::node* const node = take(key);
+  if (!node) return {};
+  const toml::array* const array = node->as_array();
+  std::vector<const toml::table*> result;
+  if (array)
+    for (const toml::node& entry : *array)
+      if (entry.is_table()) result.push_back(entry.as_table());
+  if (!array || result.size() != array->size())
+    fail(*node, "'" + std::string(key) + "' must be written as [[" + std::string(key) + "]] tables");
+  return result;
+}
+
+void TomlTable::finish() const {
+  for (const auto& [key, value] : table_) {
+    if (known_.contains(key.str())) continue;
+    const std::string guess = nearest(key.str(), {known_.begin(), known_.end()});
+    fail(value, "unknown key '" + std::string(key.str()) + "'" +
+                    (guess.empty() ? std::string() : ": did you mean '" + guess + "'?"));
+  }
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t least = word.size() / 2 + 1;
+  for (const std::string& candidate : candidates) {
+    std::vector<std::size_t> row(candidate.size() + 1);
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j < row.size(); ++j) {
+        const std::size_t replaced = diagonal + (word[i - 1] != candidate[j - 1]);
+        diagonal = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+      }
+    }
+    if (row.back() < least) {
+      least = row.back();
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "hbvm/scalar/expression.hpp"
+#include "hbvm/scene/scene.hpp"
+
+namespace hbvm {
+
+/// The text of a TOML file, to read decimals from it exactly, and its name for messages.
+class TomlSource {
+ public:
+  TomlSource(std::string text, std::string name);
+
+  const std::string& name() const { return name_; }
+  toml::table parse() const;
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const;
+  /// The characters of a number that stands at this place.
+  std::string number_at(const toml::source_position& begin) const;
+
+ private:
+  std::string text_, name_;
+  std::vector<std::size_t> line_starts_;
+};
+
+/// One table of a TOML file. Each reading takes a key; finish() refuses the keys nobody took.
+class TomlTable {
+ public:
+  /// \param what names the table in messages: "body 'a'"
+  TomlTable(const TomlSource& source, const toml::table& table, std::string what);
+
+  std::size_t line() const { return line_; }
+  void rename(std::string what) { what_ = std::move(what); }
+  [[noreturn]] void fail(const std::string& what) const { source_.fail(line_, what_ + ": " + what); }
+  [[noreturn]] void fail(const toml::node& node, const std::string& what) const;
+
+  bool has(std::string_view key) const { return table_.contains(key); }
+  const toml::node* take(std::string_view key);
+  const toml::node& require(std::string_view key);
+
+  std::string string(std::string_view key);
+  std::string optional_string(std::string_view key);
+  long integer(std::string_view key);
+  bool is_array(std::string_view key) const;
+  Expression number(std::string_view key);
+  std::optional<Expression> optional_number(std::string_view key);
+  SceneVector vector(std::string_view key, std::size_t size);
+  SceneMatrix matrix(std::string_view key, std::size_t size);
+  std::vector<std::string> strings(std::string_view key);
+  /// The tables of an array of tables [[key]]; none if it is absent.
+  std::vector<const toml::table*> tables(std::string_view key);
+
+  Expression to_number(const toml::node& node, const std::string& where) const;
+  SceneVector to_vector(const toml::node& node, std::size_t size, const std::string& where) const;
+  std::string to_string(const toml::node& node, const std::string& where) const;
+
+  /// \throws InputError naming the first unknown key and the nearest known one
+  void finish() const;
+
+ private:
+  const TomlSource& source_;
+  const toml::table& table_;
+  std::string what_;
+  std::size_t line_;
+  std::set<std::string, std::less<>> known_;
+};
+
+/// The candidate nearest to `word` in edits, if near enough to be what was meant; else empty.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace hbvm

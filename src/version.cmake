@@ -1,0 +1,17 @@
+# Writes OUTPUT, a C++ file with the version and the commit of SOURCE, if that has changed since the last build.
+execute_process(COMMAND git -C "${SOURCE}" rev-parse --short=9 HEAD OUTPUT_VARIABLE commit
+                OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE status)
+if(status EQUAL 0)
+  execute_process(COMMAND git -C "${SOURCE}" diff --quiet HEAD RESULT_VARIABLE dirty ERROR_QUIET)
+  set(VERSION "${VERSION}+g${commit}")
+  if(NOT dirty EQUAL 0)
+    set(VERSION "${VERSION}.modified")
+  endif()
+endif()
+set(text "#include \"hbvm/version.hpp\"\n\nconst char* hbvm::version() { return \"${VERSION}\"; }\n")
+if(EXISTS "${OUTPUT}")
+  file(READ "${OUTPUT}" old)
+endif()
+if(NOT text STREQUAL old)
+  file(WRITE "${OUTPUT}" "${text}")
+endif()

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+
+/// The scalars a typed suite runs for; Mpfr tests open a PrecisionScope themselves.
+using AllScalars = ::testing::Types<double, Quad, Mpfr>;
+
+struct ScalarNames {
+  template <class S>
+  static std::string GetName(int) {
+    return std::same_as<S, double> ? "double" : std::same_as<S, Quad> ? "Quad" : "Mpfr";
+  }
+};
+
+}  // namespace hbvm
+
+// GoogleTest would print six digits.
+namespace boost::multiprecision {
+inline void PrintTo(const hbvm::Quad& x, std::ostream* out) { *out << hbvm::to_text(x); }
+inline void PrintTo(const hbvm::Mpfr& x, std::ostream* out) { *out << hbvm::to_text(x); }
+}  // namespace boost::multiprecision
