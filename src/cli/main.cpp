@@ -25,11 +25,14 @@ int main(int argc, char** argv) {
   hbvm::add_run_command(app);
   hbvm::add_nodes_command(app);
   hbvm::add_scenes_command(app);
+  hbvm::add_study_command(app);
   try {
     app.parse(argc, argv);  // runs the subcommand
     return ok;
   } catch (const CLI::Success& request) {  // --help, --version
     return app.exit(request);
+  } catch (const CLI::RuntimeError& finding) {  // a check that did not hold, already reported
+    return finding.get_exit_code();
   } catch (const CLI::ParseError& error) {
     std::string line = error.what();
     for (char& c : line)

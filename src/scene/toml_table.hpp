@@ -34,6 +34,7 @@ class TomlTable {
   /// \param what names the table in messages: "body 'a'"
   TomlTable(const TomlSource& source, const toml::table& table, std::string what);
 
+  const TomlSource& source() const { return source_; }
   std::size_t line() const { return line_; }
   void rename(std::string what) { what_ = std::move(what); }
   [[noreturn]] void fail(const std::string& what) const { source_.fail(line_, what_ + ": " + what); }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hbvm/scalar/precision.hpp"
+
+namespace hbvm {
+
+/// What a study found.
+struct StudyOutcome {
+  std::string title;
+  long agreed = 0, stated = 0;          ///< figures of expected.csv that were met, and in all
+  std::string what;                     ///< "printed figures" or "stated bounds"
+  long further_agreed = 0, further = 0; ///< beyond double: round-off columns and rates that double cannot show
+  std::vector<std::string> complaints;  ///< one line for each that was not met
+  std::vector<std::string> files;       ///< tables and pictures written
+  std::string table;                    ///< in Markdown
+};
+
+/// Runs the experiment that the folder's study.toml describes, in one precision. Tables (CSV, Markdown, LaTeX) go to
+/// results/PRECISION/ in the folder, pictures (SVG) too.
+/// \param check compare with the folder's expected.csv
+/// \param progress called with (runs done, runs in all)
+/// \throws InputError, IntegrationError
+StudyOutcome run_study(const std::string& folder, const Precision& precision, bool check,
+                       const std::function<void(long, long)>& progress);
+
+}  // namespace hbvm

@@ -1,0 +1,72 @@
+#include "hbvm/report/table.hpp"
+
+namespace hbvm {
+namespace {
+
+std::string joined(const std::vector<std::string>& cells, const std::string& separator) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? separator : "") + cells[i];
+  return line;
+}
+
+/// Names like e_H and rate_lambda as formulas.
+std::string latex_name(const std::string& name) {
+  if (name.starts_with("rate")) return "rate";
+  const auto underscore = name.find('_');
+  if (underscore == std::string::npos) return name.size() == 1 ? "$" + name + "$" : name;
+  std::string index = name.substr(underscore + 1);
+  if (index == "lambda")
+    index = "\\lambda";
+  else if (index.size() > 1)
+    index = "\\mathrm{" + index + "}";
+  const std::string base = name.substr(0, underscore);
+  if (base.size() > 1) return base + " " + name.substr(underscore + 1);
+  return "$" + base + "_{" + index + "}$";
+}
+
+}  // namespace
+
+std::string to_csv(const Table& table) {
+  const auto line = [](const std::vector<std::string>& keys, const std::vector<std::string>& cells) {
+    return joined(keys, ",") + (keys.empty() ? "" : ",") + joined(cells, ",") + "\n";
+  };
+  std::string text = "# " + line(table.key_columns, table.columns) + "# " + table.caption + "\n";
+  for (const std::string& note : table.provenance) text += "# " + note + "\n";
+  for (const auto& group : table.groups)
+    for (const auto& row : group.rows) text += line(group.keys, row);
+  return text;
+}
+
+std::string to_markdown(const Table& table) {
+  std::string text = "**" + table.caption + "**\n";
+  for (const auto& group : table.groups) {
+    if (!group.heading.empty()) text += "\n" + group.heading + "\n";
+    text += "\n| " + joined(table.columns, " | ") + " |\n|";
+    for (std::size_t i = 0; i < table.columns.size(); ++i) text += "---:|";
+    text += "\n";
+    for (const auto& row : group.rows) text += "| " + joined(row, " | ") + " |\n";
+  }
+  text += "\n";
+  for (const std::string& line : table.provenance) text += "<!-- " + line + " -->\n";
+  return text;
+}
+
+std::string to_latex(const Table& table) {
+  std::vector<std::string> names;
+  for (const std::string& column : table.columns) names.push_back(latex_name(column));
+  const std::string span = std::to_string(names.size());
+  std::string text;
+  for (const std::string& line : table.provenance) text += "% " + line + "\n";
+  text += "\\begin{table}[t]\n\\caption{" + table.caption + "}\n\\smallskip\\small\n\\centerline{\n\\begin{tabular}{|" +
+          std::string(names.size(), 'c') + "|}\n\\hline\n";
+  for (const auto& group : table.groups) {
+    if (!group.heading.empty())
+      text += "\\multicolumn{" + span + "}{|c|}{$" + group.heading + "$}\\\\\n\\hline\n";
+    text += joined(names, " & ") + "\\\\\n\\hline\n";
+    for (const auto& row : group.rows) text += joined(row, " & ") + "\\\\\n";
+    text += "\\hline\n\\hline\n";
+  }
+  return text + "\\end{tabular}}\n\\end{table}\n";
+}
+
+}  // namespace hbvm

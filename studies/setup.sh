@@ -1,0 +1,28 @@
+# Shared by studies/run and tests/run: packages and builds. Sourced with the project's folder as the current one.
+
+build_packages="g++ cmake ninja-build libboost1.81-dev libeigen3-dev libmpfr-dev libtomlplusplus-dev libcli11-dev
+  libfmt-dev nlohmann-json3-dev gnuplot-nox"
+test_packages="libgtest-dev libflint-arb-dev libflint-dev"
+
+# Installs those of the named Debian packages that are missing.
+need_packages() {
+  local missing="" package sudo=""
+  for package in "$@"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
+  done
+  [ -z "$missing" ] && return 0
+  echo "installing:$missing"
+  [ "$(id -u)" = 0 ] || sudo="sudo"
+  $sudo apt-get update -qq
+  # --no-remove: Boost 1.81 and the distribution's 1.74 exclude each other, and no other package may swap them.
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-remove --no-install-recommends $missing >/dev/null
+}
+
+# build PRESET [CMAKE OPTION ...]
+build() {
+  local preset="$1"
+  shift
+  cmake --preset "$preset" "$@" >/dev/null
+  echo "building build/$preset (a first build takes some minutes)"
+  cmake --build --preset "$preset"
+}
