@@ -2,7 +2,9 @@
 
 #include <ostream>
 
+#include "hbvm/analysis/choose_k.hpp"
 #include "hbvm/analysis/simulate.hpp"
+#include "hbvm/integrate/momentum_drift.hpp"
 #include "hbvm/integrate/output_state.hpp"
 #include "hbvm/integrate/trajectory.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -31,11 +33,28 @@ std::vector<std::string> texts(const Vector<S>& v) {
   return result;
 }
 
+/// The conserved components of the momenta that the scene names.
+template <Scalar S>
+std::vector<MomentumComponent> observed_momenta(const Scene& text, const Assembled<S>& scene) {
+  const bool linear = text.observes("linear_momentum"), angular = text.observes("angular_momentum");
+  if (!linear && !angular) return {};
+  std::vector<MomentumComponent> components = conserved_momenta(scene.problem, scene.q0);
+  std::erase_if(components, [&](const MomentumComponent& c) { return c.angular ? !angular : !linear; });
+  return components;
+}
+
 template <Scalar S>
 RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
   const Assembled<S> scene = assemble<S>(request.scene);
-  const Hbvm<S> method = make_hbvm<S>(request.method.k, request.method.s);
+  RunResult result;
+  result.method = request.method;
+  if (request.method.is_auto()) {
+    const ChosenK chosen = choose_k(scene, request.method.s, grid.step(), request.solver);
+    result.method.k = chosen.k;
+    result.chosen_because = chosen.reason;
+  }
+  const Hbvm<S> method = make_hbvm<S>(result.method.k, result.method.s);
 
   Progress<S> progress(hooks.progress, grid.steps());
   std::vector<Observer<S>*> observers{&progress};
@@ -45,10 +64,15 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
     trajectory.emplace(scene.problem, *csv, hooks.every, grid.steps(), hooks.provenance);
     observers.push_back(&*trajectory);
   }
-  const Simulated<S> simulated = simulate(scene, method, request.solver, grid, observers);
+  MomentumDrift<S> momenta(scene.problem, observed_momenta(request.scene, scene));
+  if (!momenta.components().empty()) observers.push_back(&momenta);
+  const Simulated<S> simulated =
+      simulate(scene, method, request.solver, grid, observers, request.account ? &result.account : nullptr);
 
   const Snapshot<S>& end = simulated.integration.end;
-  RunResult result;
+  if (request.method.is_auto() && !degree_of_U(scene.problem))
+    result.choice_verified = quadrature_defect(scene.problem, result.method.k, result.method.s, grid.step(),
+                                               request.solver, end.q, end.p) <= 1;
   result.step = to_text(grid.step());
   result.t = to_text(end.t);
   result.steps = grid.steps();
@@ -66,6 +90,11 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   result.iterations_per_step =
       static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
   result.cpu_seconds = simulated.integration.cpu_seconds;
+  if (request.scene.observes("energy"))
+    result.observables.push_back({"energy", to_text(simulated.H0), to_text(simulated.e_H)});
+  for (std::size_t i = 0; i < momenta.components().size(); ++i)
+    result.observables.push_back(
+        {momenta.components()[i].name(), to_text(momenta.initial(i)), to_text(momenta.drift(i))});
   return result;
 }
 

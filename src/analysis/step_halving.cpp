@@ -1,8 +1,8 @@
 #include "hbvm/analysis/step_halving.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/scalar/text.hpp"

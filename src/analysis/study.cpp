@@ -1,12 +1,12 @@
 #include "hbvm/analysis/study.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
-
-#include <fmt/format.h>
 
 #include "hbvm/analysis/run.hpp"
 #include "hbvm/analysis/step_halving.hpp"
@@ -69,8 +69,12 @@ class Study {
  public:
   Study(const std::string& folder, const Precision& precision, bool check,
         const std::function<void(long, long)>& progress)
-      : folder_(folder), source_(read_file(folder_ / "study.toml"), (folder_ / "study.toml").string()),
-        root_(source_.parse()), top_(source_, root_, "study"), precision_(precision), check_(check),
+      : folder_(folder),
+        source_(read_file(folder_ / "study.toml"), (folder_ / "study.toml").string()),
+        root_(source_.parse()),
+        top_(source_, root_, "study"),
+        precision_(precision),
+        check_(check),
         progress_(progress) {}
 
   StudyOutcome run() {
@@ -111,6 +115,12 @@ class Study {
     return load_scene(fs::exists(beside) ? beside.string() : name);
   }
 
+  static MethodName method_of(TomlTable& reader) {
+    const MethodName method = MethodName::parse(reader.string("method"));
+    if (method.is_auto()) reader.fail("a study states its k");
+    return method;
+  }
+
   void write(const std::string& name, const std::string& text) {
     const fs::path path = results_ / name;
     std::ofstream file(path, std::ios::binary);
@@ -140,8 +150,13 @@ class Study {
     long runs = 0, done = 0;
     for (const toml::table* table : top_.tables("block")) {
       TomlTable reader(source_, *table, "block");
-      HalvingRequest request{&scene_, MethodName::parse(reader.string("method")), SolverKind::fixed_point, step, until,
-                             static_cast<int>(reader.integer("first")), static_cast<int>(reader.integer("last"))};
+      HalvingRequest request{&scene_,
+                             method_of(reader),
+                             SolverKind::fixed_point,
+                             step,
+                             until,
+                             static_cast<int>(reader.integer("first")),
+                             static_cast<int>(reader.integer("last"))};
       if (request.first < 0 || request.last < request.first || request.last > 40)
         reader.fail("'first' and 'last' must be 0 <= first <= last <= 40");
       reader.finish();
@@ -151,7 +166,8 @@ class Study {
     for (Block& block : blocks) {
       block.rows = step_halving(block.request, precision_, [&] { progress_(++done, runs); });
       const auto [k, s] = block.request.method;
-      Table::Group rows{group + " = " + std::to_string(group == "k" ? k : s), {std::to_string(k), std::to_string(s)}, {}};
+      Table::Group rows{
+          group + " = " + std::to_string(group == "k" ? k : s), {std::to_string(k), std::to_string(s)}, {}};
       for (const HalvingRow& row : block.rows) {
         std::vector<std::string> cells;
         for (const std::string& column : table_.columns) cells.push_back(row.cell(column));
@@ -177,7 +193,8 @@ class Study {
     const double above_round_off = value(top_.number("compare_above").text());
     outcome_.what = "printed figures";
     for (const auto& printed : expected.rows) {
-      const std::string k = expected.cell(printed, "k"), s = expected.cell(printed, "s"), i = expected.cell(printed, "i");
+      const std::string k = expected.cell(printed, "k"), s = expected.cell(printed, "s"),
+                        i = expected.cell(printed, "i");
       const std::string place = "k = " + k + ", s = " + s + ", i = " + i + ": ";
       const HalvingRow* found = nullptr;
       for (const Block& block : blocks)
@@ -234,16 +251,15 @@ class Study {
     std::vector<RunResult> results;
     for (const toml::table* table : runs) {
       TomlTable reader(source_, *table, "run");
-      const RunRequest request{scene_, MethodName::parse(reader.string("method")), SolverKind::fixed_point, step,
-                               reader.number("until"), precision_};
+      const RunRequest request{
+          scene_, method_of(reader), SolverKind::fixed_point, step, reader.number("until"), precision_, false};
       reader.finish();
       const RunResult result = hbvm::run(request, {});
       const auto three = [](const std::string& text) { return to_three_digits(text); };
-      table_.groups.back().rows.push_back({std::to_string(request.method.k), std::to_string(request.method.s),
-                                           request.until.text(), three(result.e_H), three(result.e_g),
-                                           three(result.e_hid), three(result.output_delta_H),
-                                           fmt::format("{:.1f}", result.iterations_per_step),
-                                           fmt::format("{:.2f}", result.cpu_seconds)});
+      table_.groups.back().rows.push_back(
+          {std::to_string(request.method.k), std::to_string(request.method.s), request.until.text(), three(result.e_H),
+           three(result.e_g), three(result.e_hid), three(result.output_delta_H),
+           fmt::format("{:.1f}", result.iterations_per_step), fmt::format("{:.2f}", result.cpu_seconds)});
       results.push_back(result);
       progress_(static_cast<long>(results.size()), static_cast<long>(runs.size()));
     }
@@ -295,8 +311,13 @@ class Study {
     std::vector<std::string> columns;
     for (const toml::table* table : reader.tables("run")) {
       TomlTable run_reader(source_, *table, "run of figure '" + figure.name + "'");
-      const RunRequest request{scene_, MethodName::parse(run_reader.string("method")), SolverKind::fixed_point,
-                               run_reader.number("step"), run_reader.number("until"), precision_};
+      const RunRequest request{scene_,
+                               method_of(run_reader),
+                               SolverKind::fixed_point,
+                               run_reader.number("step"),
+                               run_reader.number("until"),
+                               precision_,
+                               false};
       const std::string name = fmt::format("{}_{}.csv", figure.name, csvs.size() + 1);
       csvs.push_back((results_ / name).string());
       outcome_.files.push_back(csvs.back());
@@ -316,7 +337,8 @@ class Study {
       columns = split(first_line(csvs.back()).substr(2));
     }
     for (const toml::table* table : reader.tables("panel"))
-      figure.panels.push_back(panel(TomlTable(source_, *table, "panel of figure '" + figure.name + "'"), csvs, columns));
+      figure.panels.push_back(
+          panel(TomlTable(source_, *table, "panel of figure '" + figure.name + "'"), csvs, columns));
     reader.finish();
     const std::string svg = (results_ / (figure.name + ".svg")).string();
     draw(figure, svg);

@@ -31,8 +31,16 @@ double root_in_double(int n, int k) {
 class LegendreRoots {
  public:
   LegendreRoots(int n, long bits)
-      : n_(n), bits_(bits), x_(53), one_minus_x2_(106 + 32), p_(bits), previous_(bits), t_(bits), u_(bits),
-        delta_(bits), slope_(bits) {}
+      : n_(n),
+        bits_(bits),
+        x_(53),
+        one_minus_x2_(106 + 32),
+        p_(bits),
+        previous_(bits),
+        t_(bits),
+        u_(bits),
+        delta_(bits),
+        slope_(bits) {}
 
   /// c = (1 - x)/2 and its weight for the k-th root x.
   void compute(int k, BigFloat& c, BigFloat& b) {

@@ -54,10 +54,10 @@ Matrix<S> legendre_integrals(const Vector<S>& c, int count) {
   return integrals;
 }
 
-#define HBVM_DEFINE(S)                                                \
-  template Matrix<S> legendre_values<S>(const Vector<S>&, int);       \
-  template Matrix<S> legendre_integrals<S>(const Vector<S>&, int);    \
-  template S xi<S>(int);                                              \
+#define HBVM_DEFINE(S)                                             \
+  template Matrix<S> legendre_values<S>(const Vector<S>&, int);    \
+  template Matrix<S> legendre_integrals<S>(const Vector<S>&, int); \
+  template S xi<S>(int);                                           \
   template Matrix<S> X_matrix<S>(int);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

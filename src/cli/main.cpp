@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   hbvm::add_run_command(app);
   hbvm::add_nodes_command(app);
   hbvm::add_scenes_command(app);
+  hbvm::add_scene_command(app);
   hbvm::add_study_command(app);
   try {
     app.parse(argc, argv);  // runs the subcommand

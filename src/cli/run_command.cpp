@@ -1,10 +1,10 @@
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <memory>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
@@ -19,13 +19,13 @@ struct Options {
   std::string scene, method, step, until;
   std::string precision = "double", solver = "fixed-point", out;
   long every = 1;
-  bool json = false;
+  bool json = false, account = false;
 };
 
 std::string json_of(const RunRequest& request, const RunResult& result) {
   nlohmann::ordered_json j;
   j["scene"] = request.scene.name;
-  j["method"] = request.method.text();
+  j["method"] = result.method.text();
   j["solver"] = name_of(request.solver);
   j["precision"] = request.precision.name();
   j["step"] = result.step;
@@ -41,16 +41,38 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
   j["e_hid"] = result.e_hid;
   j["iterations_per_step"] = result.iterations_per_step;
   j["cpu_seconds"] = result.cpu_seconds;
+  if (request.method.is_auto())
+    j["chosen"] = {{"k", result.method.k}, {"because", result.chosen_because}, {"verified", result.choice_verified}};
+  if (!request.scene.observables.empty()) {
+    j["observables"] = nlohmann::ordered_json::object();
+    for (const Observed& o : result.observables)
+      j["observables"][o.name] = {{"initial", o.initial}, {"drift", o.drift}};
+  }
+  if (request.account) {
+    j["account"] = nlohmann::ordered_json::array();
+    for (const AccountLine& line : result.account.lines) {
+      nlohmann::ordered_json entry{{"name", line.name}, {"effect", line.effect}, {"calls", line.calls}};
+      if (line.effect) entry["evaluations"] = line.evaluations;
+      for (std::size_t op = 0; op < op_count; ++op)
+        entry["operations"][name_of(static_cast<Op>(op))] = line.operations[static_cast<Op>(op)];
+      entry["seconds"] = line.seconds;
+      j["account"].push_back(entry);
+    }
+  }
   j["version"] = version();
   return j.dump(2);
 }
 
 void print(const RunRequest& request, const RunResult& result) {
+  if (request.method.is_auto())
+    fmt::print("k = {}: {}; at the last step {}\n", result.method.k, result.chosen_because,
+               result.choice_verified ? "it holds as well" : "IT DOES NOT HOLD: take a larger k");
   const auto list = [](const char* name, const std::vector<std::string>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) fmt::print("  {:<14} {}\n", fmt::format("{}_{}", name, i + 1), values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      fmt::print("  {:<14} {}\n", fmt::format("{}_{}", name, i + 1), values[i]);
   };
   fmt::print("{}: {}\n", request.scene.name, request.scene.title);
-  fmt::print("{}, {}, solver {}, {} steps of {}\n\n", request.method.text(), request.precision.name(),
+  fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method.text(), request.precision.name(),
              name_of(request.solver), result.steps, result.step);
   fmt::print("state at t = {}\n", result.t);
   list("q", result.q);
@@ -63,8 +85,12 @@ void print(const RunRequest& request, const RunResult& result) {
   }
   fmt::print("errors over the mesh\n  {:<14} {}\n  {:<14} {}\n  {:<14} {}\n", "e_H", result.e_H, "e_g", result.e_g,
              "e_hid", result.e_hid);
+  if (!result.observables.empty()) fmt::print("conserved by the exact motion\n");
+  for (const Observed& o : result.observables)
+    fmt::print("  {:<14} {}, changed by up to {}\n", o.name, o.initial, o.drift);
   fmt::print("cost\n  {:.2f} iterations per step, {:.3f} s of processor time\n", result.iterations_per_step,
              result.cpu_seconds);
+  if (request.account) fmt::print("\n{}", to_text(result.account));
 }
 
 std::unique_ptr<std::ostream> open(const std::string& path) {
@@ -75,16 +101,20 @@ std::unique_ptr<std::ostream> open(const std::string& path) {
 
 void run_command(const Options& o) {
   if (o.every < 1) throw InputError("--every " + std::to_string(o.every) + " is not positive");
-  const RunRequest request{load_scene(o.scene),     MethodName::parse(o.method),  parse_solver(o.solver),
-                           Expression::parse(o.step), Expression::parse(o.until), Precision::parse(o.precision)};
+  const RunRequest request{load_scene(o.scene),
+                           MethodName::parse(o.method),
+                           parse_solver(o.solver),
+                           Expression::parse(o.step),
+                           Expression::parse(o.until),
+                           Precision::parse(o.precision),
+                           o.account};
   RunHooks hooks;
   hooks.every = o.every;
   ProgressBar bar(request.scene.name);
   hooks.progress = [&](long done, long total) { bar.update(done, total); };
   if (!o.out.empty()) {
     hooks.open_csv = [&] { return open(o.out); };
-    hooks.provenance = {std::string("hbvm ") + version(),
-                        "scene " + request.scene.name + ": " + request.scene.title,
+    hooks.provenance = {std::string("hbvm ") + version(), "scene " + request.scene.name + ": " + request.scene.title,
                         "command hbvm run " + o.scene + " --method " + request.method.text() + " --step '" + o.step +
                             "' --until '" + o.until + "' --precision " + request.precision.name() + " --solver " +
                             std::string(name_of(request.solver)) + " --every " + std::to_string(o.every)};
@@ -102,7 +132,7 @@ void add_run_command(CLI::App& app) {
   auto o = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("run", "Integrate a scene and report the final state and its errors");
   command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
-  command->add_option("--method", o->method, "hbvm:K,S with K >= S >= 1; K = S is Gauss")->required();
+  command->add_option("--method", o->method, "hbvm:K,S with K >= S >= 1 (K = S is Gauss), or hbvm:auto,S")->required();
   command->add_option("--step", o->step, "Step size: a number or an expression, as 2^(3/4)*pi/40")->required();
   command->add_option("--until", o->until, "Final time, a multiple of the step")->required();
   command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
@@ -110,8 +140,10 @@ void add_run_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--out", o->out, "Write the trajectory to this CSV file");
   command->add_option("--every", o->every, "Steps between two lines of the CSV file")->capture_default_str();
+  command->add_flag("--account", o->account, "Also show what effects and parts of the solver did and took");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
-  command->footer("Example: hbvm run tethered_satellites --method hbvm:5,1 --step 0.1 --until 100 --out satellites.csv");
+  command->footer(
+      "Example: hbvm run tethered_satellites --method hbvm:5,1 --step 0.1 --until 100 --out satellites.csv");
   command->callback([o] { run_command(*o); });
 }
 

@@ -1,7 +1,6 @@
-#include <iostream>
-#include <memory>
-
 #include <fmt/format.h>
+
+#include <memory>
 
 #include "commands.hpp"
 #include "hbvm/analysis/study.hpp"
@@ -22,7 +21,7 @@ void study_command(const Options& o) {
   for (const std::string& name : o.precisions) precisions.push_back(Precision::parse(name));
   long agreed = 0, stated = 0;
   bool all_met = true;
-  std::string summary;
+  std::string tables, summary;
   for (const std::string& folder : o.folders) {
     for (const Precision& precision : precisions) {
       StudyOutcome outcome;
@@ -30,8 +29,8 @@ void study_command(const Options& o) {
         ProgressBar bar(folder);
         outcome = run_study(folder, precision, o.check, [&](long done, long of) { bar.update(done, of); });
       }
-      fmt::print("{}\n", outcome.table);
-      for (const std::string& complaint : outcome.complaints) fmt::print("  not met: {}\n", complaint);
+      tables += outcome.table + "\n";
+      for (const std::string& complaint : outcome.complaints) tables += "  not met: " + complaint + "\n";
       std::string line = fmt::format("{}, {}: ", outcome.title, precision.name());
       if (o.check) {
         line += fmt::format("{} of {} {} agree", outcome.agreed, outcome.stated, outcome.what);
@@ -43,18 +42,17 @@ void study_command(const Options& o) {
           stated += outcome.stated;
         }
         all_met = all_met && outcome.complaints.empty();
+      } else {
+        line += "done";
       }
-      std::string last;
-      for (const std::string& file : outcome.files) {
-        if (!file.ends_with(".svg")) continue;
-        last += (last.empty() ? "" : ", ") + file;
-      }
-      summary += line + "\n    pictures: " + (last.empty() ? "none" : last) + "\n";
-      fmt::print("{}\n", line);
-      std::cout.flush();
+      std::string pictures;
+      for (const std::string& file : outcome.files)
+        if (file.ends_with(".svg")) pictures += (pictures.empty() ? "" : ", ") + file;
+      summary += line + "\n    pictures: " + (pictures.empty() ? "none" : pictures) + "\n";
     }
   }
-  fmt::print("\n{}", summary);
+  // Printed last of all, so that standard output stays empty if a study cannot be run.
+  fmt::print("{}\n{}", tables, summary);
   if (o.check && stated > 0) fmt::print("{} of {} printed figures agree\n", agreed, stated);
   std::fflush(stdout);
   if (!all_met) throw CLI::RuntimeError(1);
@@ -64,7 +62,8 @@ void study_command(const Options& o) {
 
 void add_study_command(CLI::App& app) {
   auto o = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("study", "Run the experiments of studies/ and draw their tables and figures");
+  CLI::App* const command =
+      app.add_subcommand("study", "Run the experiments of studies/ and draw their tables and figures");
   command->add_option("folders", o->folders, "Folders with a study.toml; results go to results/ in each")->required();
   command->add_option("--precision", o->precisions, "One or more of double, quad, mpfr:N")->capture_default_str();
   command->add_flag("--check", o->check, "Compare with expected.csv; exit code 1 if a figure does not agree");

@@ -1,9 +1,9 @@
 #include "hbvm/integrate/integrate.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <optional>
 
+#include "hbvm/clock.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scalar/text.hpp"
 
@@ -13,18 +13,9 @@ StepError::StepError(long step, std::string time, const StageFailure& failure)
     : IntegrationError("step " + std::to_string(step) + " from t = " + time + ": " + failure.what() + " after " +
                        std::to_string(failure.sweeps()) + " sweeps, last increment " + failure.increment() +
                        " of the unknowns; try a smaller step"),
-      step_(step), time_(std::move(time)), increment_(failure.increment()) {}
-
-namespace {
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  constexpr long nanoseconds = 1'000'000'000;
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / nanoseconds;
-}
-
-}  // namespace
+      step_(step),
+      time_(std::move(time)),
+      increment_(failure.increment()) {}
 
 template <Scalar S>
 Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
@@ -43,7 +34,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
   std::optional<StepError> failure;
   for (long n = 0; n < grid.steps() && !failure;) {
     std::size_t made = 0;
-    const double before = cpu_seconds();
+    const double before = thread_seconds();
     try {
       for (; made < snapshots.size() && n < grid.steps(); ++made) {
         result.sweeps += stepper.step(state);
@@ -56,7 +47,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     } catch (const StageFailure& error) {
       failure.emplace(n + 1, to_text(grid.time(n)), error);
     }
-    result.cpu_seconds += cpu_seconds() - before;
+    result.cpu_seconds += thread_seconds() - before;
     for (std::size_t i = 0; i < made; ++i) {
       snapshots[i].t = grid.time(snapshots[i].n);
       show(snapshots[i]);
@@ -68,9 +59,8 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
   return result;
 }
 
-#define HBVM_DEFINE(S)                                                                      \
-  template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&,          \
-                                       const std::vector<Observer<S>*>&);
+#define HBVM_DEFINE(S) \
+  template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&, const std::vector<Observer<S>*>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -6,7 +6,9 @@ namespace hbvm {
 
 template <Scalar S>
 Stepper<S>::Stepper(const Problem<S>& problem, const Hbvm<S>& method, const S& step, SolverKind solver)
-    : problem_(problem), method_(method), solver_(make_solver(solver, problem, method, step)),
+    : problem_(problem),
+      method_(method),
+      solver_(make_solver(solver, problem, method, step)),
       multiplier_(Vector<S>::Zero(problem.nu())) {}
 
 namespace {

@@ -43,9 +43,9 @@ S dot(const Vector<S>& a, const Vector<S>& b) {
   return sum;
 }
 
-#define HBVM_DEFINE(S)                                                                      \
-  template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);                 \
-  template void transposed_product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);      \
+#define HBVM_DEFINE(S)                                                                 \
+  template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);            \
+  template void transposed_product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
   template S dot<S>(const Vector<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -4,6 +4,7 @@
 
 #include "hbvm/basis/gauss_legendre.hpp"
 #include "hbvm/basis/legendre.hpp"
+#include "hbvm/error.hpp"
 
 namespace hbvm {
 namespace {
@@ -58,7 +59,9 @@ Hbvm<Mpfr> assemble(int k, int s) {
 
 template <Scalar S>
 Hbvm<S> make_hbvm(int k, int s) {
-  MethodName{k, s}.check();
+  const MethodName name{k, s};
+  name.check();
+  if (name.is_auto()) throw InputError("method " + name.text() + ": K is not chosen yet");
   Hbvm<S> r;
   r.k = k;
   r.s = s;

@@ -66,7 +66,8 @@ ConstraintValue<S> value(const Constraint<S>& constraint, Index dimension, const
                         },
                         [&](const Quadric<S>& f) {
                           for (Index i = 0; i < f.A.rows(); ++i) {
-                            for (Index j = 0; j < f.A.cols(); ++j) sum.add(q[f.offset + i] * f.A(i, j) * q[f.offset + j]);
+                            for (Index j = 0; j < f.A.cols(); ++j)
+                              sum.add(q[f.offset + i] * f.A(i, j) * q[f.offset + j]);
                             sum.add(f.b[i] * q[f.offset + i]);
                           }
                           sum.add(f.c);
@@ -96,9 +97,9 @@ S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& v
   return 2 * sum;
 }
 
-#define HBVM_DEFINE(S)                                                                              \
-  template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                          \
-  template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);              \
+#define HBVM_DEFINE(S)                                                                 \
+  template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);             \
+  template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&); \
   template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -137,6 +137,40 @@ void ConstraintGradient<S>::weigh() {
 }
 
 template <Scalar S>
+OperationCounts ConstraintGradient<S>::operations() const {
+  OperationCounts counts;
+  const Index d = problem_.dimension;
+  for (std::size_t a = 0; a < patterns_.size(); ++a) {
+    const auto& form = problem_.constraints[a].form;
+    if (const auto* product = std::get_if<DisplacementProduct<S>>(&form)) {
+      counts += hbvm::operations(product->x, d);
+      if (product->same)
+        counts.add(Op::add, d);
+      else
+        counts += hbvm::operations(product->y, d);
+      for (const auto& block : product->x.blocks) counts += weighted_sum(block.weight, d);
+      if (!product->same)
+        for (const auto& block : product->y.blocks) counts += weighted_sum(block.weight, d);
+    }
+    if (const auto* quadric = std::get_if<Quadric<S>>(&form)) {
+      for (Index i = 0; i < quadric->A.size(); ++i)
+        if (quadric->A.data()[i] != 0) counts.add_products(1);
+      counts.add(Op::add, 2 * quadric->b.size());
+    }
+    for (const auto& block : problem_.mass.blocks()) {
+      Index touched = 0;
+      for (const Index coordinate : patterns_[a].coordinates)
+        touched += coordinate >= block.offset && coordinate < block.offset + block.size;
+      if (block.full)
+        counts.add_products(touched * block.size);
+      else if (block.mass != 1)
+        counts.add(Op::multiply, touched);
+    }
+  }
+  return static_cast<std::uint64_t>(lanes_) * counts;
+}
+
+template <Scalar S>
 void ConstraintGradient<S>::transposed_times(Index i, Index a, Lanes<const S> v, S& result) {
   const Pattern& pattern = patterns_[static_cast<std::size_t>(a)];
   set_zero(result);

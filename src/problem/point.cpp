@@ -7,9 +7,17 @@ namespace hbvm {
 
 template <Scalar S>
 Point<S>::Point(const Problem<S>& problem)
-    : problem_(problem), potential_(problem.potential, 1), gradient_(problem, 1), U_(1), v_(problem.m()),
-      g_(problem.nu()), hidden_(problem.nu()), tangential_(problem.m()), multiplier_(problem.nu()),
-      force_(1, problem.m()), row_(1, problem.nu()) {
+    : problem_(problem),
+      potential_(problem.potential, 1),
+      gradient_(problem, 1),
+      U_(1),
+      v_(problem.m()),
+      g_(problem.nu()),
+      hidden_(problem.nu()),
+      tangential_(problem.m()),
+      multiplier_(problem.nu()),
+      force_(1, problem.m()),
+      row_(1, problem.nu()) {
   gram_.matrix().resize(problem.nu(), problem.nu());
 }
 

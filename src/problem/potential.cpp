@@ -1,5 +1,6 @@
 #include "hbvm/problem/potential.hpp"
 
+#include "hbvm/clock.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -7,7 +8,8 @@ namespace hbvm {
 template <Scalar S>
 PotentialEvaluator<S>::Execution::Execution(const Program<S>& code, const Matrix<S>& per_instance,
                                             Matrix<S>& displacement, Index lanes)
-    : program(&code), coefficients(displacement.rows(), per_instance.cols()),
+    : program(&code),
+      coefficients(displacement.rows(), per_instance.cols()),
       registers(code.make_registers(displacement.rows())) {
   for (Index j = 0; j < coefficients.cols(); ++j)
     for (Index i = 0; i < coefficients.rows(); ++i) coefficients(i, j) = per_instance(i / lanes, j);
@@ -21,6 +23,21 @@ PotentialEvaluator<S>::Work::Work(const EffectTerm<S>& term, Index dimension, In
       value(term.value, term.value_coefficients, displacement, lanes),
       gradient(term.gradient, term.gradient_coefficients, displacement, lanes) {}
 
+namespace {
+
+/// One evaluation at a node: the displacements, the program for each body or pair, the sum into the force.
+template <Scalar S>
+OperationCounts operations_of(const EffectTerm<S>& term, Index dimension) {
+  OperationCounts counts;
+  for (const Displacement<S>& x : term.displacements) {
+    counts += operations(x, dimension) + term.gradient.operations();
+    for (const auto& block : x.blocks) counts += weighted_sum(block.weight, dimension);
+  }
+  return counts;
+}
+
+}  // namespace
+
 template <Scalar S>
 PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index lanes)
     : potential_(potential), lanes_(lanes), counts_(potential.terms.size()) {
@@ -28,13 +45,14 @@ PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index l
   for (std::size_t t = 0; t < potential.terms.size(); ++t) {
     const EffectTerm<S>& term = potential.terms[t];
     Work& work = work_.emplace_back(term, potential.dimension, lanes);
+    counts_[t].per_evaluation = operations_of(term, potential.dimension);
     if (!term.constant_force) {
       varying_ = true;
       continue;
     }
     // The same everywhere: evaluated once, here.
     work.gradient.run();
-    counts_[t] = {1, 1};
+    counts_[t].calls = counts_[t].evaluations = 1;
     for (std::size_t n = 0; n < term.displacements.size(); ++n) {
       for (const auto& block : term.displacements[n].blocks) {
         for (Index j = 0; j < potential.dimension; ++j) {
@@ -76,10 +94,11 @@ void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
   for (std::size_t t = 0; t < potential_.terms.size(); ++t) {
     const EffectTerm<S>& term = potential_.terms[t];
     if (term.constant_force) continue;
+    const double before = timed_ ? elapsed_seconds() : 0;
     displace_all(t, q);
     work_[t].gradient.run();
     ++counts_[t].calls;
-    counts_[t].evaluations += static_cast<std::uint64_t>(work_[t].displacement.rows());
+    counts_[t].evaluations += static_cast<std::uint64_t>(lanes_);
     for (std::size_t n = 0; n < term.displacements.size(); ++n) {
       const Index first_lane = static_cast<Index>(n) * lanes_;
       for (const auto& block : term.displacements[n].blocks) {
@@ -90,6 +109,7 @@ void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
         }
       }
     }
+    if (timed_) counts_[t].seconds += elapsed_seconds() - before;
   }
 }
 

@@ -68,8 +68,11 @@ std::string plot_of(const Panel& panel) {
 std::string gnuplot_script(const Figure& figure, const std::string& svg) {
   const std::size_t count = figure.panels.size();
   std::string text = "set datafile separator ','\nset datafile commentschars '#'\nset minussign\nset encoding utf8\n";
-  text += "set terminal svg size " + std::to_string(480 * count) + ",420 enhanced background rgb 'white' font 'sans,13'\n";
-  text += "set output " + quoted(svg) + "\nset grid lc rgb '#dddddd'\nset tics font ',10'\nset offsets graph 0.02,0.02,0.02,0.02\nset key bottom center outside horizontal\n";
+  text +=
+      "set terminal svg size " + std::to_string(480 * count) + ",420 enhanced background rgb 'white' font 'sans,13'\n";
+  text += "set output " + quoted(svg) +
+          "\nset grid lc rgb '#dddddd'\nset tics font ',10'\nset offsets graph 0.02,0.02,0.02,0.02\nset key bottom "
+          "center outside horizontal\n";
   text += "set multiplot layout 1," + std::to_string(count) + "\n";
   for (const Panel& panel : figure.panels) text += plot_of(panel);
   return text + "unset multiplot\n";

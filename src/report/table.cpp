@@ -60,8 +60,7 @@ std::string to_latex(const Table& table) {
   text += "\\begin{table}[t]\n\\caption{" + table.caption + "}\n\\smallskip\\small\n\\centerline{\n\\begin{tabular}{|" +
           std::string(names.size(), 'c') + "|}\n\\hline\n";
   for (const auto& group : table.groups) {
-    if (!group.heading.empty())
-      text += "\\multicolumn{" + span + "}{|c|}{$" + group.heading + "$}\\\\\n\\hline\n";
+    if (!group.heading.empty()) text += "\\multicolumn{" + span + "}{|c|}{$" + group.heading + "$}\\\\\n\\hline\n";
     text += joined(names, " & ") + "\\\\\n\\hline\n";
     for (const auto& row : group.rows) text += joined(row, " & ") + "\\\\\n";
     text += "\\hline\n\\hline\n";

@@ -58,7 +58,8 @@ class Encloser {
         mpfr_const_pi(raw(r.low), MPFR_RNDD);
         mpfr_const_pi(raw(r.high), MPFR_RNDU);
         return r;
-      case Kind::name: return named(node.text);
+      case Kind::name:
+        return named(node.text);
       case Kind::negate: {
         const Interval a = value(*node.left);
         mpfr_neg(raw(r.low), raw(a.high), MPFR_RNDD);
@@ -77,28 +78,33 @@ class Encloser {
         mpfr_sub(raw(r.high), raw(a.high), raw(b.low), MPFR_RNDU);
         return r;
       }
-      case Kind::multiply: return corners(value(*node.left), value(*node.right), mpfr_mul);
+      case Kind::multiply:
+        return corners(value(*node.left), value(*node.right), mpfr_mul);
       case Kind::divide: {
         const Interval a = value(*node.left), b = value(*node.right);
         if (holds_zero(b)) no_value("division by 0");
         return corners(a, b, mpfr_div);
       }
-      case Kind::power: return power(value(*node.left), value(*node.right));
+      case Kind::power:
+        return power(value(*node.left), value(*node.right));
       case Kind::sqrt: {
         Interval a = value(*node.left);
         if (mpfr_sgn(raw(a.high)) < 0) throw ExpressionError("square root of a negative number");
         if (mpfr_sgn(raw(a.low)) < 0) take_for_zero(a, "square root of a number near 0");
         return monotone(a, mpfr_sqrt);
       }
-      case Kind::exp: return monotone(value(*node.left), mpfr_exp);
+      case Kind::exp:
+        return monotone(value(*node.left), mpfr_exp);
       case Kind::log: {
         const Interval a = value(*node.left);
         if (mpfr_sgn(raw(a.high)) <= 0) throw ExpressionError("logarithm of a number that is not positive");
         if (mpfr_sgn(raw(a.low)) <= 0) no_value("logarithm of 0");
         return monotone(a, mpfr_log);
       }
-      case Kind::sin: return lipschitz(value(*node.left), mpfr_sin);
-      case Kind::cos: return lipschitz(value(*node.left), mpfr_cos);
+      case Kind::sin:
+        return lipschitz(value(*node.left), mpfr_sin);
+      case Kind::cos:
+        return lipschitz(value(*node.left), mpfr_cos);
     }
     throw ExpressionError("unknown operation");
   }
@@ -194,7 +200,8 @@ class Encloser {
       }
       return r;
     }
-    if (mpfr_sgn(raw(a.high)) < 0) throw ExpressionError("power of a negative number with an exponent that is not whole");
+    if (mpfr_sgn(raw(a.high)) < 0)
+      throw ExpressionError("power of a negative number with an exponent that is not whole");
     // The base may be 0.
     if (mpfr_sgn(raw(b.low)) <= 0) no_value("0 to a power that is not positive");
     if (mpfr_sgn(raw(a.low)) < 0) take_for_zero(a, "power of a number near 0");

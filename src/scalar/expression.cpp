@@ -16,11 +16,8 @@ using NodePtr = std::shared_ptr<const Node>;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-constexpr std::array<std::pair<std::string_view, Kind>, 5> functions{{{"sqrt", Kind::sqrt},
-                                                                      {"sin", Kind::sin},
-                                                                      {"cos", Kind::cos},
-                                                                      {"exp", Kind::exp},
-                                                                      {"log", Kind::log}}};
+constexpr std::array<std::pair<std::string_view, Kind>, 5> functions{
+    {{"sqrt", Kind::sqrt}, {"sin", Kind::sin}, {"cos", Kind::cos}, {"exp", Kind::exp}, {"log", Kind::log}}};
 
 /// Recursive descent over
 ///   sum     = product (('+' | '-') product)*

@@ -14,8 +14,7 @@ Precision Precision::parse(std::string_view name) {
     const std::string_view number = name.substr(prefix.size());
     unsigned digits = 0;
     const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), digits);
-    if (status == std::errc() && end == number.data() + number.size() && digits >= min_digits &&
-        digits <= max_digits)
+    if (status == std::errc() && end == number.data() + number.size() && digits >= min_digits && digits <= max_digits)
       return {Kind::mpfr, digits};
     throw InputError("precision '" + std::string(name) + "': mpfr:N takes a whole number of digits from " +
                      std::to_string(min_digits) + " to " + std::to_string(max_digits));
@@ -25,9 +24,12 @@ Precision Precision::parse(std::string_view name) {
 
 std::string Precision::name() const {
   switch (kind_) {
-    case Kind::binary64: return "double";
-    case Kind::binary128: return "quad";
-    case Kind::mpfr: break;
+    case Kind::binary64:
+      return "double";
+    case Kind::binary128:
+      return "quad";
+    case Kind::mpfr:
+      break;
   }
   return "mpfr:" + std::to_string(digits_);
 }

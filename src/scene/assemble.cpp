@@ -8,6 +8,7 @@
 
 #include "hbvm/problem/constraint_gradient.hpp"
 #include "hbvm/problem/effect/term.hpp"
+#include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 
@@ -19,7 +20,7 @@ class Assembler {
  public:
   explicit Assembler(const Scene& scene) : scene_(scene), d_(scene.dimension) {}
 
-  Assembled<S> assemble() {
+  Assembled<S> assemble(Consistency consistency) {
     problem().dimension = d_;
     for (const ScenePoint& point : scene_.points)
       at_line(point.line, "point '" + point.name + "'", [&] { add(point); });
@@ -36,7 +37,7 @@ class Assembler {
     for (const SceneEffect& effect : scene_.effects)
       at_line(effect.line, "effect " + std::to_string(++number) + " (" + effect.kind + ")", [&] { add(effect); });
     initial_state();
-    check_consistency();
+    if (consistency == Consistency::checked) check_consistency();
     return std::move(result_);
   }
 
@@ -44,8 +45,8 @@ class Assembler {
   /// A body's place among the coordinates, or a point's place in space.
   struct Place {
     std::optional<Index> offset;
-    Vector<S> position;       // of a point
-    std::optional<S> mass;    // scalar
+    Vector<S> position;     // of a point
+    std::optional<S> mass;  // scalar
     Matrix<S> mass_matrix;
     std::optional<S> charge;
   };
@@ -93,6 +94,7 @@ class Assembler {
   void add(const SceneBody& body) {
     Place place;
     place.offset = problem().m();
+    problem().blocks.push_back({*place.offset, true});
     place.charge = number(body.charge);
     if (body.mass) {
       place.mass = number(*body.mass);
@@ -133,6 +135,7 @@ class Assembler {
     const Matrix<S> directors = matrix(body.directors);
     const Vector<S> omega = vector(body.angular_velocity);
     if (!body.fixed) {
+      problem().blocks.push_back({origin, true});
       append(positions_, reference);
       append(velocities_, vector(body.velocity));
     }
@@ -145,6 +148,7 @@ class Assembler {
       const Index offset = origin + 3 * (first + a);
       const Vector<S> director = directors.row(a).transpose();
       append(positions_, director);
+      problem().blocks.push_back({offset, false});
       Vector<S> rate(3);
       for (Index j = 0; j < 3; ++j) {
         const Index k = (j + 1) % 3, l = (j + 2) % 3;
@@ -309,10 +313,10 @@ class Assembler {
       if (block.full)
         for (Index j = 0; j < block.size; ++j) {
           S sum = 0;
-          for (Index l = 0; l < block.size; ++l)
-            sum += magnitude(S(block.W(j, l) * result_.p0[block.offset + l]));
+          for (Index l = 0; l < block.size; ++l) sum += magnitude(S(block.W(j, l) * result_.p0[block.offset + l]));
           raise_to(speed, sum);
         }
+    check_rank();
     ConstraintGradient<S> gradient(p, 1);
     gradient.update(lanes(result_.q0));
     for (Index a = 0; a < p.nu(); ++a) {
@@ -323,6 +327,24 @@ class Assembler {
       gradient.transposed_times(0, a, lanes(v), w);
       report(constraint, a, "velocity", w, S(tolerance * speed * gradient_size(constraint, result_.q0)));
     }
+  }
+
+  /// Redundant constraints leave the multipliers undetermined, contradictory ones leave no state at all.
+  void check_rank() const {
+    const Problem<S>& p = result_.problem;
+    const auto dependence = find_dependence(p, result_.q0);
+    if (!dependence) return;
+    const auto name = [&](Index a) {
+      return "constraint " + std::to_string(a + 1) + " (" + p.constraints[static_cast<std::size_t>(a)].name + ")";
+    };
+    std::string others;
+    for (const Index b : dependence->others) others += (others.empty() ? "" : ", ") + name(b);
+    const auto at_start = value(p.constraints[static_cast<std::size_t>(dependence->constraint)], d_, result_.q0);
+    const bool holds = magnitude(at_start.g) <= S(64) * epsilon<S>() * at_start.size;
+    throw InputError(scene_.name + ": " + name(dependence->constraint) + " is " +
+                     (holds ? "redundant" : "contradictory") + ": at the start its gradient " +
+                     (others.empty() ? std::string("vanishes") : "is a combination of those of " + others) +
+                     (holds ? "" : ", and its residual there is " + to_scientific(at_start.g, 3)));
   }
 
   /// An upper bound of the sum of the magnitudes in grad g.
@@ -358,11 +380,11 @@ class Assembler {
 }  // namespace
 
 template <Scalar S>
-Assembled<S> assemble(const Scene& scene) {
-  return Assembler<S>(scene).assemble();
+Assembled<S> assemble(const Scene& scene, Consistency consistency) {
+  return Assembler<S>(scene).assemble(consistency);
 }
 
-#define HBVM_DEFINE(S) template Assembled<S> assemble<S>(const Scene&);
+#define HBVM_DEFINE(S) template Assembled<S> assemble<S>(const Scene&, Consistency);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

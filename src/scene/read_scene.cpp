@@ -29,6 +29,16 @@ class SceneReader {
     for (const toml::table* table : top.tables("rigid_body")) rigid_body(TomlTable(source_, *table, "rigid_body"));
     for (const toml::table* table : top.tables("constraint")) constraint(TomlTable(source_, *table, "constraint"));
     for (const toml::table* table : top.tables("effect")) effect(TomlTable(source_, *table, "effect"));
+    if (const toml::node* const node = top.take("observables")) {
+      scene_.observables = top.strings("observables");
+      const std::vector<std::string> known{"energy", "linear_momentum", "angular_momentum"};
+      for (const std::string& name : scene_.observables)
+        if (std::count(known.begin(), known.end(), name) == 0) {
+          const std::string guess = nearest(name, known);
+          top.fail(*node,
+                   "unknown observable '" + name + "'" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
+        }
+    }
     top.finish();
     if (scene_.bodies.empty() && scene_.rigid_bodies.empty()) top.fail("there is no [[body]]");
   }
@@ -199,7 +209,8 @@ class SceneReader {
   void acts(TomlTable& table, SceneEffect& e, Acts acts) const {
     if (acts == Acts::about_a_center) {
       e.center = table.string("center");
-      if (!points_.contains(e.center)) table.fail("'center' must name a [[point]]; there is none called '" + e.center + "'");
+      if (!points_.contains(e.center))
+        table.fail("'center' must name a [[point]]; there is none called '" + e.center + "'");
     }
     if (acts != Acts::between_pairs) {
       table.take("on");
@@ -226,7 +237,8 @@ class SceneReader {
       const std::string a = table.to_string((*names)[0], "each name"), b = table.to_string((*names)[1], "each name");
       check_pair(table, "between", a, b);
       for (const auto& [x, y] : *e.between)
-        if ((x == a && y == b) || (x == b && y == a)) table.fail(entry, "the pair '" + a + "', '" + b + "' stands twice");
+        if ((x == a && y == b) || (x == b && y == a))
+          table.fail(entry, "the pair '" + a + "', '" + b + "' stands twice");
       e.between->emplace_back(a, b);
     }
   }

@@ -141,8 +141,7 @@ SceneMatrix TomlTable::matrix(std::string_view key, std::size_t size) {
   const toml::node& node = require(key);
   const std::string where = "'" + std::string(key) + "'";
   const toml::array* const array = node.as_array();
-  if (!array || array->size() != size)
-    fail(node, where + " must be an array of " + std::to_string(size) + " rows");
+  if (!array || array->size() != size) fail(node, where + " must be an array of " + std::to_string(size) + " rows");
   SceneMatrix result;
   for (const toml::node& row : *array)
     result.push_back(to_vector(row, size, "row " + std::to_string(result.size() + 1) + " of " + where));

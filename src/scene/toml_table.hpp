@@ -1,11 +1,11 @@
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <toml++/toml.h>
 
 #include "hbvm/scalar/expression.hpp"
 #include "hbvm/scene/scene.hpp"

@@ -11,8 +11,12 @@ namespace hbvm {
 
 template <Scalar S>
 FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, const S& step, Order order)
-    : equations_(problem, method, step), order_(order), x_(equations_.make_unknowns()), gamma_before_(x_.gamma),
-      psi_before_(x_.psi), continued_(method.s + 1, problem.m()) {
+    : equations_(problem, method, step),
+      order_(order),
+      x_(equations_.make_unknowns()),
+      gamma_before_(x_.gamma),
+      psi_before_(x_.psi),
+      continued_(method.s + 1, problem.m()) {
   const Index C = 4 * (method.k + 3 * method.s + problem.m() + method.s * problem.nu());
   tolerance_ = S(static_cast<long>(C)) * epsilon<S>();
 }
@@ -81,7 +85,8 @@ long FixedPoint<S>::iterate() {
   long waiting = 0;
   for (long sweeps = 1;; ++sweeps) {
     if (!sweep())
-      throw StageFailure("the linear system (lam) for the multipliers is singular", to_scientific(increment, 3), sweeps);
+      throw StageFailure("the linear system (lam) for the multipliers is singular", to_scientific(increment, 3),
+                         sweeps);
     S size = max_norm(equations_.p0());
     raise_to(size, max_norm(x_.gamma));
     raise_to(size, S(h * std::max(max_norm(x_.psi), max_norm(x_.zeta))));
@@ -95,8 +100,7 @@ long FixedPoint<S>::iterate() {
     }
     const bool below_round_off = increment <= size * epsilon<S>() / 8;
     if (increment != 0) increment /= std::max(size, position_scale_);
-    if (!is_finite(increment))
-      throw StageFailure("an iterate is not finite", to_scientific(increment, 3), sweeps);
+    if (!is_finite(increment)) throw StageFailure("an iterate is not finite", to_scientific(increment, 3), sweeps);
     // In the paper's order psi lags by a sweep, so that a small first increment would not mean convergence.
     if (below_round_off && sweeps > 1) return sweeps;
     if (sweeps == 1 || increment < least) {

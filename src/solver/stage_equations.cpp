@@ -1,5 +1,6 @@
 #include "hbvm/solver/stage_equations.hpp"
 
+#include "hbvm/clock.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
@@ -7,7 +8,10 @@ namespace hbvm {
 
 template <Scalar S>
 StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
-    : problem_(problem), method_(method), h_(step), potential_(problem.potential, method.k),
+    : problem_(problem),
+      method_(method),
+      h_(step),
+      potential_(problem.potential, method.k),
       gradient_(problem, method.s) {
   const Index s = method.s, m = problem.m(), n = s * problem.nu();
   velocity_.resize(s, m);
@@ -17,6 +21,74 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
   rhs_momentum_.resize(s, m);
   system_.matrix().resize(n, n);
   rhs_.resize(n);
+  describe_parts();
+}
+
+template <Scalar S>
+class StageEquations<S>::Call {
+ public:
+  Call(StageEquations& equations, Part part)
+      : part_(equations.parts_[part]), timed_(equations.timed_), before_(timed_ ? elapsed_seconds() : 0) {
+    ++part_.calls;
+  }
+  ~Call() {
+    if (timed_) part_.seconds += elapsed_seconds() - before_;
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+ private:
+  PartCount& part_;
+  bool timed_;
+  double before_;
+};
+
+template <Scalar S>
+void StageEquations<S>::measure_time() {
+  timed_ = true;
+  potential_.measure_time();
+}
+
+template <Scalar S>
+void StageEquations<S>::describe_parts() {
+  const Index s = method_.s, k = method_.k, m = problem_.m(), nu = problem_.nu(), n = s * nu;
+  parts_ = {{"velocities h M^-1 gamma"}, {"positions at c"},    {"positions at c_hat"},       {"coefficients psi_hat"},
+            {"constraint gradients"},    {"matrix of (lam)"},   {"right-hand side of (lam)"}, {"solution of (lam)"},
+            {"coefficients zeta"},       {"coefficients gamma"}};
+  const auto stages = static_cast<std::uint64_t>(s);
+  parts_[velocities].per_call = stages * problem_.mass.operations();
+  parts_[velocities].per_call.add(Op::multiply, s * m);
+  for (const auto& [part, rows] : {std::pair(node_positions, s), std::pair(quadrature_positions, k)}) {
+    parts_[part].per_call.add_products(rows * s * m);
+    parts_[part].per_call.add(Op::add, rows * m);
+  }
+  if (potential_.has_varying_force()) parts_[projection].per_call.add_products(s * k * m);
+  parts_[projection].per_call.add(Op::add, m);
+  parts_[gradients].per_call = gradient_.operations();
+  for (const auto& pair : gradient_.couplings()) {
+    parts_[matrix].per_call.add_products(s * s * static_cast<Index>(pair.terms.size()));
+    parts_[matrix].per_call.add(Op::multiply, s * s);
+  }
+  OperationCounts& rhs = parts_[right_hand_side].per_call;
+  rhs = stages * problem_.mass.operations();
+  rhs.add_products(s * s * m + s * gradient_.stored());
+  rhs.add(Op::add, s * m);
+  rhs.add(Op::reciprocal, m);
+  OperationCounts& lu = parts_[solution].per_call;
+  for (Index i = 1; i < n; ++i) {
+    lu.add(Op::reciprocal, i);
+    lu.add(Op::multiply, i * i);
+    lu.add(Op::subtract, i * i);
+  }
+  lu.add(Op::multiply, n * (n - 1));
+  lu.add(Op::subtract, n * (n - 1));
+  lu.add(Op::reciprocal, n);
+  parts_[zetas].per_call.add_products(s * gradient_.stored() + s * s * m);
+  OperationCounts& gamma = parts_[gammas].per_call;
+  gamma.add(Op::subtract, s * m);
+  gamma.add(Op::multiply, 2 * s * m);
+  gamma.add_products((s - 1) * m);
+  gamma.add(Op::add, m);
 }
 
 template <Scalar S>
@@ -34,6 +106,7 @@ void StageEquations<S>::start(const Vector<S>& q0, const Vector<S>& p0) {
 
 template <Scalar S>
 void StageEquations<S>::move(const Matrix<S>& gamma) {
+  const Call call(*this, velocities);
   problem_.mass.velocity(lanes(gamma), lanes(velocity_));
   for (Index i = 0; i < velocity_.size(); ++i) set_product(h_velocity_.data()[i], h_, velocity_.data()[i]);
 }
@@ -48,8 +121,12 @@ void StageEquations<S>::positions(const Matrix<S>& integrals, Matrix<S>& u) {
 template <Scalar S>
 void StageEquations<S>::forces(Matrix<S>& psi) {
   if (potential_.has_varying_force()) {
-    positions(method_.I_hat, u_hat_);
+    {
+      const Call call(*this, quadrature_positions);
+      positions(method_.I_hat, u_hat_);
+    }
     potential_.varying_force(lanes(u_hat_), force_);
+    const Call call(*this, projection);
     product(psi, method_.projection_hat, force_);
   } else {
     for (Index i = 0; i < psi.size(); ++i) set_zero(psi.data()[i]);
@@ -63,21 +140,48 @@ template <Scalar S>
 bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta) {
   const Index nu = problem_.nu(), s = method_.s;
   if (nu == 0) return true;
-  positions(method_.I_s, u_);
-  gradient_.update(lanes(u_));
+  {
+    const Call call(*this, node_positions);
+    positions(method_.I_s, u_);
+  }
+  {
+    const Call call(*this, gradients);
+    gradient_.update(lanes(u_));
+  }
+  set_up(psi);
+  {
+    const Call call(*this, solution);
+    if (!system_.factor()) return false;
+    system_.solve(rhs_);
+  }
+  const Call call(*this, zetas);
+  for (Index i = 0; i < s; ++i)
+    for (Index b = 0; b < nu; ++b) set(lambda(i, b), rhs_[i * nu + b]);
+  for (Index i = 0; i < w_.size(); ++i) set_zero(w_.data()[i]);
+  gradient_.add_times(lambda, lanes(w_));
+  product(zeta, method_.projection, w_);
+  return true;
+}
 
+template <Scalar S>
+void StageEquations<S>::set_up(const Matrix<S>& psi) {
+  const Index nu = problem_.nu(), s = method_.s;
   // (lam) divided by h: sum_j a_ij grad g_i^T M^-1 grad g_j lambda_j = grad g_i^T M^-1 (p0/h + sum_j I_ij psi_j)
-  Matrix<S>& a = system_.matrix();
-  for (Index i = 0; i < a.size(); ++i) set_zero(a.data()[i]);
-  for (const auto& pair : gradient_.couplings()) {
-    for (Index j = 0; j < s; ++j) {
-      for (Index i = 0; i < s; ++i) {
-        S& entry = a(i * nu + pair.a, j * nu + pair.b);
-        gradient_.coupling(pair, i, j, entry);
-        set_product(entry, entry, method_.A(i, j));
+  {
+    const Call call(*this, matrix);
+    Matrix<S>& a = system_.matrix();
+    for (Index i = 0; i < a.size(); ++i) set_zero(a.data()[i]);
+    for (const auto& pair : gradient_.couplings()) {
+      for (Index j = 0; j < s; ++j) {
+        for (Index i = 0; i < s; ++i) {
+          S& entry = a(i * nu + pair.a, j * nu + pair.b);
+          gradient_.coupling(pair, i, j, entry);
+          set_product(entry, entry, method_.A(i, j));
+        }
       }
     }
   }
+  const Call call(*this, right_hand_side);
   product(rhs_momentum_, method_.I_s, psi);
   for (Index j = 0; j < rhs_momentum_.cols(); ++j) {
     set_quotient(t_, (*p0_)[j], h_);
@@ -86,19 +190,11 @@ bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Mat
   problem_.mass.velocity(lanes(rhs_momentum_), lanes(w_));
   for (Index i = 0; i < s; ++i)
     for (Index b = 0; b < nu; ++b) gradient_.transposed_times(i, b, lanes(w_), rhs_[i * nu + b]);
-  if (!system_.factor()) return false;
-  system_.solve(rhs_);
-  for (Index i = 0; i < s; ++i)
-    for (Index b = 0; b < nu; ++b) set(lambda(i, b), rhs_[i * nu + b]);
-
-  for (Index i = 0; i < w_.size(); ++i) set_zero(w_.data()[i]);
-  gradient_.add_times(lambda, lanes(w_));
-  product(zeta, method_.projection, w_);
-  return true;
 }
 
 template <Scalar S>
 void StageEquations<S>::momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
+  const Call call(*this, gammas);
   const Index s = method_.s;
   const Matrix<S>& X = method_.X_s;
   for (Index i = 0; i < w_.size(); ++i) set_difference(w_.data()[i], psi.data()[i], zeta.data()[i]);

@@ -20,7 +20,7 @@ std::unique_ptr<StageSolver<S>> make_solver(SolverKind kind, const Problem<S>& p
                                          kind == SolverKind::paper ? Order::paper : Order::newest);
 }
 
-#define HBVM_DEFINE(S)                                                                                \
+#define HBVM_DEFINE(S) \
   template std::unique_ptr<StageSolver<S>> make_solver<S>(SolverKind, const Problem<S>&, const Hbvm<S>&, const S&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

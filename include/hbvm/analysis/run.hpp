@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/analysis/account.hpp"
 #include "hbvm/method/method_name.hpp"
 #include "hbvm/scalar/precision.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -20,24 +21,35 @@ struct RunRequest {
   SolverKind solver = SolverKind::fixed_point;
   Expression step, until;
   Precision precision;
+  bool account = false;  ///< measure where the time goes
+};
+
+/// A quantity the exact motion conserves: its value at the start and its greatest change over the mesh.
+struct Observed {
+  std::string name, initial, drift;
 };
 
 /// What came out, every number of the working precision as decimal text that reads back exactly.
 struct RunResult {
+  MethodName method;            ///< with k as chosen
+  std::string chosen_because;   ///< empty unless k was chosen
+  bool choice_verified = true;  ///< at the last step more nodes would have changed nothing either
   std::string step, t;
   long steps = 0;
-  std::vector<std::string> q, p, lambda;                ///< lambda: (lagmul)
-  std::vector<std::string> output_p, output_lambda;     ///< the output state
-  std::string output_delta_H;                           ///< H(q, output p) - H_0
+  std::vector<std::string> q, p, lambda;             ///< lambda: (lagmul)
+  std::vector<std::string> output_p, output_lambda;  ///< the output state
+  std::string output_delta_H;                        ///< H(q, output p) - H_0
   std::string e_H, e_g, e_hid;
   double iterations_per_step = 0, cpu_seconds = 0;
+  Account account;
+  std::vector<Observed> observables;  ///< those the scene names: the energy, conserved components of momenta
 };
 
 struct RunHooks {
   std::function<std::unique_ptr<std::ostream>()> open_csv;  ///< called once the request is known to be right
-  std::vector<std::string> provenance;             ///< comment lines of the CSV
-  long every = 1;                                  ///< mesh points a CSV line
-  std::function<void(long, long)> progress;        ///< (steps made, of)
+  std::vector<std::string> provenance;                      ///< comment lines of the CSV
+  long every = 1;                                           ///< mesh points a CSV line
+  std::function<void(long, long)> progress;                 ///< (steps made, of)
 };
 
 /// \throws InputError, IntegrationError

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "hbvm/analysis/account.hpp"
 #include "hbvm/integrate/drift.hpp"
 #include "hbvm/scene/assemble.hpp"
 
@@ -14,16 +15,23 @@ struct Simulated {
   S H0, e_H, e_g, e_hid;
 };
 
-/// Integrates an assembled scene with its drift observed, beside further observers.
+/// Integrates an assembled scene with its drift observed, beside further observers. With `account`, the time of effects
+/// and parts of the solver is measured, too.
 /// \throws StepError, IntegrationError
 template <Scalar S>
 Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKind solver, const TimeGrid<S>& grid,
-                      std::vector<Observer<S>*> observers = {}) {
+                      std::vector<Observer<S>*> observers = {}, Account* account = nullptr) {
   Drift<S> drift(scene.problem);
   observers.insert(observers.begin(), &drift);
   Stepper<S> stepper(scene.problem, method, grid.step(), solver);
+  if (account) stepper.solver().measure_time();
   State<S> state(scene.q0, scene.p0);
   Integration<S> integration = integrate(stepper, state, grid, observers);
+  if (account) {
+    *account = account_of(stepper.solver().equations());
+    account->steps = static_cast<std::uint64_t>(integration.steps);
+    account->sweeps = static_cast<std::uint64_t>(integration.sweeps);
+  }
   return {std::move(integration), drift.H0(), drift.e_H(), drift.e_g(), drift.e_hid()};
 }
 

@@ -15,12 +15,12 @@ namespace hbvm {
 /// One row of the paper's tables: runs i and i + 1 compared. Numbers have three digits; absent where there is none.
 struct HalvingRow {
   int i = 0;
-  std::string e_y;       ///< |y_i(T) - y_{i+1}(T)|_max with y = (q, p), at the end point only
-  std::string e_lambda;  ///< the same for (lagmul)
+  std::string e_y;              ///< |y_i(T) - y_{i+1}(T)|_max with y = (q, p), at the end point only
+  std::string e_lambda;         ///< the same for (lagmul)
   std::string e_hid, e_g, e_H;  ///< maxima over the mesh of the finer run, i + 1
   /// log2 of the quotient of the row above and this one, to one decimal; "***" if this row's error is round-off.
   std::optional<std::string> rate_y, rate_lambda, rate_hid, rate_H;
-  long steps = 0;        ///< of the finer run
+  long steps = 0;  ///< of the finer run
   /// Each error over epsilon times the size of what it is an error of.
   double ulps_lambda = 0, ulps_hid = 0, ulps_g = 0, ulps_H = 0;
 
@@ -33,7 +33,7 @@ struct HalvingRequest {
   const Scene* scene = nullptr;
   MethodName method;
   SolverKind solver = SolverKind::fixed_point;
-  Expression step;   ///< in terms of i and the scene's constants
+  Expression step;  ///< in terms of i and the scene's constants
   Expression until;
   int first = 0, last = 0;
 };

@@ -23,10 +23,10 @@ S xi(int j);
 template <Scalar S>
 Matrix<S> X_matrix(int s);
 
-#define HBVM_DECLARE(S)                                                      \
-  extern template Matrix<S> legendre_values<S>(const Vector<S>&, int);       \
-  extern template Matrix<S> legendre_integrals<S>(const Vector<S>&, int);    \
-  extern template S xi<S>(int);                                              \
+#define HBVM_DECLARE(S)                                                   \
+  extern template Matrix<S> legendre_values<S>(const Vector<S>&, int);    \
+  extern template Matrix<S> legendre_integrals<S>(const Vector<S>&, int); \
+  extern template S xi<S>(int);                                           \
   extern template Matrix<S> X_matrix<S>(int);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

@@ -51,8 +51,8 @@ template <Scalar S>
 Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
                          const std::vector<Observer<S>*>& observers);
 
-#define HBVM_DECLARE(S)                                                                            \
-  extern template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&,          \
+#define HBVM_DECLARE(S)                                                                   \
+  extern template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&, \
                                               const std::vector<Observer<S>*>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

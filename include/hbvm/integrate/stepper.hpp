@@ -23,6 +23,7 @@ class Stepper {
   Stepper(const Problem<S>& problem, const Hbvm<S>& method, const S& step, SolverKind solver);
 
   const Problem<S>& problem() const { return problem_; }
+  StageSolver<S>& solver() { return *solver_; }
 
   /// Advances the state by (q1p1new), q1 = q0 + h M^-1 gamma_0, p1 = p0 + h (psi_0 - zeta_0).
   /// \return sweeps over the stage equations

@@ -17,9 +17,9 @@ void transposed_product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
 template <Scalar S>
 S dot(const Vector<S>& a, const Vector<S>& b);
 
-#define HBVM_DECLARE(S)                                                                            \
-  extern template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);                 \
-  extern template void transposed_product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);      \
+#define HBVM_DECLARE(S)                                                                       \
+  extern template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);            \
+  extern template void transposed_product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
   extern template S dot<S>(const Vector<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

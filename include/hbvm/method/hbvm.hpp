@@ -10,11 +10,11 @@ namespace hbvm {
 template <Scalar S>
 struct Hbvm {
   int k = 0, s = 0;
-  Vector<S> c, b;          ///< the s nodes and weights where the constraints are met
-  Vector<S> c_hat, b_hat;  ///< the k nodes and weights of the potential's integrals (psij)
-  Matrix<S> P_s, I_s;      ///< s x s: P_j(c_i) and int_0^{c_i} P_j
-  Matrix<S> P_hat, I_hat;  ///< k x s: the same at c_hat
-  Matrix<S> X_s;           ///< s x s, tridiagonal: I_s = P_s X_s (IsPs)
+  Vector<S> c, b;            ///< the s nodes and weights where the constraints are met
+  Vector<S> c_hat, b_hat;    ///< the k nodes and weights of the potential's integrals (psij)
+  Matrix<S> P_s, I_s;        ///< s x s: P_j(c_i) and int_0^{c_i} P_j
+  Matrix<S> P_hat, I_hat;    ///< k x s: the same at c_hat
+  Matrix<S> X_s;             ///< s x s, tridiagonal: I_s = P_s X_s (IsPs)
   Matrix<S> projection;      ///< s x s: P_s^T Omega = P_s^{-1}, nodal values to Fourier coefficients
   Matrix<S> projection_hat;  ///< s x k: P_hat^T Omega_hat
   Matrix<S> A;               ///< s x s: I_s P_s^T Omega, the Butcher matrix of the s-stage Gauss method (azzera1)
@@ -25,7 +25,7 @@ struct Hbvm {
 };
 
 /// Every coefficient is computed with guard digits and rounded once.
-/// \throws InputError unless 1 <= s <= k <= max_stages
+/// \throws InputError unless 1 <= s <= k, s <= max_s and k <= max_k
 template <Scalar S>
 Hbvm<S> make_hbvm(int k, int s);
 

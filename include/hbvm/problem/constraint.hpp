@@ -56,9 +56,9 @@ ConstraintValue<S> value(const Constraint<S>& constraint, Index dimension, const
 template <Scalar S>
 S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& v);
 
-#define HBVM_DECLARE(S)                                                                                    \
-  extern template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                          \
-  extern template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);              \
+#define HBVM_DECLARE(S)                                                                       \
+  extern template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);             \
+  extern template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&); \
   extern template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

@@ -16,6 +16,11 @@ class ConstraintGradient {
   /// grad g and M^-1 grad g at q. What is linear in q is not computed again.
   void update(Lanes<const S> q);
 
+  /// The operations of one update, in all lanes.
+  OperationCounts operations() const;
+  /// Numbers stored for grad g in one lane.
+  Index stored() const { return values_.cols(); }
+
   /// (grad g^T v)_a in lane i.
   void transposed_times(Index i, Index a, Lanes<const S> v, S& result);
   /// out += grad g lambda in every lane, with lambda (lanes x nu).

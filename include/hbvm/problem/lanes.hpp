@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
+#include "hbvm/problem/operation_counts.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -16,11 +17,7 @@ struct Lanes {
   T* data;
   Index count;
   T* operator[](Index coordinate) const { return data + coordinate * count; }
-  operator Lanes<const T>() const
-    requires(!std::is_const_v<T>)
-  {
-    return {data, count};
-  }
+  operator Lanes<const T>() const requires(!std::is_const_v<T>) { return {data, count}; }
 };
 
 template <Scalar S>
@@ -63,12 +60,34 @@ void add_weighted(S& r, const S& weight, const S& a, S& t) {
     add_product(r, weight, a, t);
 }
 
+/// The operations of n calls of add_weighted.
+template <Scalar S>
+OperationCounts weighted_sum(const S& weight, Index n) {
+  OperationCounts counts;
+  counts.add(weight == -1 ? Op::subtract : Op::add, n);
+  if (weight != 1 && weight != -1) counts.add(Op::multiply, n);
+  return counts;
+}
+
+/// The operations of one displacement in one lane.
+template <Scalar S>
+OperationCounts operations(const Displacement<S>& x, Index dimension) {
+  OperationCounts counts;
+  for (std::size_t b = 0; b < x.blocks.size(); ++b) {
+    if (b > 0)
+      counts += weighted_sum(x.blocks[b].weight, dimension);
+    else if (x.blocks[b].weight != 1)
+      counts.add(Op::multiply, dimension);
+  }
+  if (x.shift.size() > 0) counts.add(Op::add, dimension);
+  return counts;
+}
+
 /// The displacement at q: component j of lane i goes to out[j * stride + i].
 template <Scalar S>
 void displace(const Displacement<S>& x, Index dimension, Lanes<const S> q, S* out, Index stride);
 
-#define HBVM_DECLARE(S) \
-  extern template void displace<S>(const Displacement<S>&, Index, Lanes<const S>, S*, Index);
+#define HBVM_DECLARE(S) extern template void displace<S>(const Displacement<S>&, Index, Lanes<const S>, S*, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

@@ -13,9 +13,9 @@ class MassMatrix {
  public:
   struct Block {
     Index offset, size;
-    bool full;         ///< M and W are size x size; else mass and inverse_mass hold
+    bool full;  ///< M and W are size x size; else mass and inverse_mass hold
     S mass, inverse_mass;
-    Matrix<S> M, W;    ///< W = M^-1, correctly rounded but for a unit in the last place
+    Matrix<S> M, W;  ///< W = M^-1, correctly rounded but for a unit in the last place
   };
 
   void add_scalar(Index size, const S& mass);
@@ -28,6 +28,17 @@ class MassMatrix {
 
   /// v = M^-1 p in every lane; v must not be p.
   void velocity(Lanes<const S> p, Lanes<S> v) const;
+  /// The operations of velocity() in one lane.
+  OperationCounts operations() const {
+    OperationCounts counts;
+    for (const Block& block : blocks_) {
+      if (block.full)
+        counts.add_products(block.size * block.size);
+      else if (block.mass != 1)
+        counts.add(Op::multiply, block.size);
+    }
+    return counts;
+  }
   /// p = M v.
   Vector<S> momentum(const Vector<S>& v) const;
 

@@ -14,18 +14,21 @@ namespace hbvm {
 template <Scalar S>
 struct EffectTerm {
   std::string kind;
-  int degree = 0;               ///< of U as a polynomial in q; Trace::not_polynomial if it is none
-  Program<S> value;             ///< one output, U, from the d displacements and the coefficients
-  Program<S> gradient;          ///< d outputs, dU/dx
-  bool constant_force = false;  ///< dU/dx does not depend on x
+  int degree = 0;                              ///< of U as a polynomial in q; Trace::not_polynomial if it is none
+  Program<S> value;                            ///< one output, U, from the d displacements and the coefficients
+  Program<S> gradient;                         ///< d outputs, dU/dx
+  bool constant_force = false;                 ///< dU/dx does not depend on x
   std::vector<Displacement<S>> displacements;  ///< one an instance
   Matrix<S> value_coefficients;                ///< instances x coefficients of `value`
   Matrix<S> gradient_coefficients;
 };
 
-/// How often an effect ran: calls, lanes in all (nodes x bodies or pairs).
+/// How often the force of an effect ran: calls, evaluations at a node (each for all bodies or pairs it acts on), and
+/// the operations of one evaluation. `seconds` is measured if asked for.
 struct EffectCount {
   std::uint64_t calls = 0, evaluations = 0;
+  OperationCounts per_evaluation{};
+  double seconds = 0;
 };
 
 /// U(q) of (Hqp), H = 1/2 p^T M^-1 p - U(q), as the sum of the effects a scene names.
@@ -54,6 +57,8 @@ class PotentialEvaluator {
 
   /// How often the force of each term was evaluated.
   const std::vector<EffectCount>& counts() const { return counts_; }
+  /// Also measure the time each takes.
+  void measure_time() { timed_ = true; }
 
  private:
   /// One of a term's two programs with its registers.
@@ -77,7 +82,7 @@ class PotentialEvaluator {
 
   const Potential<S>& potential_;
   Index lanes_;
-  bool varying_ = false;
+  bool varying_ = false, timed_ = false;
   std::deque<Work> work_;
   std::vector<EffectCount> counts_;
   Vector<S> constant_force_;

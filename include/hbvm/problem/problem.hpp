@@ -8,6 +8,13 @@
 
 namespace hbvm {
 
+/// Coordinates offset .. offset + dimension are a vector in space: the position of a body, which translates with space,
+/// or a director of a rigid body, which only turns with it.
+struct SpaceBlock {
+  Index offset;
+  bool translates;
+};
+
 /// The constrained Hamiltonian problem (constrp)
 ///
 ///     H(q, p) = 1/2 p^T M^-1 p - U(q),   g(q) = 0 in R^nu,
@@ -20,6 +27,7 @@ struct Problem {
   MassMatrix<S> mass;
   std::vector<Constraint<S>> constraints;
   Potential<S> potential;
+  std::vector<SpaceBlock> blocks;
 
   Index m() const { return mass.m(); }
   Index nu() const { return static_cast<Index>(constraints.size()); }

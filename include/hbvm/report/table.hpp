@@ -14,7 +14,7 @@ struct Table {
     std::vector<std::vector<std::string>> rows;
   };
   std::string caption;
-  std::vector<std::string> provenance;  ///< what made it: version, command, scene, precision
+  std::vector<std::string> provenance;   ///< what made it: version, command, scene, precision
   std::vector<std::string> key_columns;  ///< columns that only the CSV repeats in each row: "k", "s"
   std::vector<std::string> columns;
   std::vector<Group> groups;

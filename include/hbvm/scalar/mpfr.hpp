@@ -1,15 +1,13 @@
 #pragma once
 
-#include <string>
-
 #include <boost/multiprecision/mpfr.hpp>
+#include <string>
 
 namespace hbvm {
 
 /// Binary floating point with a number of digits chosen at run time: Boost's number over mpfr_t, without
 /// expression templates. New values take the digits of the innermost PrecisionScope of their thread.
-using Mpfr = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<0>,
-                                           boost::multiprecision::et_off>;
+using Mpfr = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<0>, boost::multiprecision::et_off>;
 
 /// The mpfr_t inside, for in-place arithmetic.
 inline mpfr_ptr raw(Mpfr& x) { return x.backend().data(); }
@@ -17,8 +15,8 @@ inline mpfr_srcptr raw(const Mpfr& x) { return x.backend().data(); }
 
 /// Significand bits that new values of this thread have.
 inline int mpfr_working_bits() {
-  return static_cast<int>(boost::multiprecision::detail::digits10_2_2(
-      static_cast<unsigned long>(Mpfr::thread_default_precision())));
+  return static_cast<int>(
+      boost::multiprecision::detail::digits10_2_2(static_cast<unsigned long>(Mpfr::thread_default_precision())));
 }
 
 /// For as long as it lives, new Mpfr values of this thread have `digits` decimal digits, and an assignment keeps
@@ -51,14 +49,14 @@ class PrecisionScope {
 #define HBVM_FORBID_OPERATOR(Result, Number, Binary, op) \
   Result operator op(const Number&, Binary) = delete;    \
   Result operator op(Binary, const Number&) = delete;
-#define HBVM_FORBID_BINARY(Number, Binary)         \
-  HBVM_FORBID_OPERATOR(Number, Number, Binary, +)  \
-  HBVM_FORBID_OPERATOR(Number, Number, Binary, -)  \
-  HBVM_FORBID_OPERATOR(Number, Number, Binary, *)  \
-  HBVM_FORBID_OPERATOR(Number, Number, Binary, /)  \
-  HBVM_FORBID_OPERATOR(bool, Number, Binary, <)    \
-  HBVM_FORBID_OPERATOR(bool, Number, Binary, >)    \
-  HBVM_FORBID_OPERATOR(bool, Number, Binary, <=)   \
+#define HBVM_FORBID_BINARY(Number, Binary)        \
+  HBVM_FORBID_OPERATOR(Number, Number, Binary, +) \
+  HBVM_FORBID_OPERATOR(Number, Number, Binary, -) \
+  HBVM_FORBID_OPERATOR(Number, Number, Binary, *) \
+  HBVM_FORBID_OPERATOR(Number, Number, Binary, /) \
+  HBVM_FORBID_OPERATOR(bool, Number, Binary, <)   \
+  HBVM_FORBID_OPERATOR(bool, Number, Binary, >)   \
+  HBVM_FORBID_OPERATOR(bool, Number, Binary, <=)  \
   HBVM_FORBID_OPERATOR(bool, Number, Binary, >=)
 
 namespace boost::multiprecision {

@@ -7,8 +7,7 @@
 namespace hbvm {
 
 /// IEEE binary128 (113 significand bits, about 34 digits), computed in software by libquadmath.
-using Quad = boost::multiprecision::number<boost::multiprecision::float128_backend,
-                                           boost::multiprecision::et_off>;
+using Quad = boost::multiprecision::number<boost::multiprecision::float128_backend, boost::multiprecision::et_off>;
 
 }  // namespace hbvm
 

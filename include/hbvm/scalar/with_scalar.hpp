@@ -17,9 +17,12 @@ template <class F>
 auto with_scalar(const Precision& precision, F&& f) {
   static_assert(!Scalar<decltype(f.template operator()<double>())>, "return text or a Table, not a scalar");
   switch (precision.kind()) {
-    case Precision::Kind::binary64: return std::forward<F>(f).template operator()<double>();
-    case Precision::Kind::binary128: return std::forward<F>(f).template operator()<Quad>();
-    case Precision::Kind::mpfr: break;
+    case Precision::Kind::binary64:
+      return std::forward<F>(f).template operator()<double>();
+    case Precision::Kind::binary128:
+      return std::forward<F>(f).template operator()<Quad>();
+    case Precision::Kind::mpfr:
+      break;
   }
   const PrecisionScope scope(precision.digits());
   return std::forward<F>(f).template operator()<Mpfr>();

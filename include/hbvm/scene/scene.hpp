@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,10 +28,10 @@ struct ScenePoint {
 
 struct SceneBody {
   std::string name;
-  std::optional<Expression> mass;    ///< scalar, or
+  std::optional<Expression> mass;  ///< scalar, or
   std::optional<SceneMatrix> mass_matrix;
   SceneVector position;
-  SceneVector velocity;              ///< one of velocity and momentum is empty
+  SceneVector velocity;  ///< one of velocity and momentum is empty
   SceneVector momentum;
   std::optional<Expression> charge;
   std::size_t line = 0;
@@ -50,12 +52,12 @@ struct SceneRigidBody {
 };
 
 struct SceneConstraint {
-  std::string kind;                                ///< rod, quadric, plane or angle
-  std::array<std::string, 2> first{}, second{};    ///< rod: first = between; angle: both
-  std::string body;                                ///< quadric, plane
-  SceneMatrix A;                                   ///< quadric
-  SceneVector vector;                              ///< quadric: b; plane: normal
-  std::optional<Expression> number;                ///< rod: length; quadric: c; plane: offset; angle: value
+  std::string kind;                              ///< rod, quadric, plane or angle
+  std::array<std::string, 2> first{}, second{};  ///< rod: first = between; angle: both
+  std::string body;                              ///< quadric, plane
+  SceneMatrix A;                                 ///< quadric
+  SceneVector vector;                            ///< quadric: b; plane: normal
+  std::optional<Expression> number;              ///< rod: length; quadric: c; plane: offset; angle: value
   std::size_t line = 0;
 };
 
@@ -63,9 +65,9 @@ struct SceneEffect {
   std::string kind;
   std::map<std::string, Expression, std::less<>> numbers;
   std::map<std::string, SceneVector, std::less<>> vectors;
-  std::string center;                                                           ///< of an effect about a centre
-  std::optional<std::vector<std::string>> on;                                   ///< all bodies if absent
-  std::optional<std::vector<std::pair<std::string, std::string>>> between;      ///< all pairs if absent
+  std::string center;                                                       ///< of an effect about a centre
+  std::optional<std::vector<std::string>> on;                               ///< all bodies if absent
+  std::optional<std::vector<std::pair<std::string, std::string>>> between;  ///< all pairs if absent
   std::size_t line = 0;
 };
 
@@ -79,6 +81,11 @@ struct Scene {
   std::vector<SceneRigidBody> rigid_bodies;
   std::vector<SceneConstraint> constraints;
   std::vector<SceneEffect> effects;
+  std::vector<std::string> observables;  ///< among energy, linear_momentum, angular_momentum
+
+  bool observes(std::string_view what) const {
+    return std::find(observables.begin(), observables.end(), what) != observables.end();
+  }
 };
 
 /// Reads the TOML text of a scene and checks all that can be checked without computing.

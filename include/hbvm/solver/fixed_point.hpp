@@ -31,6 +31,7 @@ class FixedPoint final : public StageSolver<S> {
   long solve(const Vector<S>& q0, const Vector<S>& p0) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
   const StageEquations<S>& equations() const override { return equations_; }
+  void measure_time() override { equations_.measure_time(); }
 
  private:
   enum class Start { zero, constant, previous };

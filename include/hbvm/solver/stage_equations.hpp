@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/method/hbvm.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"
@@ -13,6 +15,14 @@ struct StageUnknowns {
   Matrix<S> psi;     ///< s x m: psi_hat, coefficients of grad U, (psij)
   Matrix<S> zeta;    ///< s x m: coefficients of grad g lambda, (lim2)
   Matrix<S> lambda;  ///< s x nu: multipliers at the nodes c_i
+};
+
+/// One part of the stage equations: how often it ran, what one call costs, and, if measured, the time it took.
+struct PartCount {
+  const char* name;
+  std::uint64_t calls = 0;
+  OperationCounts per_call{};
+  double seconds = 0;
 };
 
 /// The maps of which the stage equations (dispro1) consist, for steps of one size. Owns all storage they need.
@@ -44,11 +54,32 @@ class StageEquations {
   /// gamma = e_1 p0 + h X_s (psi - zeta), which is (dispro1) by (IsPs).
   void momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
 
-  /// Sweeps over the stage equations since construction.
-  const PotentialEvaluator<S>& potential() const { return potential_; }
+  /// What was done since construction: by effect, and by part (the forces' own work is in the effects').
+  const std::vector<EffectCount>& effect_counts() const { return potential_.counts(); }
+  const std::vector<PartCount>& part_counts() const { return parts_; }
+  /// Also measure the time each takes.
+  void measure_time();
 
  private:
+  enum Part {
+    velocities,
+    node_positions,
+    quadrature_positions,
+    projection,
+    gradients,
+    matrix,
+    right_hand_side,
+    solution,
+    zetas,
+    gammas
+  };
+  /// Counts a call of a part for as long as it lives.
+  class Call;
+  void describe_parts();
+
   void positions(const Matrix<S>& integrals, Matrix<S>& u);
+  /// Matrix and right-hand side of (lam) at the current nodes.
+  void set_up(const Matrix<S>& psi);
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
@@ -63,6 +94,8 @@ class StageEquations {
   Matrix<S> u_, w_, rhs_momentum_;   // s x m
   Vector<S> rhs_;                    // s nu
   S t_;
+  std::vector<PartCount> parts_;
+  bool timed_ = false;
 };
 
 #define HBVM_DECLARE(S) extern template class StageEquations<S>;

@@ -36,6 +36,8 @@ class StageSolver {
   /// The solution, and the equations at it.
   virtual const StageUnknowns<S>& unknowns() const = 0;
   virtual const StageEquations<S>& equations() const = 0;
+  /// Also measure the time that effects and parts of the equations take.
+  virtual void measure_time() = 0;
 };
 
 /// The solvers by the name a user gives them.

@@ -7,8 +7,8 @@
 namespace hbvm {
 
 const char* name_of(Op op) {
-  constexpr std::array<const char*, op_count> names{"add",        "subtract", "multiply", "negate", "abs", "sign",
-                                                    "reciprocal", "sqrt",     "sin",      "cos",    "exp", "log"};
+  constexpr std::array<const char*, op_count> names{"add",    "subtract", "multiply", "negate", "abs", "sign",
+                                                    "divide", "sqrt",     "sin",      "cos",    "exp", "log"};
   return names[static_cast<std::size_t>(op)];
 }
 
@@ -18,30 +18,68 @@ template <Scalar S>
 void apply(Op op, S& r, const S& a) {
   if constexpr (std::same_as<S, Mpfr>) {
     switch (op) {
-      case Op::negate: mpfr_neg(raw(r), raw(a), MPFR_RNDN); break;
-      case Op::abs: mpfr_abs(raw(r), raw(a), MPFR_RNDN); break;
-      case Op::sign: mpfr_set_si(raw(r), mpfr_sgn(raw(a)), MPFR_RNDN); break;
-      case Op::reciprocal: mpfr_ui_div(raw(r), 1, raw(a), MPFR_RNDN); break;
-      case Op::sqrt: mpfr_sqrt(raw(r), raw(a), MPFR_RNDN); break;
-      case Op::sin: mpfr_sin(raw(r), raw(a), MPFR_RNDN); break;
-      case Op::cos: mpfr_cos(raw(r), raw(a), MPFR_RNDN); break;
-      case Op::exp: mpfr_exp(raw(r), raw(a), MPFR_RNDN); break;
-      case Op::log: mpfr_log(raw(r), raw(a), MPFR_RNDN); break;
-      default: break;
+      case Op::negate:
+        mpfr_neg(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::abs:
+        mpfr_abs(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::sign:
+        mpfr_set_si(raw(r), mpfr_sgn(raw(a)), MPFR_RNDN);
+        break;
+      case Op::reciprocal:
+        mpfr_ui_div(raw(r), 1, raw(a), MPFR_RNDN);
+        break;
+      case Op::sqrt:
+        mpfr_sqrt(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::sin:
+        mpfr_sin(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::cos:
+        mpfr_cos(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::exp:
+        mpfr_exp(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::log:
+        mpfr_log(raw(r), raw(a), MPFR_RNDN);
+        break;
+      default:
+        break;
     }
   } else {
     using std::cos, std::exp, std::log, std::sin, std::sqrt;
     switch (op) {
-      case Op::negate: r = -a; break;
-      case Op::abs: r = magnitude(a); break;
-      case Op::sign: r = a > 0 ? 1 : a < 0 ? -1 : 0; break;
-      case Op::reciprocal: r = 1 / a; break;
-      case Op::sqrt: r = sqrt(a); break;
-      case Op::sin: r = sin(a); break;
-      case Op::cos: r = cos(a); break;
-      case Op::exp: r = exp(a); break;
-      case Op::log: r = log(a); break;
-      default: break;
+      case Op::negate:
+        r = -a;
+        break;
+      case Op::abs:
+        r = magnitude(a);
+        break;
+      case Op::sign:
+        r = a > 0 ? 1 : a < 0 ? -1 : 0;
+        break;
+      case Op::reciprocal:
+        r = 1 / a;
+        break;
+      case Op::sqrt:
+        r = sqrt(a);
+        break;
+      case Op::sin:
+        r = sin(a);
+        break;
+      case Op::cos:
+        r = cos(a);
+        break;
+      case Op::exp:
+        r = exp(a);
+        break;
+      case Op::log:
+        r = log(a);
+        break;
+      default:
+        break;
     }
   }
 }
@@ -62,7 +100,7 @@ void binary(Index lanes, S* r, const S* a, bool a_constant, const S* b, bool b_c
 template <Scalar S>
 OperationCounts Program<S>::operations() const {
   OperationCounts counts{};
-  for (const Instruction& i : instructions_) ++counts[static_cast<std::size_t>(i.op)];
+  for (const Instruction& i : instructions_) ++counts[i.op];
   return counts;
 }
 
@@ -71,9 +109,12 @@ void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs) 
   const Index lanes = registers.rows();
   const auto address = [&](const Operand& x) -> const S* {
     switch (x.bank) {
-      case Bank::input: return inputs[x.index];
-      case Bank::constant: return &constants_[x.index];
-      case Bank::temporary: break;
+      case Bank::input:
+        return inputs[x.index];
+      case Bank::constant:
+        return &constants_[x.index];
+      case Bank::temporary:
+        break;
     }
     return registers.data() + lanes * x.index;
   };
@@ -93,9 +134,15 @@ void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs) 
     const S* const b = address(i.b);
     const bool a_constant = i.a.bank == Bank::constant, b_constant = i.b.bank == Bank::constant;
     switch (i.op) {
-      case Op::add: binary(lanes, r, a, a_constant, b, b_constant, set_sum<S>); break;
-      case Op::subtract: binary(lanes, r, a, a_constant, b, b_constant, set_difference<S>); break;
-      default: binary(lanes, r, a, a_constant, b, b_constant, set_product<S>); break;
+      case Op::add:
+        binary(lanes, r, a, a_constant, b, b_constant, set_sum<S>);
+        break;
+      case Op::subtract:
+        binary(lanes, r, a, a_constant, b, b_constant, set_difference<S>);
+        break;
+      default:
+        binary(lanes, r, a, a_constant, b, b_constant, set_product<S>);
+        break;
     }
   }
 }
@@ -105,9 +152,12 @@ const S& Program<S>::output(std::size_t i, Index lane, const Matrix<S>& register
                             const std::vector<const S*>& inputs) const {
   const Operand& x = outputs_[i];
   switch (x.bank) {
-    case Bank::input: return inputs[x.index][lane];
-    case Bank::constant: return constants_[x.index];
-    case Bank::temporary: break;
+    case Bank::input:
+      return inputs[x.index][lane];
+    case Bank::constant:
+      return constants_[x.index];
+    case Bank::temporary:
+      break;
   }
   return registers.data()[registers.rows() * x.index + lane];
 }

@@ -39,8 +39,8 @@ typename Trace<S>::Id Trace<S>::add(Id a, Id b) {
   if (is_constant(a) && is_constant(b)) return constant(nodes_[a].value + nodes_[b].value);
   if (has_coefficient(b) && is_constant(nodes_[b].a, -1)) return subtract(a, nodes_[b].b);
   if (has_coefficient(a) && is_constant(nodes_[a].a, -1)) return subtract(b, nodes_[a].b);
-  const int degree = nodes_[a].degree < 0 || nodes_[b].degree < 0 ? not_polynomial
-                                                                  : std::max(nodes_[a].degree, nodes_[b].degree);
+  const int degree =
+      nodes_[a].degree < 0 || nodes_[b].degree < 0 ? not_polynomial : std::max(nodes_[a].degree, nodes_[b].degree);
   return operation(Op::add, std::min(a, b), std::max(a, b), degree);
 }
 
@@ -50,8 +50,8 @@ typename Trace<S>::Id Trace<S>::subtract(Id a, Id b) {
   if (is_constant(b)) return add(a, constant(S(-nodes_[b].value)));
   if (is_constant(a, 0)) return multiply(constant(S(-1)), b);
   if (has_coefficient(b) && is_constant(nodes_[b].a, -1)) return add(a, nodes_[b].b);
-  const int degree = nodes_[a].degree < 0 || nodes_[b].degree < 0 ? not_polynomial
-                                                                  : std::max(nodes_[a].degree, nodes_[b].degree);
+  const int degree =
+      nodes_[a].degree < 0 || nodes_[b].degree < 0 ? not_polynomial : std::max(nodes_[a].degree, nodes_[b].degree);
   return operation(Op::subtract, a, b, degree);
 }
 
@@ -87,14 +87,22 @@ typename Trace<S>::Id Trace<S>::apply(Op function, Id a) {
   if (is_constant(a)) {
     const S x = nodes_[a].value;
     switch (function) {
-      case Op::abs: return constant(magnitude(x));
-      case Op::reciprocal: return constant(S(1 / x));
-      case Op::sqrt: return constant(S(sqrt(x)));
-      case Op::sin: return constant(S(sin(x)));
-      case Op::cos: return constant(S(cos(x)));
-      case Op::exp: return constant(S(exp(x)));
-      case Op::log: return constant(S(log(x)));
-      default: break;
+      case Op::abs:
+        return constant(magnitude(x));
+      case Op::reciprocal:
+        return constant(S(1 / x));
+      case Op::sqrt:
+        return constant(S(sqrt(x)));
+      case Op::sin:
+        return constant(S(sin(x)));
+      case Op::cos:
+        return constant(S(cos(x)));
+      case Op::exp:
+        return constant(S(exp(x)));
+      case Op::log:
+        return constant(S(log(x)));
+      default:
+        break;
     }
   }
   return operation(function, a, 0, nodes_[a].varies ? not_polynomial : 0);
@@ -130,19 +138,32 @@ std::vector<typename Trace<S>::Id> Trace<S>::gradient(Id output, std::size_t inp
           pass(node.b, multiply(y, node.a));
         }
         break;
-      case Op::negate: pass(node.a, multiply(constant(S(-1)), y)); break;
-      case Op::abs: pass(node.a, multiply(y, apply(Op::sign, node.a))); break;
-      case Op::sign: break;  // constant but at 0
+      case Op::negate:
+        pass(node.a, multiply(constant(S(-1)), y));
+        break;
+      case Op::abs:
+        pass(node.a, multiply(y, apply(Op::sign, node.a)));
+        break;
+      case Op::sign:
+        break;              // constant but at 0
       case Op::reciprocal:  // d(1/x) = -(1/x)^2 dx
         pass(node.a, multiply(multiply(constant(S(-1)), y), multiply(i, i)));
         break;
       case Op::sqrt:  // d sqrt(x) = dx / (2 sqrt(x))
         pass(node.a, multiply(multiply(constant(S(S(1) / 2)), y), apply(Op::reciprocal, i)));
         break;
-      case Op::sin: pass(node.a, multiply(y, apply(Op::cos, node.a))); break;
-      case Op::cos: pass(node.a, multiply(multiply(constant(S(-1)), y), apply(Op::sin, node.a))); break;
-      case Op::exp: pass(node.a, multiply(y, i)); break;
-      case Op::log: pass(node.a, multiply(y, apply(Op::reciprocal, node.a))); break;
+      case Op::sin:
+        pass(node.a, multiply(y, apply(Op::cos, node.a)));
+        break;
+      case Op::cos:
+        pass(node.a, multiply(multiply(constant(S(-1)), y), apply(Op::sin, node.a)));
+        break;
+      case Op::exp:
+        pass(node.a, multiply(y, i));
+        break;
+      case Op::log:
+        pass(node.a, multiply(y, apply(Op::reciprocal, node.a)));
+        break;
     }
   }
   std::vector<Id> result;

@@ -11,9 +11,9 @@ namespace hbvm {
 
 /// What an effect acts on, and so what its displacement x means.
 enum class Acts {
-  on_each_body,   ///< x is the body's position
-  about_a_center, ///< x = body - centre, for every body of `on`
-  between_pairs   ///< x = a - b, for every pair of `between`
+  on_each_body,    ///< x is the body's position
+  about_a_center,  ///< x = body - centre, for every body of `on`
+  between_pairs    ///< x = a - b, for every pair of `between`
 };
 
 /// The keys of an [[effect]] table besides those that say what it acts on.
@@ -27,12 +27,12 @@ struct EffectKey {
 template <class T>
 class Interaction {
  public:
-  std::vector<T> x;                  ///< displacement, one entry a dimension
+  std::vector<T> x;                                            ///< displacement, one entry a dimension
   std::map<std::string, T, std::less<>> numbers;               ///< the effect's scalar keys
   std::map<std::string, std::vector<T>, std::less<>> vectors;  ///< the effect's vector keys
   std::map<std::string, long, std::less<>> whole_numbers;      ///< the scalar keys that are whole
-  std::vector<T> mass_matrix;        ///< of an on_each_body effect: d x d, row by row
-  std::vector<T> masses, charges;    ///< of a, and of b or the centre (a centre has no mass)
+  std::vector<T> mass_matrix;                                  ///< of an on_each_body effect: d x d, row by row
+  std::vector<T> masses, charges;                              ///< of a, and of b or the centre (a centre has no mass)
 
   const T& number(std::string_view key) const { return numbers.find(key)->second; }
   const std::vector<T>& vector(std::string_view key) const { return vectors.find(key)->second; }

@@ -1,20 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
+#include "hbvm/problem/operation_counts.hpp"
 
 namespace hbvm {
-
-/// The operations a formula is made of; the first three take two operands.
-enum class Op : std::uint8_t { add, subtract, multiply, negate, abs, sign, reciprocal, sqrt, sin, cos, exp, log };
-inline constexpr std::size_t op_count = 12;
-const char* name_of(Op op);
-
-/// How often each operation of the working precision is done, indexed by Op.
-using OperationCounts = std::array<std::uint64_t, op_count>;
 
 /// Straight-line code over registers that hold one number per lane (a node of the quadrature, of a body or pair).
 /// It has no branches and allocates nothing when it runs.

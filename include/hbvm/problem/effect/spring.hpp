@@ -13,7 +13,8 @@ struct Spring {
   static constexpr std::string_view kind = "spring";
   static constexpr Acts acts = Acts::between_pairs;
   static constexpr bool needs_mass = false, needs_charge = false;
-  static constexpr std::array<EffectKey, 3> keys{{{"stiffness"}, {"rest_length", false, "0"}, {"exponent", false, "2"}}};
+  static constexpr std::array<EffectKey, 3> keys{
+      {{"stiffness"}, {"rest_length", false, "0"}, {"exponent", false, "2"}}};
 
   template <class T>
   static T U(const Interaction<T>& pair) {
@@ -31,8 +32,8 @@ struct Spring {
       if (pair.whole("rest_length") == 0) return power(pair.squared_distance(), *exponent / 2);
       return power(T(pair.distance() - pair.number("rest_length")), *exponent);
     }
-    const T length = pair.whole("rest_length") == 0 ? pair.distance()
-                                                    : T(abs(pair.distance() - pair.number("rest_length")));
+    const T length =
+        pair.whole("rest_length") == 0 ? pair.distance() : T(abs(pair.distance() - pair.number("rest_length")));
     if (exponent) return power(length, *exponent);
     return exp(pair.number("exponent") * log(length));
   }

@@ -51,9 +51,9 @@ class Trace {
     Op op;          // of an operation
     std::size_t a;  // operands, or the index of a leaf
     std::size_t b;
-    S value;        // of a constant
+    S value;  // of a constant
     int degree;
-    bool varies;    // depends on an input
+    bool varies;  // depends on an input
   };
 
   Id leaf(Kind kind, std::size_t index);

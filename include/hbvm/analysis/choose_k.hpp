@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/scene/assemble.hpp"
+
+namespace hbvm {
+
+/// The number k of quadrature nodes that hbvm:auto,S stands for, and why.
+struct ChosenK {
+  int k = 0;
+  std::string reason;
+};
+
+/// Degree of U as a polynomial in q; nothing if it is none. 0 without effects.
+template <Scalar S>
+std::optional<int> degree_of_U(const Problem<S>& problem);
+
+/// For a polynomial U of degree mu the least k >= s that integrates it exactly, k >= mu s/2, (hDj). Otherwise the least
+/// k for which, at the solutions of the first steps, psi_hat agrees with that of k + s to round-off.
+/// \throws InputError if no k up to max_k will do, StepError if the first steps cannot be made
+template <Scalar S>
+ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind solver);
+
+/// max |psi_hat of k - psi_hat of k + s| at the stages of the step that starts from (q, p), over the round-off of
+/// psi_hat: at most 1 if more nodes would change nothing.
+template <Scalar S>
+S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, const Vector<S>& q,
+                    const Vector<S>& p);
+
+#define HBVM_DECLARE(S)                                                                                       \
+  extern template std::optional<int> degree_of_U<S>(const Problem<S>&);                                       \
+  extern template ChosenK choose_k<S>(const Assembled<S>&, int, const S&, SolverKind);                        \
+  extern template S quadrature_defect<S>(const Problem<S>&, int, int, const S&, SolverKind, const Vector<S>&, \
+                                         const Vector<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

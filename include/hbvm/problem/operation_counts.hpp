@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "hbvm/linear/matrix.hpp"
+
+namespace hbvm {
+
+/// The operations a formula is made of; the first three take two operands.
+enum class Op : std::uint8_t { add, subtract, multiply, negate, abs, sign, reciprocal, sqrt, sin, cos, exp, log };
+inline constexpr std::size_t op_count = 12;
+const char* name_of(Op op);
+
+/// How often each operation of the working precision is done, indexed by Op. (Op::reciprocal counts all divisions.)
+class OperationCounts {
+ public:
+  std::uint64_t& operator[](Op op) { return counts_[static_cast<std::size_t>(op)]; }
+  std::uint64_t operator[](Op op) const { return counts_[static_cast<std::size_t>(op)]; }
+  /// n products, each added to a sum.
+  void add_products(Index n) {
+    (*this)[Op::multiply] += static_cast<std::uint64_t>(n);
+    (*this)[Op::add] += static_cast<std::uint64_t>(n);
+  }
+  void add(Op op, Index n) { (*this)[op] += static_cast<std::uint64_t>(n); }
+  OperationCounts& operator+=(const OperationCounts& other) {
+    for (std::size_t i = 0; i < op_count; ++i) counts_[i] += other.counts_[i];
+    return *this;
+  }
+  friend OperationCounts operator+(OperationCounts a, const OperationCounts& b) { return a += b; }
+  friend OperationCounts operator*(std::uint64_t n, OperationCounts counts) {
+    for (std::uint64_t& count : counts.counts_) count *= n;
+    return counts;
+  }
+  std::uint64_t total() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : counts_) sum += count;
+    return sum;
+  }
+  friend bool operator==(const OperationCounts&, const OperationCounts&) = default;
+
+ private:
+  std::array<std::uint64_t, op_count> counts_{};
+};
+
+}  // namespace hbvm

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "hbvm/scene/assemble.hpp"
+
+namespace hbvm {
+
+/// The scene with the nearest consistent initial state: q minimises (q - q0)^T M (q - q0) under g(q) = 0, then p is
+/// projected to the tangent space there, nearest in the metric M^-1. Positions and velocities are written as decimals
+/// that read back exactly in the working precision.
+/// \throws InputError if the projection does not converge: the scene is too far from consistent, or contradictory
+template <Scalar S>
+Scene project(const Scene& scene);
+
+/// A scene as TOML that read_scene takes back.
+std::string write_scene(const Scene& scene);
+
+#define HBVM_DECLARE(S) extern template Scene project<S>(const Scene&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,69 @@
+#include "hbvm/analysis/describe.hpp"
+
+#include <fmt/format.h>
+
+#include "hbvm/analysis/choose_k.hpp"
+#include "hbvm/problem/momenta.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/problem/regularity.hpp"
+#include "hbvm/scalar/text.hpp"
+#include "hbvm/scalar/with_scalar.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+std::string describe_in(const Scene& scene) {
+  const Assembled<S> assembled = assemble<S>(scene);
+  const Problem<S>& problem = assembled.problem;
+  const auto& q = assembled.q0;
+  const auto& p = assembled.p0;
+  std::string text = fmt::format("{}: {}\n", scene.name, scene.title);
+  const auto line = [&](const std::string& what, const std::string& value) {
+    text += fmt::format("  {:<22}{}\n", what, value);
+  };
+  if (!scene.source.empty()) line("source", scene.source);
+  line("space", fmt::format("{} dimensions", scene.dimension));
+  line("bodies", fmt::format("{}, and {} rigid", scene.bodies.size(), scene.rigid_bodies.size()));
+  line("coordinates m", std::to_string(problem.m()));
+  line("constraints nu", std::to_string(problem.nu()));
+  line("degrees of freedom", std::to_string(problem.m() - problem.nu()));
+  for (Index a = 0; a < problem.nu(); ++a)
+    line(fmt::format("  g_{}", a + 1), problem.constraints[static_cast<std::size_t>(a)].name);
+  if (problem.nu() > 0) line("Gram matrix", fmt::format("condition {:.3g} at the start", gram_condition(problem, q)));
+  if (problem.potential.terms.empty()) line("effects", "none");
+  for (const EffectTerm<S>& term : problem.potential.terms) {
+    const std::string degree = term.degree < 0 ? "not a polynomial" : fmt::format("degree {}", term.degree);
+    line("effect", fmt::format("{}, {} in all, {}{}", term.kind, term.displacements.size(), degree,
+                               term.constant_force ? ", constant force: evaluated once" : ""));
+  }
+  if (const auto degree = degree_of_U(problem))
+    line("U", *degree <= 2
+                  ? fmt::format("polynomial of degree {}: k = s conserves energy exactly", *degree)
+                  : fmt::format("polynomial of degree {}: k >= {}/2 s conserves energy exactly", *degree, *degree));
+  else
+    line("U", "not a polynomial: energy is conserved to O(h^(2k)); hbvm:auto,S takes the k that reaches round-off");
+  Point<S> point(problem);
+  const S H = point.energy(q, p), U = point.energy(q, Vector<S>::Zero(problem.m()));
+  line("energy H", to_text(H));
+  line("  kinetic, potential", to_text(S(H - U)) + ", " + to_text(U));
+  const std::vector<MomentumComponent> conserved = conserved_momenta(problem, q);
+  const auto momentum_line = [&](const MomentumComponent& component) {
+    bool kept = false;
+    for (const auto& c : conserved) kept = kept || (c.angular == component.angular && c.axis == component.axis);
+    line(component.name(),
+         to_text(momentum(problem, component, q, p)) +
+             (kept ? component.angular ? "  conserved by the motion, and by k = s" : "  conserved" : ""));
+  };
+  for (int axis = 0; axis < scene.dimension; ++axis) momentum_line({false, axis});
+  for (int axis = scene.dimension == 2 ? 2 : 0; axis < 3; ++axis) momentum_line({true, axis});
+  return text;
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene, const Precision& precision) {
+  return with_scalar(precision, [&]<Scalar S>() { return describe_in<S>(scene); });
+}
+
+}  // namespace hbvm

@@ -1,0 +1,59 @@
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "hbvm/analysis/describe.hpp"
+#include "hbvm/scalar/with_scalar.hpp"
+#include "hbvm/scene/project.hpp"
+
+namespace hbvm {
+namespace {
+
+struct Options {
+  std::string scene, precision = "double", out;
+};
+
+void project_command(const Options& o) {
+  const Scene scene = load_scene(o.scene);
+  const std::string text = with_scalar(Precision::parse(o.precision), [&]<Scalar S>() {
+    const Scene projected = project<S>(scene);
+    assemble<S>(projected);  // what is written must be accepted
+    return write_scene(projected);
+  });
+  if (o.out.empty()) {
+    std::cout << text;
+    return;
+  }
+  std::ofstream file(o.out);
+  file << text;
+  file.close();
+  if (!file) throw InputError("cannot write '" + o.out + "'");
+}
+
+}  // namespace
+
+void add_scene_command(CLI::App& app) {
+  CLI::App* const scene = app.add_subcommand("scene", "Explain a scene, or make its start consistent");
+  scene->require_subcommand(1);
+  scene->footer("Example: hbvm scene check tethered_satellites");
+  for (const bool check : {true, false}) {
+    auto o = std::make_shared<Options>();
+    CLI::App* const command =
+        check ? scene->add_subcommand("check", "Explain a scene: dimensions, effects, energy, momenta")
+              : scene->add_subcommand("project", "Write the nearest scene whose initial state fulfils the constraints");
+    command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
+    command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
+    if (!check) command->add_option("--out", o->out, "Write to this file instead of standard output");
+    command->footer(check ? "Example: hbvm scene check tethered_satellites --precision quad"
+                          : "Example: hbvm scene project mine.toml --precision mpfr:60 --out consistent.toml");
+    command->callback([o, check] {
+      if (check)
+        std::cout << describe(load_scene(o->scene), Precision::parse(o->precision));
+      else
+        project_command(*o);
+    });
+  }
+}
+
+}  // namespace hbvm

@@ -1,0 +1,109 @@
+#include "hbvm/scene/project.hpp"
+
+#include "hbvm/linear/lu.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+namespace {
+
+/// q with g(q) = 0 nearest to `target` in the metric M. Each sweep minimises the distance under the constraints
+/// linearised at the last q: q = target - M^-1 grad g mu with
+/// grad g^T M^-1 grad g mu = g(q) + grad g^T (target - q).
+template <Scalar S>
+Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, const std::string& name) {
+  const Index nu = problem.nu();
+  Point<S> point(problem);
+  ConstraintGradient<S> gradient(problem, 1);
+  Lu<S> gram;
+  gram.matrix().resize(nu, nu);
+  Vector<S> q = target, next(problem.m()), mu(nu);
+  Matrix<S> row(1, nu);
+  S least = -1;
+  // The convergence is linear, the faster the nearer the target is to the constraints.
+  const int sweeps = 50 + 10 * digits10<S>();
+  for (int sweep = 0, waiting = 0; sweep < sweeps; ++sweep) {
+    gradient.update(lanes(q));
+    const Vector<S> away = target - q;
+    const Vector<S>& g = point.constraints(q);
+    for (Index a = 0; a < nu; ++a) {
+      gradient.transposed_times(0, a, lanes(away), mu[a]);
+      mu[a] += g[a];
+    }
+    gram.matrix().setZero();
+    for (const auto& pair : gradient.couplings()) gradient.coupling(pair, 0, 0, gram.matrix()(pair.a, pair.b));
+    if (!gram.factor()) break;
+    gram.solve(mu);
+    for (Index a = 0; a < nu; ++a) row(0, a) = -mu[a];
+    next = target;
+    gradient.add_weighted_times(row, lanes(next));
+    const S increment = max_norm(Vector<S>(next - q));
+    q = next;
+    if (!is_finite(increment)) break;
+    waiting = least < 0 || increment < least ? 0 : waiting + 1;
+    if (waiting == 0) least = increment;
+    const S tolerance = S(static_cast<long>(16 * (problem.m() + nu))) * epsilon<S>() * max_norm(q);
+    if (increment == 0 || (increment <= tolerance && waiting >= 2)) return q;
+  }
+  throw InputError(name +
+                   ": no consistent position was found near the given one; the constraints may contradict one another");
+}
+
+template <Scalar S>
+SceneVector as_expressions(const Vector<S>& v, Index offset) {
+  SceneVector result;
+  for (Index j = 0; j < 3 && offset + j < v.size(); ++j) result.push_back(Expression::parse(to_text(v[offset + j])));
+  return result;
+}
+
+}  // namespace
+
+template <Scalar S>
+Scene project(const Scene& scene) {
+  Assembled<S> assembled = assemble<S>(scene, Consistency::unchecked);
+  const Problem<S>& problem = assembled.problem;
+  const Vector<S> q = problem.nu() > 0 ? nearest_position(problem, assembled.q0, scene.name) : assembled.q0;
+  Point<S> point(problem);
+  const Vector<S> p = point.tangential(q, assembled.p0);
+  Vector<S> v(problem.m());
+  problem.mass.velocity(lanes(p), lanes(v));
+
+  Scene result = scene;
+  const auto d = static_cast<std::size_t>(scene.dimension);
+  Index offset = 0;
+  const auto take = [&](const Vector<S>& from) {
+    SceneVector text = as_expressions(from, offset);
+    text.erase(text.begin() + static_cast<std::ptrdiff_t>(d), text.end());
+    return text;
+  };
+  for (SceneBody& body : result.bodies) {
+    body.position = take(q);
+    body.velocity = take(v);
+    body.momentum.clear();
+    offset += scene.dimension;
+  }
+  for (SceneRigidBody& body : result.rigid_bodies) {
+    if (!body.fixed) {
+      body.position = take(q);
+      body.velocity = take(v);
+      offset += 3;
+    }
+    // d_a' = omega x d_a gives omega = 1/2 sum d_a x d_a' for orthonormal directors.
+    Vector<S> omega = Vector<S>::Zero(3);
+    for (std::size_t a = 0; a < 3; ++a) {
+      body.directors[a] = take(q);
+      for (Index j = 0; j < 3; ++j) {
+        const Index k = (j + 1) % 3, l = (j + 2) % 3;
+        omega[j] += (q[offset + k] * v[offset + l] - q[offset + l] * v[offset + k]) / 2;
+      }
+      offset += 3;
+    }
+    body.angular_velocity = as_expressions(omega, 0);
+  }
+  return result;
+}
+
+#define HBVM_DEFINE(S) template Scene project<S>(const Scene&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,129 @@
+#include "hbvm/scene/project.hpp"
+
+namespace hbvm {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c;
+  }
+  return result + "\"";
+}
+
+std::string list(const std::vector<std::string>& items) {
+  std::string result = "[";
+  for (std::size_t i = 0; i < items.size(); ++i) result += (i > 0 ? ", " : "") + items[i];
+  return result + "]";
+}
+
+std::string text(const Expression& e) { return quoted(e.text()); }
+
+std::string text(const SceneVector& v) {
+  std::vector<std::string> items;
+  for (const Expression& e : v) items.push_back(text(e));
+  return list(items);
+}
+
+std::string text(const SceneMatrix& a) {
+  std::vector<std::string> items;
+  for (const SceneVector& row : a) items.push_back(text(row));
+  return list(items);
+}
+
+std::string text(const std::vector<std::string>& names) {
+  std::vector<std::string> items;
+  for (const std::string& name : names) items.push_back(quoted(name));
+  return list(items);
+}
+
+std::string text(const std::array<std::string, 2>& pair) {
+  return text(std::vector<std::string>(pair.begin(), pair.end()));
+}
+
+class Writer {
+ public:
+  void table(const std::string& name) { out += "\n[[" + name + "]]\n"; }
+  void key(const std::string& name, const std::string& value) { out += name + " = " + value + "\n"; }
+  void optional(const std::string& name, const std::optional<Expression>& value) {
+    if (value) key(name, text(*value));
+  }
+  std::string out;
+};
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  Writer w;
+  w.key("title", quoted(scene.title));
+  w.key("source", quoted(scene.source));
+  w.key("dimension", std::to_string(scene.dimension));
+  if (!scene.observables.empty()) w.key("observables", text(scene.observables));
+  if (!scene.constants.empty()) {
+    w.out += "\n[constants]\n";
+    for (const auto& [name, value] : scene.constants) w.key(name, text(value));
+  }
+  for (const ScenePoint& p : scene.points) {
+    w.table("point");
+    w.key("name", quoted(p.name));
+    w.key("position", text(p.position));
+    w.optional("charge", p.charge);
+  }
+  for (const SceneBody& b : scene.bodies) {
+    w.table("body");
+    w.key("name", quoted(b.name));
+    w.key("mass", b.mass ? text(*b.mass) : text(*b.mass_matrix));
+    w.key("position", text(b.position));
+    if (!b.velocity.empty()) w.key("velocity", text(b.velocity));
+    if (!b.momentum.empty()) w.key("momentum", text(b.momentum));
+    w.optional("charge", b.charge);
+  }
+  for (const SceneRigidBody& b : scene.rigid_bodies) {
+    w.table("rigid_body");
+    w.key("name", quoted(b.name));
+    w.key(b.fixed ? "fixed_at" : "position", text(b.position));
+    if (!b.fixed) w.key("velocity", text(b.velocity));
+    w.key("mass", text(b.mass));
+    w.key("center", text(b.center));
+    w.key("second_moment", text(b.second_moment));
+    w.key("directors", text(b.directors));
+    w.key("angular_velocity", text(b.angular_velocity));
+  }
+  for (const SceneConstraint& c : scene.constraints) {
+    w.table("constraint");
+    w.key("kind", quoted(c.kind));
+    if (c.kind == "rod") w.key("between", text(c.first));
+    if (c.kind == "angle") {
+      w.key("first", text(c.first));
+      w.key("second", text(c.second));
+    }
+    if (!c.body.empty()) w.key("body", quoted(c.body));
+    if (c.kind == "quadric") w.key("A", text(c.A));
+    if (!c.vector.empty()) w.key(c.kind == "quadric" ? "b" : "normal", text(c.vector));
+    const char* const number = c.kind == "rod"       ? "length"
+                               : c.kind == "quadric" ? "c"
+                               : c.kind == "plane"   ? "offset"
+                                                     : "value";
+    w.optional(number, c.number);
+  }
+  for (const SceneEffect& e : scene.effects) {
+    w.table("effect");
+    w.key("kind", quoted(e.kind));
+    if (!e.center.empty()) w.key("center", quoted(e.center));
+    for (const auto& [name, value] : e.numbers) w.key(name, text(value));
+    for (const auto& [name, value] : e.vectors) w.key(name, text(value));
+    if (e.on) w.key("on", text(*e.on));
+    if (e.between) {
+      std::vector<std::string> pairs;
+      for (const auto& [a, b] : *e.between) pairs.push_back(text(std::vector<std::string>{a, b}));
+      w.key("between", list(pairs));
+    }
+  }
+  return w.out;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,49 @@
+#include "hbvm/report/table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hbvm/report/figure.hpp"
+
+namespace hbvm {
+namespace {
+
+const Table table{"A caption",
+                  {"hbvm 1.2.3"},
+                  {"k", "s"},
+                  {"i", "e_y", "rate_y", "e_lambda"},
+                  {{"s = 1", {"3", "1"}, {{"0", "1.00e-01", "---", "2.0e-1"}, {"1", "2.50e-02", "2.0", "1.0e-1"}}},
+                   {"s = 2", {"4", "2"}, {{"0", "1.00e-03", "***", "7.0e-9"}}}}};
+
+TEST(Table, CsvNamesItsColumnsFirstAndRepeatsTheKeys) {
+  EXPECT_EQ(to_csv(table),
+            "# k,s,i,e_y,rate_y,e_lambda\n# A caption\n# hbvm 1.2.3\n3,1,0,1.00e-01,---,2.0e-1\n"
+            "3,1,1,2.50e-02,2.0,1.0e-1\n4,2,0,1.00e-03,***,7.0e-9\n");
+}
+
+TEST(Table, MarkdownHasATableForEachGroup) {
+  EXPECT_EQ(to_markdown(table),
+            "**A caption**\n\ns = 1\n\n| i | e_y | rate_y | e_lambda |\n|---:|---:|---:|---:|\n"
+            "| 0 | 1.00e-01 | --- | 2.0e-1 |\n| 1 | 2.50e-02 | 2.0 | 1.0e-1 |\n\ns = 2\n\n"
+            "| i | e_y | rate_y | e_lambda |\n|---:|---:|---:|---:|\n| 0 | 1.00e-03 | *** | 7.0e-9 |\n\n"
+            "<!-- hbvm 1.2.3 -->\n");
+}
+
+TEST(Table, LatexHasThePapersLayout) {
+  const std::string text = to_latex(table);
+  EXPECT_NE(text.find("\\multicolumn{4}{|c|}{$s = 1$}\\\\"), std::string::npos);
+  EXPECT_NE(text.find("$i$ & $e_{y}$ & rate & $e_{\\lambda}$\\\\"), std::string::npos);
+  EXPECT_NE(text.find("1 & 2.50e-02 & 2.0 & 1.0e-1\\\\"), std::string::npos);
+  EXPECT_EQ(text.find("% hbvm 1.2.3"), 0u);
+}
+
+TEST(Figure, ScriptQuotesItsTexts) {
+  const Figure figure{"f", "c", {Panel{"the bob's path", "x", "y", "", {{"a file.csv", 2, 3, 0, "q"}}, {{{"1", "2"}, "m"}}, {}, true}}};
+  const std::string script = gnuplot_script(figure, "out.svg");
+  EXPECT_NE(script.find("set title 'the bob''s path'"), std::string::npos);
+  EXPECT_NE(script.find("'a file.csv' using 2:3 with lines"), std::string::npos);
+  EXPECT_NE(script.find("1,2\nEOD"), std::string::npos);
+  EXPECT_NE(script.find("set size ratio -1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hbvm
