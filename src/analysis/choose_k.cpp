@@ -57,8 +57,9 @@ template <Scalar S>
 ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind solver) {
   if (const auto degree = degree_of_U(scene.problem)) {
     const int k = std::max(s, (*degree * s + 1) / 2);
-    return {k, "U is a polynomial of degree " + std::to_string(*degree) + ": k >= " + std::to_string(*degree) +
-                   " s/2 conserves energy exactly"};
+    return {k, "U is a polynomial of degree " + std::to_string(*degree) +
+                   (*degree <= 2 ? ": k = s" : ": k >= " + std::to_string(*degree) + "/2 s") +
+                   " conserves energy exactly"};
   }
   constexpr int first_steps = 16;
   const auto enough = [&](int k) {

@@ -72,7 +72,7 @@ void ConstraintGradient<S>::update(const DisplacementProduct<S>& form, const Pat
       for (Index j = 0; j < d; ++j) {
         S* const column = values_.data() + pattern.column(block.offset + j) * lanes_;
         const S* const factor = other.data() + j * lanes_;
-        for (Index i = 0; i < lanes_; ++i) add_weighted(column[i], block.weight, factor[i], t_);
+        add_weighted(column, block.weight, factor, lanes_, t_);
       }
     }
   };

@@ -9,14 +9,12 @@ void displace(const Displacement<S>& x, Index dimension, Lanes<const S> q, S* ou
     bool first = true;
     for (const auto& block : x.blocks) {
       const S* const column = q[block.offset + j];
-      for (Index i = 0; i < q.count; ++i) {
-        if (!first)
-          add_weighted(out[i], block.weight, column[i], t);
-        else if (block.weight == 1)
-          set(out[i], column[i]);
-        else
-          set_product(out[i], block.weight, column[i]);
-      }
+      if (!first)
+        add_weighted(out, block.weight, column, q.count, t);
+      else if (block.weight == 1)
+        for (Index i = 0; i < q.count; ++i) set(out[i], column[i]);
+      else
+        for (Index i = 0; i < q.count; ++i) set_product(out[i], block.weight, column[i]);
       first = false;
     }
     if (x.shift.size() == 0) continue;

@@ -1,5 +1,7 @@
 #include "hbvm/problem/momenta.hpp"
 
+#include <algorithm>
+
 #include "hbvm/problem/constraint_gradient.hpp"
 
 namespace hbvm {
@@ -61,7 +63,9 @@ template <Scalar S>
 std::vector<MomentumComponent> conserved_momenta(const Problem<S>& problem, const Vector<S>& q) {
   const Index m = problem.m(), d = problem.dimension;
   std::vector<MomentumComponent> candidates;
-  for (int axis = 0; axis < d; ++axis) candidates.push_back({false, axis});
+  const bool translates = std::any_of(problem.blocks.begin(), problem.blocks.end(),
+                                      [](const SpaceBlock& block) { return block.translates; });
+  for (int axis = 0; translates && axis < d; ++axis) candidates.push_back({false, axis});
   for (int axis = d == 2 ? 2 : 0; axis < 3; ++axis) candidates.push_back({true, axis});
 
   ConstraintGradient<S> gradient(problem, 1);

@@ -56,8 +56,8 @@ PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index l
     for (std::size_t n = 0; n < term.displacements.size(); ++n) {
       for (const auto& block : term.displacements[n].blocks) {
         for (Index j = 0; j < potential.dimension; ++j) {
-          add_weighted(constant_force_[block.offset + j], block.weight,
-                       work.gradient.output(j, static_cast<Index>(n) * lanes), t_);
+          add_weighted(&constant_force_[block.offset + j], block.weight,
+                       &work.gradient.output(j, static_cast<Index>(n) * lanes), 1, t_);
         }
       }
     }
@@ -104,8 +104,11 @@ void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
       for (const auto& block : term.displacements[n].blocks) {
         for (Index j = 0; j < potential_.dimension; ++j) {
           S* const f = force.data() + (block.offset + j) * lanes_;
-          for (Index i = 0; i < lanes_; ++i)
-            add_weighted(f[i], block.weight, work_[t].gradient.output(j, first_lane + i), t_);
+          const S& g = work_[t].gradient.output(j, first_lane);
+          if (!term.gradient.is_constant(static_cast<std::size_t>(j)))
+            add_weighted(f, block.weight, &g, lanes_, t_);
+          else
+            for (Index i = 0; i < lanes_; ++i) add_weighted(f + i, block.weight, &g, 1, t_);
         }
       }
     }

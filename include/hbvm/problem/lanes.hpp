@@ -49,18 +49,18 @@ struct Displacement {
   Vector<S> shift;  ///< d entries, or none for 0
 };
 
-/// r += weight a, which for the usual weights 1 and -1 is one addition; `t` is scratch.
+/// r_i += weight a_i for i < count, which for the usual weights 1 and -1 is an addition each; `t` is scratch.
 template <Scalar S>
-void add_weighted(S& r, const S& weight, const S& a, S& t) {
+void add_weighted(S* r, const S& weight, const S* a, Index count, S& t) {
   if (weight == 1)
-    set_sum(r, r, a);
+    for (Index i = 0; i < count; ++i) set_sum(r[i], r[i], a[i]);
   else if (weight == -1)
-    set_difference(r, r, a);
+    for (Index i = 0; i < count; ++i) set_difference(r[i], r[i], a[i]);
   else
-    add_product(r, weight, a, t);
+    for (Index i = 0; i < count; ++i) add_product(r[i], weight, a[i], t);
 }
 
-/// The operations of n calls of add_weighted.
+/// The operations of add_weighted for n numbers.
 template <Scalar S>
 OperationCounts weighted_sum(const S& weight, Index n) {
   OperationCounts counts;

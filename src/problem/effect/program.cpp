@@ -133,15 +133,16 @@ void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs) 
     }
     const S* const b = address(i.b);
     const bool a_constant = i.a.bank == Bank::constant, b_constant = i.b.bank == Bank::constant;
+    // Lambdas rather than function pointers: the loops over lanes are then inlined and vectorised.
     switch (i.op) {
       case Op::add:
-        binary(lanes, r, a, a_constant, b, b_constant, set_sum<S>);
+        binary(lanes, r, a, a_constant, b, b_constant, [](S& z, const S& x, const S& y) { set_sum(z, x, y); });
         break;
       case Op::subtract:
-        binary(lanes, r, a, a_constant, b, b_constant, set_difference<S>);
+        binary(lanes, r, a, a_constant, b, b_constant, [](S& z, const S& x, const S& y) { set_difference(z, x, y); });
         break;
       default:
-        binary(lanes, r, a, a_constant, b, b_constant, set_product<S>);
+        binary(lanes, r, a, a_constant, b, b_constant, [](S& z, const S& x, const S& y) { set_product(z, x, y); });
         break;
     }
   }
