@@ -69,6 +69,8 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   const Simulated<S> simulated =
       simulate(scene, method, request.solver, grid, observers, request.account ? &result.account : nullptr);
 
+  if (csv && !csv->flush()) throw InputError("the trajectory could not be written; is the disk full?");
+
   const Snapshot<S>& end = simulated.integration.end;
   if (request.method.is_auto() && !degree_of_U(scene.problem))
     result.choice_verified = quadrature_defect(scene.problem, result.method.k, result.method.s, grid.step(),

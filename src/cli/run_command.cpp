@@ -99,13 +99,21 @@ std::unique_ptr<std::ostream> open(const std::string& path) {
   return file;
 }
 
+Expression expression(const std::string& what, const std::string& text) {
+  try {
+    return Expression::parse(text);
+  } catch (const ExpressionError& error) {
+    throw InputError(what + " " + error.what());
+  }
+}
+
 void run_command(const Options& o) {
   if (o.every < 1) throw InputError("--every " + std::to_string(o.every) + " is not positive");
   const RunRequest request{load_scene(o.scene),
                            MethodName::parse(o.method),
                            parse_solver(o.solver),
-                           Expression::parse(o.step),
-                           Expression::parse(o.until),
+                           expression("step", o.step),
+                           expression("until", o.until),
                            Precision::parse(o.precision),
                            o.account};
   RunHooks hooks;
