@@ -47,6 +47,7 @@ template <Scalar S>
 RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
   const Assembled<S> scene = assemble<S>(request.scene);
+  std::unique_ptr<std::ostream> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
   RunResult result;
   result.method = request.method;
   if (request.method.is_auto()) {
@@ -58,7 +59,6 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
 
   Progress<S> progress(hooks.progress, grid.steps());
   std::vector<Observer<S>*> observers{&progress};
-  std::unique_ptr<std::ostream> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
   std::optional<Trajectory<S>> trajectory;
   if (csv) {
     trajectory.emplace(scene.problem, *csv, hooks.every, grid.steps(), hooks.provenance);
@@ -69,7 +69,7 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   const Simulated<S> simulated =
       simulate(scene, method, request.solver, grid, observers, request.account ? &result.account : nullptr);
 
-  if (csv && !csv->flush()) throw InputError("the trajectory could not be written; is the disk full?");
+  if (csv && !csv->flush()) throw InputError("cannot write '" + hooks.csv_name + "': is the disk full?");
 
   const Snapshot<S>& end = simulated.integration.end;
   if (request.method.is_auto() && !degree_of_U(scene.problem))

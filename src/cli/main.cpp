@@ -1,6 +1,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 
 #include "commands.hpp"
 #include "hbvm/error.hpp"
@@ -10,7 +11,10 @@ namespace {
 
 enum Exit { ok = 0, failed = 1, bad_input = 2, integration_failed = 3 };
 
-int report(int code, const char* what) {
+/// One line on standard error, whatever the text holds.
+int report(int code, std::string what) {
+  for (char& c : what)
+    if (c == '\n' || c == '\r') c = ' ';
   std::cerr << "hbvm: " << what << '\n';
   return code;
 }
@@ -28,6 +32,11 @@ int main(int argc, char** argv) {
   hbvm::add_scene_command(app);
   hbvm::add_study_command(app);
   try {
+    const auto is_first = [&](CLI::App* command) { return command->get_name() == argv[1]; };
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_first).empty())
+      throw hbvm::InputError("unknown command '" + std::string(argv[1]) + "' (see hbvm --help)");
+    if (argc > 1 && argv[1][0] == '-' && !app.get_option_no_throw(argv[1]))
+      throw hbvm::InputError("unknown option '" + std::string(argv[1]) + "' before a command (see hbvm --help)");
     app.parse(argc, argv);  // runs the subcommand
     return ok;
   } catch (const CLI::Success& request) {  // --help, --version
@@ -35,10 +44,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::RuntimeError& finding) {  // a check that did not hold, already reported
     return finding.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    std::string line = error.what();
-    for (char& c : line)
-      if (c == '\n') c = ' ';
-    return report(bad_input, (line + " (see hbvm --help)").c_str());
+    return report(bad_input, std::string(error.what()) + " (see hbvm --help)");
   } catch (const hbvm::InputError& error) {
     return report(bad_input, error.what());
   } catch (const hbvm::Error& error) {

@@ -2,13 +2,16 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "hbvm/analysis/run.hpp"
+#include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/version.hpp"
 #include "progress_bar.hpp"
 
@@ -17,7 +20,8 @@ namespace {
 
 struct Options {
   std::string scene, method, step, until;
-  std::string precision = "double", solver = "fixed-point", out;
+  std::string precision = "double", solver = "fixed-point";
+  std::optional<std::string> out;
   long every = 1;
   bool json = false, account = false;
 };
@@ -60,7 +64,7 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
     }
   }
   j["version"] = version();
-  return j.dump(2);
+  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // a path need not be UTF-8
 }
 
 void print(const RunRequest& request, const RunResult& result) {
@@ -93,7 +97,9 @@ void print(const RunRequest& request, const RunResult& result) {
   if (request.account) fmt::print("\n{}", to_text(result.account));
 }
 
-std::unique_ptr<std::ostream> open(const std::string& path) {
+std::unique_ptr<std::ostream> open(const std::string& path, const std::string& scene) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(path, scene, ignored)) throw InputError("'" + path + "' is the scene itself");
   auto file = std::make_unique<std::ofstream>(path);
   if (!*file) throw InputError("cannot write '" + path + "': " + std::strerror(errno));
   return file;
@@ -108,7 +114,8 @@ Expression expression(const std::string& what, const std::string& text) {
 }
 
 void run_command(const Options& o) {
-  if (o.every < 1) throw InputError("--every " + std::to_string(o.every) + " is not positive");
+  if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
+    throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
   const RunRequest request{load_scene(o.scene),
                            MethodName::parse(o.method),
                            parse_solver(o.solver),
@@ -120,8 +127,9 @@ void run_command(const Options& o) {
   hooks.every = o.every;
   ProgressBar bar(request.scene.name);
   hooks.progress = [&](long done, long total) { bar.update(done, total); };
-  if (!o.out.empty()) {
-    hooks.open_csv = [&] { return open(o.out); };
+  if (o.out) {
+    hooks.open_csv = [&] { return open(*o.out, o.scene); };
+    hooks.csv_name = *o.out;
     hooks.provenance = {std::string("hbvm ") + version(), "scene " + request.scene.name + ": " + request.scene.title,
                         "command hbvm run " + o.scene + " --method " + request.method.text() + " --step '" + o.step +
                             "' --until '" + o.until + "' --precision " + request.precision.name() + " --solver " +

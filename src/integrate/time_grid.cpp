@@ -25,11 +25,11 @@ template <Scalar S>
 TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Constants& constants)
     : step_(positive<S>(step, constants, "step")), until_(positive<S>(until, constants, "until")) {
   using std::floor;
-  const S quotient = until_ / step_;
+  const S half = S(1) / 2;
+  const S quotient = floor(S(until_ / step_ + half));
   if (!(quotient <= S(max_steps)))
     throw InputError("step '" + step.text() + "' is too small: more than 10^12 steps until '" + until.text() + "'");
-  const S half = S(1) / 2;
-  steps_ = static_cast<long>(S(floor(S(quotient + half))));
+  steps_ = static_cast<long>(quotient);
   const S miss = magnitude(S(S(steps_) * step_ - until_));
   if (steps_ == 0 || miss > 4 * epsilon<S>() * until_)
     throw InputError("step '" + step.text() + "' does not divide the interval: " + std::to_string(steps_) +

@@ -1,5 +1,6 @@
 #include "hbvm/integrate/trajectory.hpp"
 
+#include <algorithm>
 #include <ostream>
 
 #include "hbvm/integrate/output_state.hpp"
@@ -29,7 +30,10 @@ Trajectory<S>::Trajectory(const Problem<S>& problem, std::ostream& out, long eve
   names("output_p", problem.m());
   names("output_lambda", problem.nu());
   out << ",delta_H,g,hidden\n";
-  for (const std::string& line : provenance) out << "# " << line << '\n';
+  for (std::string line : provenance) {
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    out << "# " << line << '\n';
+  }
 }
 
 template <Scalar S>

@@ -9,9 +9,10 @@
 namespace hbvm {
 namespace {
 
-template <Scalar S>
-Matrix<S> rounded(const Matrix<Mpfr>& a) {
-  Matrix<S> r(a.rows(), a.cols());
+/// A matrix or vector, rounded. (Not by way of a Matrix<Mpfr>: the copy would take the digits of the scope.)
+template <Scalar S, class Array>
+auto rounded(const Array& a) {
+  Eigen::Matrix<S, Array::RowsAtCompileTime, Array::ColsAtCompileTime> r(a.rows(), a.cols());
   for (Index i = 0; i < a.size(); ++i) r.data()[i] = rounded_to<S>(raw(a.data()[i]));
   return r;
 }

@@ -17,6 +17,8 @@ void displace(const Displacement<S>& x, Index dimension, Lanes<const S> q, S* ou
         for (Index i = 0; i < q.count; ++i) set_product(out[i], block.weight, column[i]);
       first = false;
     }
+    if (first)
+      for (Index i = 0; i < q.count; ++i) set_zero(out[i]);
     if (x.shift.size() == 0) continue;
     for (Index i = 0; i < q.count; ++i) set_sum(out[i], out[i], x.shift[j]);
   }

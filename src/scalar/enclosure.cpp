@@ -23,14 +23,24 @@ struct Undecided {
   const char* reason;
 };
 
-constexpr long max_exponent = 131'072;
+constexpr long max_exponent = 131'072;  // of values: an argument of this size takes that many bits of pi
+constexpr long min_exponent = -1'000'000'000;
+constexpr int max_depth = 2'000;
 
 }  // namespace
 
 class Encloser {
  public:
-  /// With `last` set, an argument that may be 0 is taken for 0, and what then has no value is an error.
-  Encloser(const Constants& constants, long bits, bool last) : constants_(constants), bits_(bits), last_(last) {}
+  /// An argument between bounds that hold 0 counts as 0 if they have become narrow, or with `last` set; what then has
+  /// no value is an error. Narrow is below 2^-2N, for a result of N bits and from 4 N working bits on.
+  Encloser(const Constants& constants, long bits, int target_bits, bool last)
+      : constants_(constants), bits_(bits), narrow_exponent_(bits >= 4L * target_bits ? -2L * target_bits : min_exponent),
+        last_(last) {}
+
+  bool counts_as_zero(const Interval& a) const {
+    if (!holds_zero(a)) return false;
+    return last_ || (is_below(a.low, narrow_exponent_) && is_below(a.high, narrow_exponent_));
+  }
 
   Interval value(const Expression& expression) { return value(*expression.root_); }
 
@@ -38,13 +48,22 @@ class Encloser {
   Interval fresh() const { return {BigFloat(bits_), BigFloat(bits_)}; }
 
   Interval value(const Node& node) {
+    if (++depth_ > max_depth) throw ExpressionError("the expression and its constants are nested too deeply");
     Interval result = operation(node);
-    for (const BigFloat* bound : {&result.low, &result.high}) {
-      if (!mpfr_number_p(raw(*bound)) ||
-          (mpfr_regular_p(raw(*bound)) && std::labs(mpfr_get_exp(raw(*bound))) > max_exponent))
-        throw ExpressionError("a value outside 2^±131072 comes up");
+    --depth_;
+    const bool low_far = is_too_large(result.low), high_far = is_too_large(result.high);
+    if (low_far || high_far) {
+      // One bound alone may be far away because the bounds are still wide.
+      if (low_far != high_far && !last_) throw Undecided{"value that may be too large"};
+      throw ExpressionError("a value beyond 2^131072 comes up");
     }
     return result;
+  }
+
+  static bool is_too_large(const BigFloat& x) { return !mpfr_number_p(raw(x)) || !is_below(x, max_exponent); }
+
+  static bool is_below(const BigFloat& x, long exponent) {
+    return !mpfr_regular_p(raw(x)) || mpfr_get_exp(raw(x)) <= exponent;
   }
 
   Interval operation(const Node& node) {
@@ -82,7 +101,7 @@ class Encloser {
         return corners(value(*node.left), value(*node.right), mpfr_mul);
       case Kind::divide: {
         const Interval a = value(*node.left), b = value(*node.right);
-        if (holds_zero(b)) no_value("division by 0");
+        if (holds_zero(b)) no_value(b, "division by 0");
         return corners(a, b, mpfr_div);
       }
       case Kind::power:
@@ -98,7 +117,7 @@ class Encloser {
       case Kind::log: {
         const Interval a = value(*node.left);
         if (mpfr_sgn(raw(a.high)) <= 0) throw ExpressionError("logarithm of a number that is not positive");
-        if (mpfr_sgn(raw(a.low)) <= 0) no_value("logarithm of 0");
+        if (mpfr_sgn(raw(a.low)) <= 0) no_value(a, "logarithm of 0");
         return monotone(a, mpfr_log);
       }
       case Kind::sin:
@@ -114,9 +133,7 @@ class Encloser {
     if (known == constants_.end()) throw ExpressionError("unknown name '" + name + "'");
     const auto [entry, fresh_entry] = values_.try_emplace(name);
     if (fresh_entry) {
-      if (++chain_ > 100) throw ExpressionError("the constants refer to one another too deeply at '" + name + "'");
       entry->second = value(known->second);
-      --chain_;
     }
     if (!entry->second) throw ExpressionError("the constant '" + name + "' is defined by itself");
     return *entry->second;
@@ -125,14 +142,14 @@ class Encloser {
   static bool holds_zero(const Interval& a) { return mpfr_sgn(raw(a.low)) <= 0 && mpfr_sgn(raw(a.high)) >= 0; }
   static bool is_point(const Interval& a) { return mpfr_equal_p(raw(a.low), raw(a.high)) != 0; }
 
-  [[noreturn]] void no_value(const char* reason) const {
-    if (last_) throw ExpressionError(reason);
+  [[noreturn]] void no_value(const Interval& a, const char* reason) const {
+    if (counts_as_zero(a)) throw ExpressionError(reason);
     throw Undecided{reason};
   }
 
   /// The bounds reach below 0, where the operation has no value: at the last attempt the argument counts as 0.
   void take_for_zero(Interval& a, const char* reason) const {
-    if (!last_) throw Undecided{reason};
+    if (!counts_as_zero(a)) throw Undecided{reason};
     mpfr_set_zero(raw(a.low), 1);
   }
 
@@ -200,12 +217,21 @@ class Encloser {
       }
       return r;
     }
-    if (mpfr_sgn(raw(a.high)) < 0)
-      throw ExpressionError("power of a negative number with an exponent that is not whole");
+    if (mpfr_sgn(raw(a.high)) < 0) {
+      if (last_ || !holds_whole_number(b))
+        throw ExpressionError("power of a negative number with an exponent that is not whole");
+      throw Undecided{"exponent that may be whole"};
+    }
     // The base may be 0.
-    if (mpfr_sgn(raw(b.low)) <= 0) no_value("0 to a power that is not positive");
+    if (mpfr_sgn(raw(b.low)) <= 0) no_value(a, "0 to a power that is not positive");
     if (mpfr_sgn(raw(a.low)) < 0) take_for_zero(a, "power of a number near 0");
     return corners(a, b, mpfr_pow);
+  }
+
+  static bool holds_whole_number(const Interval& b) {
+    BigFloat next(mpfr_get_prec(raw(b.low)));
+    mpfr_ceil(raw(next), raw(b.low));
+    return mpfr_lessequal_p(raw(next), raw(b.high)) != 0;
   }
 
   static bool is_odd(const BigFloat& whole) {
@@ -216,8 +242,9 @@ class Encloser {
 
   const Constants& constants_;
   long bits_;
+  long narrow_exponent_;
   bool last_;
-  int chain_ = 0;
+  int depth_ = 0;
   std::map<std::string, std::optional<Interval>, std::less<>> values_;
 };
 
@@ -232,28 +259,38 @@ std::optional<BigFloat> common_rounding(const Interval& a, int bits) {
   return low;
 }
 
+/// The bounds agree in far more than `bits` bits.
+bool is_narrow(const Interval& a, int bits) {
+  BigFloat width(32);
+  mpfr_sub(raw(width), raw(a.high), raw(a.low), MPFR_RNDU);
+  return mpfr_zero_p(raw(width)) ||
+         (mpfr_regular_p(raw(a.low)) && mpfr_get_exp(raw(width)) < mpfr_get_exp(raw(a.low)) - 8L * bits);
+}
+
 }  // namespace
 
 BigFloat Expression::evaluate_to_bits(int bits, const Constants& constants) const {
-  const long zero_bits = 4L * bits;
+  // Enough to see every digit of the largest value, and N more of the smallest part of it.
+  const long most_bits = 4L * bits + 2 * max_exponent;
   try {
     for (long guard = 32;; guard *= 2) {
       const long working = bits + guard;
-      const bool last = working >= zero_bits;
+      const bool last = working >= most_bits;
+      Encloser encloser(constants, working, bits, last);
       try {
-        const Interval bounds = Encloser(constants, working, last).value(*this);
+        const Interval bounds = encloser.value(*this);
         if (const auto value = common_rounding(bounds, bits)) return *value;
-        if (!last) continue;
         BigFloat middle(bits);
-        if (mpfr_sgn(raw(bounds.low)) <= 0 && mpfr_sgn(raw(bounds.high)) >= 0) {
+        if (encloser.counts_as_zero(bounds)) {
           mpfr_set_zero(raw(middle), 1);
           return middle;
         }
-        // Not 0, yet the bounds round apart: the truth is half way between two numbers (either will do), or too much
-        // has cancelled and more digits will tell.
-        if (working > 4 * zero_bits) {
-          mpfr_add(raw(middle), raw(bounds.low), raw(bounds.high), MPFR_RNDN);
-          mpfr_div_2ui(raw(middle), raw(middle), 1, MPFR_RNDN);
+        // Not 0, yet the bounds round apart however many digits: the truth is half way between two numbers, and either
+        // will do.
+        if (last || (working > 16L * bits && is_narrow(bounds, bits))) {
+          BigFloat exact_middle(working + 2);
+          mpfr_add(raw(exact_middle), raw(bounds.low), raw(bounds.high), MPFR_RNDN);
+          mpfr_div_2ui(raw(middle), raw(exact_middle), 1, MPFR_RNDN);
           return middle;
         }
       } catch (const Undecided&) {

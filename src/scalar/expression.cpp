@@ -13,6 +13,12 @@ using Node = Expression::Node;
 using Kind = Node::Kind;
 using NodePtr = std::shared_ptr<const Node>;
 
+/// The text in quotes, its beginning if it is long.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t most = 100;
+  return text.size() <= most ? "'" + std::string(text) + "'" : "'" + std::string(text.substr(0, most)) + "...'";
+}
+
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
@@ -43,7 +49,7 @@ class Parser {
 
   [[noreturn]] void fail(const std::string& what) const {
     const std::string found = at_ < text_.size() ? "'" + std::string(1, text_[at_]) + "' " : "the end ";
-    throw ExpressionError("'" + std::string(text_) + "', column " + std::to_string(at_ + 1) + ": " + found + what);
+    throw ExpressionError(quoted(text_) + ", column " + std::to_string(at_ + 1) + ": " + found + what);
   }
 
   NodePtr make(Kind kind, NodePtr left = nullptr, NodePtr right = nullptr, std::string text = {}) {

@@ -14,9 +14,9 @@ struct Decimal {
   long exponent = 0;
 };
 
-Decimal decimal(const BigFloat& x, std::size_t count) {
+Decimal decimal(const BigFloat& x, std::size_t count, mpfr_rnd_t rounding = MPFR_RNDN) {
   mpfr_exp_t exponent = 0;
-  const std::unique_ptr<char, void (*)(char*)> text(mpfr_get_str(nullptr, &exponent, 10, count, raw(x), MPFR_RNDN),
+  const std::unique_ptr<char, void (*)(char*)> text(mpfr_get_str(nullptr, &exponent, 10, count, raw(x), rounding),
                                                     mpfr_free_str);
   std::string digits = text.get();
   const bool negative = digits.front() == '-';
@@ -31,8 +31,9 @@ bool reads_back(const Decimal& d, const BigFloat& x) {
   return mpfr_equal_p(raw(back), raw(x)) != 0;
 }
 
-/// The fewest digits that read back. If d digits do, so do d + 1, which makes a binary search right; most numbers
-/// need nearly all digits, so that the search starts there.
+/// The fewest digits that read back. If d digits do, so do d + 1, which makes a binary search right (but at powers of
+/// two, below which numbers lie denser: so one more look down); most numbers need nearly all digits, so that the search
+/// starts there.
 Decimal shortest(const BigFloat& x) {
   const std::size_t enough = mpfr_get_str_ndigits(10, mpfr_get_prec(raw(x)));
   std::size_t low = 1, high = enough;
@@ -51,6 +52,9 @@ Decimal shortest(const BigFloat& x) {
     else
       low = middle + 1;
   }
+  if (high > 1)
+    for (const mpfr_rnd_t rounding : {MPFR_RNDN, MPFR_RNDU, MPFR_RNDD})
+      if (const Decimal fewer = decimal(x, high - 1, rounding); reads_back(fewer, x)) return fewer;
   return decimal(x, high);
 }
 

@@ -17,6 +17,8 @@ class SceneReader {
 
   void read(const toml::table& root) {
     TomlTable top(source_, root, "scene");
+    top.expect({"title", "source", "dimension", "observables", "constants", "point", "body", "rigid_body", "constraint",
+                "effect"});
     scene_.title = top.optional_string("title");
     scene_.source = top.optional_string("source");
     const long dimension = top.integer("dimension");
@@ -39,7 +41,6 @@ class SceneReader {
                    "unknown observable '" + name + "'" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
         }
     }
-    top.finish();
     if (scene_.bodies.empty() && scene_.rigid_bodies.empty()) top.fail("there is no [[body]]");
   }
 
@@ -87,8 +88,8 @@ class SceneReader {
       b.mass = table.number("mass");
     b.position = table.vector("position", d_);
     if (table.has("velocity") == table.has("momentum")) {
-      table.take("momentum");
-      if (!table.has("momentum")) table.require("velocity");
+      table.take("charge");
+      if (!table.has("velocity")) table.missing({"velocity", "momentum"});
       table.fail("give either 'velocity' or 'momentum'");
     }
     (table.has("velocity") ? b.velocity : b.momentum) =

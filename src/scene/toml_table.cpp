@@ -5,17 +5,37 @@
 namespace hbvm {
 
 TomlSource::TomlSource(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
   line_starts_.push_back(0);
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') line_starts_.push_back(i + 1);
 }
 
 void TomlSource::fail(std::size_t line, const std::string& what) const {
-  throw InputError(name_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
+  std::string message = name_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what;
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';  // one line, whatever the file holds
+  throw InputError(message);
+}
+
+void TomlSource::check_key_depth() const {
+  // The parser recurses into dotted keys without a limit of its own.
+  constexpr int limit = 64;
+  constexpr std::string_view ends = "=\n,[]{}#";  // of a key
+  int dots = 0;
+  std::size_t line = 1;
+  for (const char c : text_) {
+    if (c == '\n') ++line;
+    if (ends.find(c) != std::string_view::npos) dots = 0;
+    if (c == '.') ++dots;
+    if (dots > limit) fail(line, "a dotted key has more than " + std::to_string(limit) + " parts");
+  }
 }
 
 toml::table TomlSource::parse() const {
-  if (const auto mark = text_.find("\xEF\xBB\xBF", 1); mark != std::string::npos)
+  check_key_depth();
+  if (const auto mark = text_.find("\xEF\xBB\xBF"); mark != std::string::npos)
     fail(static_cast<std::size_t>(std::upper_bound(line_starts_.begin(), line_starts_.end(), mark) -
                                   line_starts_.begin()),
          "a byte order mark (U+FEFF) stands inside the file");
@@ -59,14 +79,19 @@ const toml::node* TomlTable::take(std::string_view key) {
 
 const toml::node& TomlTable::require(std::string_view key) {
   const toml::node* const node = take(key);
-  if (!node) {
-    // A misspelt key is more likely than a forgotten one.
-    for (const auto& [present, value] : table_)
-      if (!known_.contains(present.str()) && !nearest(present.str(), {std::string(key)}).empty())
-        fail(value, "unknown key '" + std::string(present.str()) + "': did you mean '" + std::string(key) + "'?");
-    fail("the key '" + std::string(key) + "' is missing");
-  }
+  if (!node) missing({std::string(key)});
   return *node;
+}
+
+void TomlTable::missing(const std::vector<std::string>& keys) const {
+  // A misspelt key is more likely than a forgotten one.
+  for (const auto& [present, value] : table_) {
+    if (known_.contains(present.str())) continue;
+    const std::string guess = nearest(present.str(), keys);
+    if (!guess.empty())
+      fail(value, "unknown key '" + std::string(present.str()) + "': did you mean '" + guess + "'?");
+  }
+  fail("the key '" + keys.front() + "' is missing");
 }
 
 std::string TomlTable::to_string(const toml::node& node, const std::string& where) const {
@@ -105,7 +130,7 @@ Expression TomlTable::to_number(const toml::node& node, const std::string& where
     if (const auto whole = node.value_exact<std::int64_t>()) return Expression::parse(std::to_string(*whole));
     if (node.is_floating_point()) {
       const std::string text = source_.number_at(node.source().begin);
-      if (text.empty()) fail(node, where + " must be finite");
+      if (text.find_first_of("0123456789") == std::string::npos) fail(node, where + " must be finite");
       return Expression::parse(text);
     }
   } catch (const ExpressionError& error) {
@@ -177,6 +202,11 @@ void TomlTable::finish() const {
     fail(value, "unknown key '" + std::string(key.str()) + "'" +
                     (guess.empty() ? std::string() : ": did you mean '" + guess + "'?"));
   }
+}
+
+void TomlTable::expect(const std::vector<std::string>& keys) {
+  known_.insert(keys.begin(), keys.end());
+  finish();
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {

@@ -24,6 +24,8 @@ class TomlSource {
   std::string number_at(const toml::source_position& begin) const;
 
  private:
+  void check_key_depth() const;
+
   std::string text_, name_;
   std::vector<std::size_t> line_starts_;
 };
@@ -43,6 +45,10 @@ class TomlTable {
   bool has(std::string_view key) const { return table_.contains(key); }
   const toml::node* take(std::string_view key);
   const toml::node& require(std::string_view key);
+  /// Refuses the table because one of these keys should be there.
+  [[noreturn]] void missing(const std::vector<std::string>& keys) const;
+  /// Refuses keys that are not among these.
+  void expect(const std::vector<std::string>& keys);
 
   std::string string(std::string_view key);
   std::string optional_string(std::string_view key);

@@ -47,6 +47,7 @@ struct RunResult {
 
 struct RunHooks {
   std::function<std::unique_ptr<std::ostream>()> open_csv;  ///< called once the request is known to be right
+  std::string csv_name;                                     ///< for messages
   std::vector<std::string> provenance;                      ///< comment lines of the CSV
   long every = 1;                                           ///< mesh points a CSV line
   std::function<void(long, long)> progress;                 ///< (steps made, of)

@@ -11,6 +11,7 @@ class BigFloat {
   explicit BigFloat(long bits) { mpfr_init2(value_, bits); }
   BigFloat(const BigFloat& other) : BigFloat(mpfr_get_prec(other.value_)) { mpfr_set(value_, other.value_, MPFR_RNDN); }
   BigFloat& operator=(const BigFloat& other) {
+    if (this == &other) return *this;
     mpfr_set_prec(value_, mpfr_get_prec(other.value_));
     mpfr_set(value_, other.value_, MPFR_RNDN);
     return *this;

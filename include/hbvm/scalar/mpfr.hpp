@@ -49,6 +49,7 @@ class PrecisionScope {
 #define HBVM_FORBID_OPERATOR(Result, Number, Binary, op) \
   Result operator op(const Number&, Binary) = delete;    \
   Result operator op(Binary, const Number&) = delete;
+#define HBVM_FORBID_UPDATE(Number, Binary, op) Number& operator op(Number&, Binary) = delete;
 #define HBVM_FORBID_BINARY(Number, Binary)        \
   HBVM_FORBID_OPERATOR(Number, Number, Binary, +) \
   HBVM_FORBID_OPERATOR(Number, Number, Binary, -) \
@@ -57,7 +58,11 @@ class PrecisionScope {
   HBVM_FORBID_OPERATOR(bool, Number, Binary, <)   \
   HBVM_FORBID_OPERATOR(bool, Number, Binary, >)   \
   HBVM_FORBID_OPERATOR(bool, Number, Binary, <=)  \
-  HBVM_FORBID_OPERATOR(bool, Number, Binary, >=)
+  HBVM_FORBID_OPERATOR(bool, Number, Binary, >=)   \
+  HBVM_FORBID_UPDATE(Number, Binary, +=)           \
+  HBVM_FORBID_UPDATE(Number, Binary, -=)           \
+  HBVM_FORBID_UPDATE(Number, Binary, *=)           \
+  HBVM_FORBID_UPDATE(Number, Binary, /=)
 
 namespace boost::multiprecision {
 HBVM_FORBID_BINARY(hbvm::Mpfr, float)

@@ -17,6 +17,15 @@ std::optional<long> whole(const S& x) {
   return static_cast<long>(x);
 }
 
+/// floor(x), or a large number of its sign.
+template <Scalar S>
+long floor_of(const S& x) {
+  using std::floor;
+  constexpr long limit = 1'000'000;
+  if (!(x > -limit)) return -limit;
+  return x < limit ? static_cast<long>(S(floor(x))) : limit;
+}
+
 template <Scalar S>
 std::vector<S> parameters_of(const typename EffectUse<S>::Instance& instance) {
   std::vector<S> p;
@@ -55,6 +64,7 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
   for (const auto& [key, value] : use.numbers) {
     formal.numbers.emplace(key, constant(value));
     if (const auto n = whole(value)) formal.whole_numbers.emplace(key, *n);
+    formal.floors.emplace(key, floor_of(value));
   }
   for (const auto& [key, values] : use.vectors)
     for (const S& value : values) formal.vectors[key].push_back(constant(value));

@@ -34,6 +34,8 @@ class Interaction {
   std::vector<T> mass_matrix;                                  ///< of an on_each_body effect: d x d, row by row
   std::vector<T> masses, charges;                              ///< of a, and of b or the centre (a centre has no mass)
 
+  std::map<std::string, long, std::less<>> floors;  ///< the greatest whole number not above each scalar key
+
   const T& number(std::string_view key) const { return numbers.find(key)->second; }
   const std::vector<T>& vector(std::string_view key) const { return vectors.find(key)->second; }
   /// The value of a scalar key that is a whole number.
@@ -41,6 +43,8 @@ class Interaction {
     const auto found = whole_numbers.find(key);
     return found == whole_numbers.end() ? std::nullopt : std::optional<long>(found->second);
   }
+
+  long floor(std::string_view key) const { return floors.find(key)->second; }
 
   /// |x|^2 and |x|.
   T squared_distance() const { return dot(x, x); }

@@ -8,7 +8,8 @@
 namespace hbvm {
 
 /// A spring, linear for exponent 2: U = -stiffness/exponent |r - rest_length|^exponent, exponent >= 2.
-/// With rest_length 0 and an even exponent U is a polynomial, and computed without a root.
+/// With rest_length 0 and an even exponent U is a polynomial, and computed without a root. Its derivative is evaluated
+/// as it stands: not finite where ends meet without an even exponent, or at the rest length if the exponent is not whole.
 struct Spring {
   static constexpr std::string_view kind = "spring";
   static constexpr Acts acts = Acts::between_pairs;
@@ -27,7 +28,9 @@ struct Spring {
   static T stretch(const Interaction<T>& pair) {
     using std::abs, std::exp, std::log;
     const auto exponent = pair.whole("exponent");
-    if (exponent && (*exponent < 2 || *exponent > 1000)) throw InputError("'exponent' must be from 2 to 1000");
+    const long floor = pair.floor("exponent");
+    if (floor < 2 || floor > 1000 || (floor == 1000 && !exponent))
+      throw InputError("'exponent' must be from 2 to 1000");
     if (exponent && *exponent % 2 == 0) {
       if (pair.whole("rest_length") == 0) return power(pair.squared_distance(), *exponent / 2);
       return power(T(pair.distance() - pair.number("rest_length")), *exponent);

@@ -1,0 +1,177 @@
+#include "hbvm/basis/gauss_legendre.hpp"
+
+#include <arb_hypgeom.h>
+
+#include <string>
+#include <tuple>
+
+#include "hbvm/error.hpp"
+#include "hbvm/scalar/with_scalar.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+class Ball {
+ public:
+  Ball() { arb_init(x_); }
+  ~Ball() { arb_clear(x_); }
+  Ball(const Ball&) = delete;
+  Ball& operator=(const Ball&) = delete;
+  operator arb_ptr() { return x_; }
+
+ private:
+  arb_t x_;
+};
+
+/// Certainly |value - truth| <= ulps ulps of `value`, however wide the enclosure of the truth.
+template <Scalar S>
+bool within_ulps(const S& value, arb_ptr truth, int ulps) {
+  const BigFloat exact = exactly(value);
+  const slong precision = 2 * mpfr_get_prec(raw(exact)) + 200;
+  Ball distance, bound;
+  arf_set_mpfr(arb_midref(static_cast<arb_ptr>(distance)), raw(exact));
+  arb_sub(distance, distance, truth, precision);
+  arb_abs(distance, distance);
+  arb_set_si(bound, ulps);
+  arb_mul_2exp_si(bound, bound, mpfr_get_exp(raw(exact)) - mpfr_get_prec(raw(exact)));
+  return arb_le(distance, bound) != 0;
+}
+
+template <Scalar S>
+void expect_certified(int n) {
+  const Quadrature<S> formula = gauss_legendre<S>(n);
+  ASSERT_EQ(formula.c.size(), n);
+  ASSERT_EQ(formula.b.size(), n);
+  const slong precision = significand_bits<S>() + 100;
+  Ball root, weight, c;
+  for (int k = 0; 2 * k < n; ++k) {
+    arb_hypgeom_legendre_p_ui_root(root, weight, static_cast<ulong>(n), static_cast<ulong>(k), precision);
+    arb_mul_2exp_si(weight, weight, -1);
+    arb_sub_ui(c, root, 1, precision);
+    arb_neg(c, c);
+    arb_mul_2exp_si(c, c, -1);
+    EXPECT_TRUE(within_ulps(formula.c[k], c, 1)) << "c_" << k << " = " << formula.c[k];
+    EXPECT_TRUE(within_ulps(formula.b[k], weight, 1)) << "b_" << k << " = " << formula.b[k];
+    arb_add_ui(c, root, 1, precision);
+    arb_mul_2exp_si(c, c, -1);
+    EXPECT_TRUE(within_ulps(formula.c[n - 1 - k], c, 1)) << "c_" << n - 1 - k << " = " << formula.c[n - 1 - k];
+    EXPECT_TRUE(within_ulps(formula.b[n - 1 - k], weight, 1)) << "b_" << n - 1 - k << " = " << formula.b[n - 1 - k];
+  }
+}
+
+template <Scalar S>
+void expect_symmetric(int n) {
+  const Quadrature<S> formula = gauss_legendre<S>(n);
+  const S one = 1;
+  for (int i = 0; i < n; ++i) {
+    EXPECT_EQ(formula.b[n - 1 - i], formula.b[i]);
+    if (2 * i + 1 == n) {
+      EXPECT_EQ(2 * formula.c[i], one);
+    } else if (2 * i + 1 < n) {
+      EXPECT_LT(2 * formula.c[i], one);
+      EXPECT_EQ(formula.c[n - 1 - i], one - formula.c[i]);
+    }
+    if (i > 0) {
+      EXPECT_LT(formula.c[i - 1], formula.c[i]);
+    }
+  }
+  EXPECT_GT(formula.c[0], 0);
+  EXPECT_LT(formula.c[n - 1], one);
+}
+
+/// B(2n): sum_i b_i c_i^(j-1) = 1/j for j = 1 ... 2n, summed with guard digits so that only the rounding of the
+/// nodes and weights remains: each c_i^(j-1) is off by (j - 1) eps, each b_i by eps.
+template <Scalar S>
+void expect_moments(int n) {
+  const Quadrature<S> formula = gauss_legendre<S>(n);
+  const BigFloat eps = exactly(epsilon<S>());
+  const PrecisionScope guarded(static_cast<unsigned>(digits10<S>() + 40));
+  const auto exact = [](const S& x) { return rounded_to<Mpfr>(raw(exactly(x))); };
+  Vector<Mpfr> term(n), c(n);
+  for (int i = 0; i < n; ++i) {
+    term[i] = exact(formula.b[i]);
+    c[i] = exact(formula.c[i]);
+  }
+  Mpfr worst = 0;
+  for (int j = 1; j <= 2 * n; ++j) {
+    Mpfr sum = 0;
+    for (int i = 0; i < n; ++i) {
+      sum += term[i];
+      term[i] *= c[i];
+    }
+    raise_to(worst, magnitude(Mpfr(j * sum - 1)) / j);
+  }
+  EXPECT_LE(worst, rounded_to<Mpfr>(raw(eps)));
+}
+
+class GaussLegendre : public ::testing::TestWithParam<std::tuple<const char*, int>> {
+ protected:
+  Precision precision = Precision::parse(std::get<0>(GetParam()));
+  int n = std::get<1>(GetParam());
+};
+
+TEST_P(GaussLegendre, IsWithinAnUlpOfTheCertifiedRoots) {
+  with_scalar(precision, [&]<Scalar S>() { expect_certified<S>(n); });
+}
+
+TEST_P(GaussLegendre, IsSymmetricToTheLastBit) {
+  with_scalar(precision, [&]<Scalar S>() { expect_symmetric<S>(n); });
+}
+
+TEST_P(GaussLegendre, IntegratesMonomials) {
+  with_scalar(precision, [&]<Scalar S>() { expect_moments<S>(n); });
+}
+
+std::string name_of(const ::testing::TestParamInfo<std::tuple<const char*, int>>& info) {
+  std::string name = std::get<0>(info.param);
+  for (char& c : name)
+    if (c == ':') c = '_';
+  return name + "_" + std::to_string(std::get<1>(info.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(Nodes, GaussLegendre,
+                         ::testing::Combine(::testing::Values("double", "quad", "mpfr:50", "mpfr:1000"),
+                                            ::testing::Values(1, 2, 3, 5, 20, 100, 1'000)),
+                         name_of);
+
+template <class S>
+class GaussLegendreFormula : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+};
+TYPED_TEST_SUITE(GaussLegendreFormula, AllScalars, ScalarNames);
+
+TYPED_TEST(GaussLegendreFormula, RefusesANumberOfNodesOutOfRange) {
+  for (const int n : {0, -1, -1'000, max_quadrature_nodes + 1, 1'000'000'000})
+    EXPECT_THROW(gauss_legendre<TypeParam>(n), InputError) << n;
+}
+
+TYPED_TEST(GaussLegendreFormula, ManyNodesHaveTheRightSumsAndEnds) {
+  const int n = 1'501;
+  const Quadrature<TypeParam> formula = gauss_legendre<TypeParam>(n);
+  TypeParam weights = 0, mean = 0;
+  for (int i = 0; i < n; ++i) {
+    weights += formula.b[i];
+    mean += formula.b[i] * formula.c[i];
+  }
+  EXPECT_LE(magnitude(TypeParam(weights - 1)), n * epsilon<TypeParam>());
+  EXPECT_LE(magnitude(TypeParam(2 * mean - 1)), 2 * n * epsilon<TypeParam>());
+}
+
+TEST(GaussLegendreOnRequest, UsesTheDigitsOfEachCall) {
+  const auto third = [](unsigned digits) {
+    const PrecisionScope scope(digits);
+    return exactly(gauss_legendre<Mpfr>(7).c[2]);
+  };
+  const BigFloat coarse = third(30), fine = third(60), again = third(30);
+  EXPECT_GT(mpfr_get_prec(raw(fine)), mpfr_get_prec(raw(coarse)));
+  EXPECT_NE(mpfr_cmp(raw(fine), raw(coarse)), 0);
+  EXPECT_EQ(mpfr_cmp(raw(again), raw(coarse)), 0);
+  BigFloat rounded = coarse;
+  mpfr_set(raw(rounded), raw(fine), MPFR_RNDN);
+  EXPECT_EQ(mpfr_cmp(raw(rounded), raw(coarse)), 0);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Exit code 2, nothing on standard output, one line on standard error that holds these words, within a second.
+void expect_refused(const Arguments& arguments, const std::vector<std::string>& words) {
+  const Outcome outcome = hbvm(arguments, 5);
+  std::string command = "hbvm";
+  for (const std::string& argument : arguments) command += " '" + argument + "'";
+  SCOPED_TRACE(command);
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_LT(outcome.cpu_seconds, 1);
+  EXPECT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with('\n'));
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' is not in: " << outcome.err;
+}
+
+/// A run of `scene` with one option replaced.
+Arguments run_with(const std::string& option, const std::string& value, const std::string& scene = "simple_pendulum") {
+  Arguments arguments{"run", scene};
+  for (const auto& [name, usual] : std::vector<std::pair<std::string, std::string>>{
+           {"--method", "hbvm:2,2"}, {"--step", "0.1"}, {"--until", "1"}, {"--precision", "double"}})
+    if (name != option) arguments = arguments + Arguments{name, usual};
+  return option.empty() ? arguments : arguments + Arguments{option, value};
+}
+Arguments run_of(const std::string& scene) { return run_with("", "", scene); }
+
+TEST(BadScene, Unknown) {
+  expect_refused(run_of("no_such_scene"), {"unknown scene", "'no_such_scene'"});
+  expect_refused(run_of("simple_pendulm"), {"'simple_pendulm'", "'simple_pendulum'"});
+  expect_refused(run_of("/nonexistent/scene.toml"), {"/nonexistent/scene.toml"});
+  expect_refused(run_of(""), {"scene"});
+  expect_refused(run_of("/tmp"), {"/tmp"});
+}
+
+TEST(BadScene, Malformed) {
+  const Folder folder;
+  const std::string text = pendulum("1");
+  const auto refused = [&](const std::string& toml, int line, const std::vector<std::string>& words) {
+    const std::string path = folder.write("scene.toml", toml);
+    std::vector<std::string> all = words;
+    all.push_back(path + ":" + std::to_string(line));
+    expect_refused(run_of(path), all);
+  };
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    return changed.replace(changed.find(from), from.size(), to);
+  };
+  refused("", 1, {"dimension"});
+  refused(with("mass = 1", "mas = 1"), 10, {"'mas'", "'mass'"});
+  refused(with("mass = 1", "mass = "), 10, {});
+  refused(with("mass = 1", "mass = -1"), 8, {"'bob'", "mass"});
+  refused(with("mass = 1", "mass = \"1/0\""), 8, {"'bob'", "division"});
+  refused(with("mass = 1", "mass = [[1, 2], [3, 4]]"), 8, {"'bob'", "symmetric"});
+  refused(with("\"rod\"", "\"rood\""), 14, {"'rod'"});
+  refused(with("\"O\", \"bob\"", "\"O\", \"bib\""), 14, {"'bib'", "'bob'"});
+  refused(with("uniform_gravity", "gravity"), 19, {"gravity"});
+  refused(with("Pendulum", "Pendulum\xFF"), 1, {});
+  refused(with("Pendulum", "Pendu\xEF\xBB\xBFlum"), 1, {"U+FEFF"});
+}
+
+/// Whatever line breaks the input holds.
+TEST(Messages, AreOneLine) {
+  const Folder folder;
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = pendulum("1");
+    return folder.write("scene.toml", text.replace(text.find(from), from.size(), to));
+  };
+  expect_refused(run_of("two\nlines"), {"unknown scene"});
+  expect_refused(run_of(with("\"rod\"", "\"ro\\nd\"")), {"'rod'"});
+  expect_refused(run_of(with("mass = 1", "mass = \"\"\"1\n+\"\"\"")), {"'mass'"});
+  expect_refused(run_of(with("\"O\", \"bob\"", "\"O\", \"bo\\nb\"")), {"'bob'"});
+  expect_refused(run_with("--method", "hbvm:2\n,2"), {"method"});
+  expect_refused(run_with("--step", "\n"), {"step"});
+  expect_refused(run_with("--step", "0.\n1"), {"step"});
+  expect_refused(run_with("--until", "1\n+"), {"until"});
+  expect_refused(run_with("--precision", "quad\n"), {"precision"});
+  expect_refused(run_with("--solver", "pa\nper"), {"solver"});
+  expect_refused(run_with("--out", "/nonexistent/two\nlines"), {"/nonexistent"});
+  expect_refused(run_with("--bogus\n", "1"), {"--bogus"});
+}
+
+TEST(BadScene, OfHugeNesting) {
+  const Folder folder;
+  std::string text = "a";
+  for (int i = 0; i < 100'000; ++i) text += ".a";
+  const std::string path = folder.write("deep.toml", text + " = 1\n");
+  expect_refused(run_of(path), {path + ":1"});
+}
+
+TEST(BadScene, InconsistentStartNamesConstraintAndResidual) {
+  const Folder folder;
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = pendulum("1");
+    return folder.write("scene.toml", text.replace(text.find(from), from.size(), to));
+  };
+  expect_refused(run_of(with("length = 1", "length = 2")), {"position", "rod", "'O'", "'bob'", "residual -3.00e+00"});
+  expect_refused(run_of(with("[1, 0]", "[1, 0.25]")), {"velocity", "rod", "'O'", "'bob'", "residual -5.00e-01"});
+  expect_refused(run_with("--precision", "mpfr:50", with("[0, -1]", "[1e-17, -1]")), {"position", "rod", "1.00e-34"});
+}
+
+TEST(BadMethod, IsRefused) {
+  expect_refused(run_with("--method", "hbvm:1,2"), {"hbvm:1,2"});
+  expect_refused(run_with("--method", "hbvm:2,0"), {"hbvm:2,0"});
+  expect_refused(run_with("--method", "hbvm:0,0"), {"hbvm:0,0"});
+  expect_refused(run_with("--method", "hbvm:3,-1"), {"hbvm:3,-1"});
+  expect_refused(run_with("--method", "hbvm:100000,1"), {"hbvm:100000,1"});
+  for (const char* method : {"", "gauss", "hbvm", "hbvm:", "hbvm:2", "hbvm:2,", "hbvm:,2", "hbvm:2,2,2", "hbvm:2.5,2",
+                             "hbvm: 2,2", "HBVM:2,2", "hbvm:2,2 ", "hbvm:99999999999999999999,1", "hbvm:a,b"})
+    expect_refused(run_with("--method", method), {"method"});
+}
+
+TEST(BadTimes, OfAStepAreRefused) {
+  for (const char* step :
+       {"",    "abc", "0.1.1", "1/",   "(1",  "1)",     "2^",       "0,1",    "0x10",  "1 2",      "0",    "-0.1",
+        "1-1", "nan", "inf",   "-inf", "1/0", "log(0)", "sqrt(-1)", "1e-400", "1e400", "exp(1e9)", "1e-13"})
+    expect_refused(run_with("--step", step), {"step"});
+}
+
+TEST(BadTimes, OfAnEndAreRefused) {
+  for (const char* until :
+       {"", "abc", "1..1", "1/", "(1", "1)", "0", "-1", "1-1", "nan", "inf", "1/0", "1e400", "1e-400"})
+    expect_refused(run_with("--until", until), {"until"});
+}
+
+TEST(BadTimes, WhereTheStepDoesNotDivideAreRefused) {
+  for (const char* step : {"0.3", "2", "1/3 + 1e-12", "pi", "1e10"})
+    expect_refused(run_with("--step", step), {"step", "divide"});
+}
+
+TEST(BadPrecision, IsRefused) {
+  for (const char* precision : {"", "float", "Double", "mpfr", "mpfr:", "mpfr:19", "mpfr:10001", "mpfr:-50", "mpfr:5e1",
+                                "mpfr:50.5", "mpfr:abc", "mpfr:99999999999999999999", "quad:34", "double "}) {
+    expect_refused(run_with("--precision", precision), {"precision"});
+    expect_refused({"nodes", "5", "--precision", precision}, {"precision"});
+  }
+}
+
+TEST(BadSolver, IsRefused) {
+  for (const char* solver : {"", "paperr", "PAPER", "fixed point"})
+    expect_refused(run_with("--solver", solver), {"solver"});
+}
+
+TEST(BadOutput, UnwritableIsRefused) {
+  const Folder folder;
+  expect_refused(run_with("--out", "/nonexistent/trajectory.csv"), {"'/nonexistent/trajectory.csv'"});
+  expect_refused(run_with("--out", folder / "."), {folder / "."});
+}
+
+TEST(BadOutput, WithoutANameIsRefused) { expect_refused(run_with("--out", ""), {"--out"}); }
+
+TEST(BadOutput, OnAFullDiskIsRefused) { expect_refused(run_with("--out", "/dev/full"), {"/dev/full"}); }
+
+TEST(BadOutput, IsSeenBeforeLongComputations) {
+  const Arguments arguments{"run", "simple_pendulum", "--method", "hbvm:200,200", "--step",
+                            "0.1", "--until",         "1e6",      "--out",        "/nonexistent/trajectory.csv"};
+  expect_refused(arguments, {"'/nonexistent/trajectory.csv'"});
+}
+
+TEST(BadOutput, IsNotOpenedForAnotherMistake) {
+  const Folder folder;
+  const std::string path = folder.write("precious.csv", "precious");
+  expect_refused(run_with("--step", "0.3") + Arguments{"--out", path}, {"divide"});
+  expect_refused(run_with("--method", "hbvm:1,2") + Arguments{"--out", path}, {"hbvm:1,2"});
+  expect_refused(run_with("--precision", "quadd") + Arguments{"--out", path}, {"quadd"});
+  EXPECT_EQ(text_of(path), "precious");
+}
+
+TEST(BadOutput, DoesNotOverwriteTheScene) {
+  const Folder folder;
+  const std::string path = folder.write("scene.toml", pendulum("1"));
+  expect_refused(run_with("--out", path, path), {path});
+  EXPECT_EQ(text_of(path), pendulum("1"));
+}
+
+TEST(BadEvery, IsRefused) {
+  for (const char* every : {"0", "-1", "abc", "1.5", ""}) expect_refused(run_with("--every", every), {"every"});
+}
+
+TEST(BadEvery, OfTooManyDigitsIsRefused) { expect_refused(run_with("--every", "99999999999999999999"), {"every"}); }
+
+TEST(BadNodes, OutOfRangeAreRefused) {
+  for (const char* n : {"0", "-1", "10001", "99999999999", "abc", "5.5", "1e3", ""}) expect_refused({"nodes", n}, {});
+  expect_refused({"nodes", "0"}, {"n = 0"});
+  expect_refused({"nodes", "10001"}, {"10001", "10000"});
+}
+
+TEST(Misuse, OfAnUnknownSubcommandOrOptionNamesIt) {
+  expect_refused({"simulate"}, {"simulate"});
+  expect_refused({"runn", "simple_pendulum"}, {"runn"});
+  expect_refused({"--bogus"}, {"--bogus"});
+  expect_refused({"--json"}, {"--json"});
+}
+
+TEST(Misuse, OfTheCommandLineIsRefused) {
+  expect_refused({}, {"subcommand"});
+  expect_refused({"run"}, {"scene"});
+  expect_refused({"run", "simple_pendulum"}, {"--method"});
+  expect_refused({"run", "simple_pendulum", "--method", "hbvm:2,2", "--step", "1"}, {"--until"});
+  expect_refused({"run", "simple_pendulum", "--method", "hbvm:2,2", "--until", "1"}, {"--step"});
+  expect_refused(run_with("--step", "0.1") + Arguments{"--bogus"}, {"--bogus"});
+  expect_refused(run_with("--step", "0.1") + Arguments{"conical_pendulum"}, {"conical_pendulum"});
+  expect_refused(run_with("--step", "0.1") + Arguments{"--step", "0.2"}, {"--step"});
+  expect_refused(run_with("--step", "0.1") + Arguments{"--out"}, {"--out"});
+  expect_refused({"run", "simple_pendulum", "--method"}, {"--method"});
+  expect_refused({"nodes"}, {"N"});
+  expect_refused({"nodes", "5", "6"}, {"6"});
+  expect_refused({"nodes", "5", "--precision"}, {"--precision"});
+  expect_refused({"nodes", "5", "--step", "1"}, {"--step"});
+  expect_refused({"scenes", "more"}, {"more"});
+  expect_refused({"scenes", "--bogus"}, {"--bogus"});
+}
+
+}  // namespace
+}  // namespace hbvm

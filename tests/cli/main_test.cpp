@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+
+namespace hbvm {
+namespace {
+
+/// The subcommands that `hbvm --help` lists.
+std::vector<std::string> subcommands() {
+  std::vector<std::string> result;
+  bool listed = false;
+  for (const std::string& line : lines_of(hbvm({"--help"}).out)) {
+    if (listed && line.empty()) break;
+    if (listed) result.push_back(line.substr(2, line.find(' ', 2) - 2));
+    listed = listed || line == "Subcommands:";
+  }
+  return result;
+}
+
+TEST(Help, ListsTheSubcommands) {
+  const std::vector<std::string> names = subcommands();
+  for (const char* name : {"run", "nodes", "scenes"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+}
+
+void expect_help(const Arguments& arguments) {
+  const Outcome help = hbvm(arguments);
+  EXPECT_EQ(help.code, 0);
+  EXPECT_EQ(help.err, "");
+  EXPECT_NE(help.out.find("Example"), std::string::npos) << help.out;
+  EXPECT_NE(help.out.find("hbvm " + (arguments.size() > 1 ? arguments[0] : std::string())), std::string::npos);
+}
+
+TEST(Help, OfEverySubcommandShowsAnExample) {
+  expect_help({"--help"});
+  for (const std::string& name : subcommands()) {
+    SCOPED_TRACE(name);
+    expect_help({name, "--help"});
+    expect_help({name, "-h"});
+  }
+}
+
+TEST(Help, OfRunNamesEveryOption) {
+  const std::string help = hbvm({"run", "--help"}).out;
+  for (const char* option :
+       {"scene", "--method", "--step", "--until", "--precision", "--solver", "--out", "--every", "--json"})
+    EXPECT_NE(help.find(option), std::string::npos) << option;
+}
+
+TEST(Version, IsOneLine) {
+  const Outcome version = hbvm({"--version"});
+  EXPECT_EQ(version.code, 0);
+  ASSERT_EQ(lines_of(version.out).size(), 1u);
+  EXPECT_TRUE(version.out.starts_with("0.")) << version.out;
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hbvm {
+
+using Arguments = std::vector<std::string>;
+
+/// What the program left behind.
+struct Outcome {
+  int code = -1;  ///< exit code; -signal if a signal ended it
+  std::string out, err;
+  double cpu_seconds = 0;  ///< user and system time: does not grow when the machine is busy
+};
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A folder of one's own, removed in the end.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "hbvm_cli_test_XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
+    path_ = pattern;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return *this / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Runs `hbvm` with these arguments, without a terminal and with an empty standard input; ends it after `cpu_limit`
+/// seconds of processor time.
+inline Outcome hbvm(const Arguments& arguments, unsigned cpu_limit = 60) {
+  const Folder folder;
+  const std::string out = folder / "out", err = folder / "err";
+  std::string program = HBVM_PROGRAM;
+  Arguments words = arguments;
+  std::vector<char*> argv{program.data()};
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("cannot fork");
+  if (child == 0) {
+    const auto redirect = [](const char* path, int flags, int to) {
+      const int file = open(path, flags, 0600);
+      if (file < 0 || dup2(file, to) < 0) _exit(126);
+    };
+    redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+    redirect(out.c_str(), O_WRONLY | O_CREAT, STDOUT_FILENO);
+    redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
+    const rlimit limit{cpu_limit, cpu_limit};
+    setrlimit(RLIMIT_CPU, &limit);
+    execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  if (wait4(child, &status, 0, &usage) != child) throw std::runtime_error("the program is lost");
+  Outcome result;
+  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  result.out = text_of(out);
+  result.err = text_of(err);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  result.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return result;
+}
+
+inline Arguments operator+(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// A pendulum of this velocity at its lowest point.
+inline std::string pendulum(const std::string& velocity) {
+  return "title = \"Pendulum\"\ndimension = 2\n\n[[point]]\nname = \"O\"\nposition = [0, 0]\n\n"
+         "[[body]]\nname = \"bob\"\nmass = 1\nposition = [0, -1]\nvelocity = [" +
+         velocity +
+         ", 0]\n\n"
+         "[[constraint]]\nkind = \"rod\"\nbetween = [\"O\", \"bob\"]\nlength = 1\n\n"
+         "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, -1]\n";
+}
+
+/// A stone that falls into an attracting centre, which it would reach at t = pi/sqrt(8) = 1.11.
+inline std::string fall() {
+  return "dimension = 2\n[[point]]\nname = \"sun\"\nposition = [0, 0]\n[[body]]\nname = \"stone\"\nmass = 1\n"
+         "position = [1, 0]\nvelocity = [0, 0]\n[[effect]]\nkind = \"central_gravity\"\ncenter = \"sun\"\nstrength = "
+         "1\n";
+}
+
+}  // namespace hbvm

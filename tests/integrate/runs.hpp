@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/scene/assemble.hpp"
+
+namespace hbvm {
+
+/// Keeps all it sees.
+template <Scalar S>
+struct Recorder final : Observer<S> {
+  std::vector<Snapshot<S>> seen;
+  void observe(const Snapshot<S>& snapshot) override { seen.push_back(snapshot); }
+};
+
+/// A scene with all it takes to integrate it once.
+template <Scalar S>
+struct SceneRun {
+  Assembled<S> scene;
+  Hbvm<S> method;
+  TimeGrid<S> grid;
+  Stepper<S> stepper;
+  State<S> state;
+
+  SceneRun(const Scene& text, int k, int s, const char* step, const char* until,
+           SolverKind kind = SolverKind::fixed_point)
+      : scene(assemble<S>(text)),
+        method(make_hbvm<S>(k, s)),
+        grid(Expression::parse(step), Expression::parse(until)),
+        stepper(scene.problem, method, grid.step(), kind),
+        state(scene.q0, scene.p0) {}
+  SceneRun(const SceneRun&) = delete;
+
+  Integration<S> operator()(const std::vector<Observer<S>*>& observers) {
+    return integrate<S>(stepper, state, grid, observers);
+  }
+};
+
+}  // namespace hbvm

@@ -1,0 +1,120 @@
+#include "hbvm/integrate/stepper.hpp"
+
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+#include "solver/stage_formulas.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+Assembled<S> assembled(const std::string& toml) {
+  return assemble<S>(read_scene(toml, "scene"));
+}
+
+const std::string falling = R"(dimension = 2
+[[body]]
+name = "a"
+mass = 1
+position = [1, -3]
+velocity = [0.1, 100]
+[[effect]]
+kind = "uniform_gravity"
+acceleration = ["1/3", "-1/7"]
+)";
+
+TEST(Step, IsThePapersUpdate) {
+  const PrecisionScope digits(50);
+  const Mpfr h = Mpfr(1) / 20;
+  for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()})
+    for (const auto& [k, s] : std::vector<std::pair<int, int>>{{1, 1}, {3, 2}, {5, 3}, {4, 4}}) {
+      const Assembled<Mpfr> scene = assembled<Mpfr>(model.scene);
+      const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
+      const auto solver = make_solver(SolverKind::fixed_point, scene.problem, method, h);
+      solver->solve(scene.q0, scene.p0);
+      const auto expected = StageFormulas(model, k, s, h).step(scene.q0, scene.p0, solver->unknowns());
+
+      Stepper<Mpfr> stepper(scene.problem, method, h, SolverKind::fixed_point);
+      State<Mpfr> state(scene.q0, scene.p0);
+      stepper.step(state);
+      const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
+      EXPECT_LE(max_norm(Vector<Mpfr>(state.q - expected.q)), tolerance);
+      EXPECT_LE(max_norm(Vector<Mpfr>(state.p - expected.p)), tolerance);
+      EXPECT_LE(max_norm(Vector<Mpfr>(stepper.multiplier() - expected.lambda)), tolerance);
+    }
+}
+
+TEST(Step, BackwardsLeadsBack) {
+  const PrecisionScope digits(50);
+  for (const auto& [k, s] : std::vector<std::pair<int, int>>{{1, 1}, {4, 1}, {2, 2}, {5, 3}}) {
+    const Assembled<Mpfr> scene = assembled<Mpfr>(ellipsoid_bead().scene);
+    const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
+    Stepper<Mpfr> stepper(scene.problem, method, Mpfr(1) / 5, SolverKind::fixed_point);
+    State<Mpfr> state(scene.q0, scene.p0);
+    for (int n = 0; n < 4; ++n) stepper.step(state);
+    EXPECT_GT(max_norm(Vector<Mpfr>(state.q - scene.q0)), literal<Mpfr>("0.1"));
+    State<Mpfr> back(state.q, Vector<Mpfr>(-state.p));
+    for (int n = 0; n < 4; ++n) stepper.step(back);
+    EXPECT_LE(max_norm(Vector<Mpfr>(back.q - scene.q0)), 10'000 * epsilon<Mpfr>());
+    EXPECT_LE(max_norm(Vector<Mpfr>(back.p + scene.p0)), 10'000 * epsilon<Mpfr>());
+  }
+}
+
+TEST(Step, ReturnsTheSweepsOfItsSolver) {
+  const Assembled<double> scene = assembled<double>(scene_file_text("ellipsoid_bead"));
+  const Hbvm<double> method = make_hbvm<double>(3, 2);
+  Stepper<double> stepper(scene.problem, method, 0.1, SolverKind::paper);
+  State<double> state(scene.q0, scene.p0);
+  const auto solver = make_solver(SolverKind::paper, scene.problem, method, 0.1);
+  EXPECT_EQ(stepper.step(state), solver->solve(scene.q0, scene.p0));
+}
+
+/// What equal increments add up to exactly, and how far plain additions miss it, in units of the last place.
+struct Sum {
+  Mpfr exact;
+  double naive_miss;
+};
+double ulps(const Mpfr& value, double ulp) { return approximately(Mpfr(magnitude(value) / Mpfr(ulp))); }
+Sum sum(double start, double increment, int count) {
+  double naive = start;
+  for (int n = 0; n < count; ++n) naive += increment;
+  const Mpfr exact = Mpfr(start) + Mpfr(increment) * count;
+  return {exact, ulps(Mpfr(Mpfr(naive) - exact), epsilon<double>() * std::abs(naive))};
+}
+
+class CompensatedUpdate : public ::testing::Test {
+ protected:
+  static constexpr int steps = 100'000;
+  /// x, to which `increment` was added `steps` times, and what it carries on.
+  static void expect_exact_sum(double start, double increment, double x, double carry) {
+    const Sum expected = sum(start, increment, steps);
+    const double ulp = epsilon<double>() * std::abs(x);
+    EXPECT_GE(expected.naive_miss, 50) << "the plain sum should be wrong";
+    EXPECT_LE(ulps(Mpfr(Mpfr(x) - expected.exact), ulp), 1);
+    EXPECT_LE(ulps(Mpfr(Mpfr(x) + Mpfr(carry) - expected.exact), ulp), 0.001);
+  }
+  PrecisionScope digits{60};
+  const double h = literal<double>("1e-7");
+};
+
+TEST_F(CompensatedUpdate, OfMomentaLosesNothingOverManySmallSteps) {
+  const Assembled<double> scene = assembled<double>(falling);
+  const Hbvm<double> method = make_hbvm<double>(1, 1);
+  Stepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
+  State<double> state(scene.q0, scene.p0);
+  for (int n = 0; n < steps; ++n) stepper.step(state);
+  expect_exact_sum(scene.p0[0], h * literal<double>("1/3"), state.p[0], state.p_carry[0]);
+  expect_exact_sum(scene.p0[1], h * literal<double>("-1/7"), state.p[1], state.p_carry[1]);
+}
+
+TEST_F(CompensatedUpdate, OfPositionsLosesNothingOverManySmallSteps) {
+  const Assembled<double> scene = assembled<double>(falling.substr(0, falling.find("[[effect]]")));
+  const Hbvm<double> method = make_hbvm<double>(2, 2);
+  Stepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
+  State<double> state(scene.q0, scene.p0);
+  for (int n = 0; n < steps; ++n) stepper.step(state);
+  for (Index j = 0; j < 2; ++j) expect_exact_sum(scene.q0[j], h * scene.p0[j], state.q[j], state.q_carry[j]);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,135 @@
+#include "hbvm/integrate/trajectory.hpp"
+
+#include <sstream>
+
+#include "hbvm/integrate/output_state.hpp"
+#include "integrate/runs.hpp"
+#include "printing.hpp"
+#include "verification/models.hpp"
+
+namespace hbvm {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+/// A trajectory's lines, parted as a reader of numbers parts them.
+struct Csv {
+  std::vector<std::string> comments;
+  std::vector<std::vector<std::string>> rows;
+  explicit Csv(const std::string& text) {
+    EXPECT_EQ(text.back(), '\n');
+    for (const std::string& line : split(text.substr(0, text.size() - 1), '\n')) {
+      if (line.starts_with('#')) {
+        EXPECT_TRUE(rows.empty()) << "a comment below numbers";
+        comments.push_back(line);
+      } else {
+        rows.push_back(split(line, ','));
+      }
+    }
+  }
+};
+
+template <Scalar S>
+std::string trajectory_of(SceneRun<S>& run, long every, const std::vector<std::string>& provenance,
+                          Recorder<S>* recorder = nullptr) {
+  std::ostringstream text;
+  Trajectory<S> trajectory(run.scene.problem, text, every, run.grid.steps(), provenance);
+  std::vector<Observer<S>*> observers{&trajectory};
+  if (recorder) observers.push_back(recorder);
+  run(observers);
+  return text.str();
+}
+
+TEST(Trajectory, NamesItsColumnsFirstAndThenItsProvenance) {
+  SceneRun<double> run(load_scene(scene_path("double_pendulum")), 2, 2, "1/10", "1/5");
+  const Csv csv(trajectory_of<double>(run, 1, {"first line", "second line"}));
+  ASSERT_EQ(csv.comments.size(), 3u);
+  EXPECT_EQ(csv.comments[0],
+            "# t,q1,q2,q3,q4,p1,p2,p3,p4,lambda1,lambda2,output_p1,output_p2,output_p3,output_p4,"
+            "output_lambda1,output_lambda2,delta_H,g,hidden");
+  EXPECT_EQ(csv.comments[1], "# first line");
+  EXPECT_EQ(csv.comments[2], "# second line");
+  for (const auto& row : csv.rows) EXPECT_EQ(row.size(), split(csv.comments[0], ',').size());
+}
+
+TEST(Trajectory, WithoutConstraintsHasNoMultipliers) {
+  SceneRun<double> run(
+      read_scene("dimension = 2\n[[body]]\nname = \"a\"\nmass = 1\nposition = [0, 0]\nvelocity = [1, 0]\n", "free"), 1,
+      1, "1", "3");
+  const Csv csv(trajectory_of<double>(run, 1, {}));
+  EXPECT_EQ(csv.comments, (std::vector<std::string>{"# t,q1,q2,p1,p2,output_p1,output_p2,delta_H,g,hidden"}));
+  EXPECT_EQ(csv.rows[3], (std::vector<std::string>{"3", "3", "0", "1", "0", "1", "0", "0", "0", "0"}));
+}
+
+TEST(Trajectory, HasEveryNthAndTheLastMeshPoint) {
+  const auto times = [](long every) {
+    SceneRun<double> run(load_scene("simple_pendulum"), 1, 1, "1/8", "5/4");
+    std::vector<std::string> result;
+    for (const auto& row : Csv(trajectory_of<double>(run, every, {})).rows) result.push_back(row[0]);
+    return result;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(times(1).size(), 11u);
+  EXPECT_EQ(times(3), (Texts{"0", "0.375", "0.75", "1.125", "1.25"}));
+  EXPECT_EQ(times(5), (Texts{"0", "0.625", "1.25"}));
+  EXPECT_EQ(times(10), (Texts{"0", "1.25"}));
+  EXPECT_EQ(times(1'000), (Texts{"0", "1.25"}));
+}
+
+template <class S>
+class TrajectoryNumbers : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+};
+TYPED_TEST_SUITE(TrajectoryNumbers, AllScalars, ScalarNames);
+
+TYPED_TEST(TrajectoryNumbers, ReadBackAsTheSameValues) {
+  using S = TypeParam;
+  SceneRun<S> run(load_scene(scene_path("ellipsoid_bead")), 2, 2, "1/10", "1");
+  Recorder<S> recorder;
+  const Csv csv(trajectory_of<S>(run, 1, {}, &recorder));
+  ASSERT_EQ(csv.rows.size(), recorder.seen.size());
+  Point<S> point(run.scene.problem);
+  const S H0 = point.energy(run.scene.q0, run.scene.p0);
+  for (std::size_t n = 0; n < csv.rows.size(); ++n) {
+    const Snapshot<S>& s = recorder.seen[n];
+    const OutputState<S> output = output_state(point, s.q, s.p);
+    std::vector<S> expected{s.t};
+    for (const Vector<S>& v : {s.q, s.p, s.lambda, output.p, output.lambda})
+      expected.insert(expected.end(), v.begin(), v.end());
+    expected.push_back(point.energy(s.q, s.p) - H0);
+    expected.push_back(max_norm(point.constraints(s.q)));
+    expected.push_back(max_norm(point.hidden_constraints(s.q, s.p)));
+    ASSERT_EQ(csv.rows[n].size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_EQ(literal<S>(csv.rows[n][i]), expected[i]) << n << ", " << i;
+  }
+}
+
+TEST(Trajectory, IsWrittenUpToAFailure) {
+  SceneRun<double> run(
+      read_scene("dimension = 2\n[[point]]\nname = \"sun\"\nposition = [0, 0]\n[[body]]\nname = \"stone\"\n"
+                 "mass = 1\nposition = [1, 0]\nvelocity = [0, 0]\n[[effect]]\nkind = \"central_gravity\"\n"
+                 "center = \"sun\"\nstrength = 1\n",
+                 "fall"),
+      2, 2, "1/50", "2");
+  std::ostringstream text;
+  Trajectory<double> trajectory(run.scene.problem, text, 1, run.grid.steps(), {});
+  try {
+    run({&trajectory});
+    FAIL() << "no error";
+  } catch (const StepError& error) {
+    EXPECT_EQ(Csv(text.str()).rows.size(), static_cast<std::size_t>(error.step()));
+  }
+}
+
+}  // namespace
+}  // namespace hbvm

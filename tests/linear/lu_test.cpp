@@ -1,0 +1,125 @@
+#include "hbvm/linear/lu.hpp"
+
+#include "printing.hpp"
+#include "scalar/random_values.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class LuTest : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+  RandomValues<S> random{31};
+  Lu<S> lu;
+
+  bool factor(const Matrix<S>& a) {
+    lu.matrix() = a;
+    return lu.factor();
+  }
+
+  /// a x = b is solved with a residual that partial pivoting allows for: n^2 eps |a| |x|, times the growth of the
+  /// pivots, which is below 2^(n-1) and in practice below n.
+  void expect_solves(const Matrix<S>& a) {
+    const Index n = a.rows();
+    ASSERT_TRUE(factor(a)) << "n = " << n;
+    const Vector<S> b = random.vector(n);
+    Vector<S> x = b;
+    lu.solve(x);
+    const Vector<S> residual = a.lazyProduct(x) - b;
+    EXPECT_LE(max_norm(residual), S(n * n * n) * epsilon<S>() * max_norm(a) * max_norm(x)) << "n = " << n;
+  }
+};
+TYPED_TEST_SUITE(LuTest, AllScalars, ScalarNames);
+
+TYPED_TEST(LuTest, SolvesRandomSystems) {
+  for (int n = 1; n <= 12; ++n)
+    for (int trial = 0; trial < 10; ++trial) this->expect_solves(this->random.matrix(n, n));
+}
+
+TYPED_TEST(LuTest, SolvesWhatNeedsPivotingAtEveryStep) {
+  for (int n = 2; n <= 12; ++n) {
+    // The largest entries stand just below the diagonal, and the diagonal is 0.
+    Matrix<TypeParam> a = this->random.matrix(n, n);
+    for (int i = 0; i < n; ++i) {
+      a(i, i) = 0;
+      a(i, (i + n - 1) % n) = TypeParam(100 + i);
+    }
+    this->expect_solves(a);
+  }
+}
+
+TYPED_TEST(LuTest, AppliesPermutationsInTheRightOrder) {
+  for (int n = 1; n <= 7; ++n) {
+    Matrix<TypeParam> a = Matrix<TypeParam>::Zero(n, n);
+    for (int i = 0; i < n; ++i) a(i, (3 * i + 2) % n) = TypeParam(n % 3 == 0 ? 0 : i + 1);
+    if (n % 3 == 0)
+      for (int i = 0; i < n; ++i) a(i, (i + 1) % n) = TypeParam(i + 1);
+    ASSERT_TRUE(this->factor(a)) << n;
+    Vector<TypeParam> expected(n);
+    for (int i = 0; i < n; ++i) expected[i] = TypeParam(10 * i + 1);
+    Vector<TypeParam> x = a.lazyProduct(expected);
+    this->lu.solve(x);
+    EXPECT_EQ(x, expected) << n;
+  }
+}
+
+TYPED_TEST(LuTest, PivotingKeepsSmallPivotsHarmless) {
+  Matrix<TypeParam> a(2, 2);
+  a << epsilon<TypeParam>() * epsilon<TypeParam>(), TypeParam(1), TypeParam(1), TypeParam(1);
+  ASSERT_TRUE(this->factor(a));
+  Vector<TypeParam> x(2);
+  x << TypeParam(1), TypeParam(2);
+  this->lu.solve(x);
+  EXPECT_LE(magnitude(TypeParam(x[0] - 1)), 4 * epsilon<TypeParam>());
+  EXPECT_LE(magnitude(TypeParam(x[1] - 1)), 4 * epsilon<TypeParam>());
+}
+
+TYPED_TEST(LuTest, SolvesSeveralRightSidesWithOneFactorisation) {
+  const Matrix<TypeParam> a = this->random.matrix(5, 5);
+  ASSERT_TRUE(this->factor(a));
+  for (int column = 0; column < 5; ++column) {
+    Vector<TypeParam> x = Vector<TypeParam>::Unit(5, column);
+    this->lu.solve(x);
+    const Vector<TypeParam> residual = a.lazyProduct(x) - Vector<TypeParam>::Unit(5, column);
+    EXPECT_LE(max_norm(residual), 125 * epsilon<TypeParam>() * max_norm(x));
+  }
+}
+
+TYPED_TEST(LuTest, TakesMatricesOfAnotherSize) {
+  for (const int n : {6, 2, 9, 1}) this->expect_solves(this->random.matrix(n, n));
+}
+
+TYPED_TEST(LuTest, RefusesSingularMatrices) {
+  Matrix<TypeParam> dependent_rows(3, 3), zero_column(3, 3);
+  dependent_rows << TypeParam(1), TypeParam(2), TypeParam(3), TypeParam(2), TypeParam(4), TypeParam(6), TypeParam(1),
+      TypeParam(0), TypeParam(1);
+  zero_column << TypeParam(1), TypeParam(0), TypeParam(3), TypeParam(2), TypeParam(0), TypeParam(6), TypeParam(1),
+      TypeParam(0), TypeParam(5);
+  EXPECT_FALSE(this->factor(dependent_rows));
+  EXPECT_FALSE(this->factor(zero_column));
+  EXPECT_FALSE(this->factor(Matrix<TypeParam>::Zero(1, 1)));
+  EXPECT_FALSE(this->factor(Matrix<TypeParam>::Ones(4, 4)));
+  this->expect_solves(this->random.matrix(3, 3));
+}
+
+TYPED_TEST(LuTest, RefusesWhatIsNotFinite) {
+  using Limits = std::numeric_limits<TypeParam>;
+  for (const TypeParam& bad : {Limits::infinity(), TypeParam(-Limits::infinity()), Limits::quiet_NaN()}) {
+    for (int at = 0; at < 9; ++at) {
+      Matrix<TypeParam> a = this->random.matrix(3, 3);
+      a.data()[at] = bad;
+      EXPECT_FALSE(this->factor(a)) << bad << " at " << at;
+    }
+  }
+}
+
+TYPED_TEST(LuTest, SolvesTheEmptySystem) {
+  ASSERT_TRUE(this->factor(Matrix<TypeParam>(0, 0)));
+  Vector<TypeParam> x(0);
+  this->lu.solve(x);
+  EXPECT_EQ(x.size(), 0);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,98 @@
+#include "hbvm/linear/product.hpp"
+
+#include "printing.hpp"
+#include "scalar/random_values.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class Product : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+  RandomValues<S> random{23};
+};
+TYPED_TEST_SUITE(Product, AllScalars, ScalarNames);
+
+template <Scalar S>
+Matrix<S> numbered(Index rows, Index columns, int first) {
+  Matrix<S> a(rows, columns);
+  for (Index i = 0; i < rows; ++i)
+    for (Index j = 0; j < columns; ++j) a(i, j) = S(first++);
+  return a;
+}
+
+TYPED_TEST(Product, OfWholeNumbersIsExact) {
+  Matrix<TypeParam> c, expected(2, 2);
+  product(c, numbered<TypeParam>(2, 3, 1), numbered<TypeParam>(3, 2, -2));
+  expected << TypeParam(4), TypeParam(10), TypeParam(4), TypeParam(19);
+  EXPECT_EQ(c, expected);
+}
+
+TYPED_TEST(Product, TransposedOfWholeNumbersIsExact) {
+  Matrix<TypeParam> c, expected(2, 1);
+  transposed_product(c, numbered<TypeParam>(3, 2, 1), numbered<TypeParam>(3, 1, 1));
+  expected << TypeParam(22), TypeParam(28);
+  EXPECT_EQ(c, expected);
+}
+
+TYPED_TEST(Product, AgreesWithEntrywiseDotsForEveryShape) {
+  Matrix<TypeParam> c, d;
+  for (int rows : {1, 2, 7}) {
+    for (int inner : {1, 3, 8}) {
+      for (int columns : {1, 4, 5}) {
+        const auto a = this->random.matrix(rows, inner), b = this->random.matrix(inner, columns);
+        product(c, a, b);
+        transposed_product(d, Matrix<TypeParam>(a.transpose()), b);
+        ASSERT_EQ(c.rows(), rows);
+        ASSERT_EQ(c.cols(), columns);
+        ASSERT_EQ(d.rows(), rows);
+        ASSERT_EQ(d.cols(), columns);
+        // Entries are below 1 in magnitude: each of the sums is off by 1/2 eps for a product, inner/2 eps for a sum.
+        const TypeParam tolerance = 2 * inner * inner * epsilon<TypeParam>();
+        for (int i = 0; i < rows; ++i) {
+          for (int j = 0; j < columns; ++j) {
+            TypeParam sum = 0;
+            for (int l = inner - 1; l >= 0; --l) sum += a(i, l) * b(l, j);
+            EXPECT_LE(magnitude(TypeParam(c(i, j) - sum)), tolerance);
+            EXPECT_LE(magnitude(TypeParam(d(i, j) - sum)), tolerance);
+          }
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(Product, OverwritesAResultOfTheRightOrAnotherShape) {
+  const auto a = this->random.matrix(3, 3), identity = Matrix<TypeParam>(Matrix<TypeParam>::Identity(3, 3));
+  for (auto c : {this->random.matrix(3, 3), this->random.matrix(1, 5), Matrix<TypeParam>()}) {
+    product(c, a, identity);
+    EXPECT_EQ(c, a);
+    c = this->random.matrix(3, 3);
+    transposed_product(c, identity, a);
+    EXPECT_EQ(c, a);
+  }
+}
+
+TYPED_TEST(Product, OverNoInnerIndexIsZero) {
+  Matrix<TypeParam> c = this->random.matrix(2, 3);
+  product(c, Matrix<TypeParam>(2, 0), Matrix<TypeParam>(0, 3));
+  EXPECT_EQ(c, (Matrix<TypeParam>(Matrix<TypeParam>::Zero(2, 3))));
+  transposed_product(c, Matrix<TypeParam>(0, 2), Matrix<TypeParam>(0, 1));
+  EXPECT_EQ(c, (Matrix<TypeParam>(Matrix<TypeParam>::Zero(2, 1))));
+}
+
+TYPED_TEST(Product, DotSumsTheProducts) {
+  Vector<TypeParam> a(3), b(3);
+  a << TypeParam(1), TypeParam(-2), TypeParam(3);
+  b << TypeParam(4), TypeParam(5), TypeParam(6);
+  EXPECT_EQ(dot(a, b), 12);
+  EXPECT_EQ(dot(Vector<TypeParam>(0), Vector<TypeParam>(0)), 0);
+  const auto x = this->random.vector(20), y = this->random.vector(20);
+  TypeParam sum = 0;
+  for (int i = 19; i >= 0; --i) sum += x[i] * y[i];
+  EXPECT_LE(magnitude(TypeParam(dot(x, y) - sum)), 2 * 20 * 20 * epsilon<TypeParam>());
+}
+
+}  // namespace
+}  // namespace hbvm

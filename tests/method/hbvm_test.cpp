@@ -1,0 +1,289 @@
+#include "hbvm/method/hbvm.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "hbvm/basis/gauss_legendre.hpp"
+#include "hbvm/basis/legendre.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "printing.hpp"
+#include "scalar/random_values.hpp"
+
+namespace hbvm {
+namespace {
+
+struct Stages {
+  int k, s;
+};
+constexpr Stages choices[] = {{1, 1}, {4, 1}, {2, 2}, {3, 2}, {5, 3}, {12, 6}, {6, 6}, {30, 10}, {40, 20}};
+
+template <class S>
+class HbvmCoefficients : public ::testing::Test {
+ protected:
+  static constexpr unsigned mpfr_digits = 50;
+  PrecisionScope digits{mpfr_digits};
+  RandomValues<S> random{17};
+
+  /// Each entry of an identity of size n is a sum of n products of numbers rounded once, none above 2 n.
+  S tolerance(int n) const { return S(8 * n * n) * epsilon<S>(); }
+};
+TYPED_TEST_SUITE(HbvmCoefficients, AllScalars, ScalarNames);
+
+template <Scalar S>
+Matrix<S> times(const Matrix<S>& a, const Matrix<S>& b) {
+  return a.lazyProduct(b);
+}
+template <Scalar S>
+Matrix<S> defect_from_identity(const Matrix<S>& a) {
+  return a - Matrix<S>::Identity(a.rows(), a.cols());
+}
+
+template <Scalar S>
+using Coefficients = std::vector<std::pair<const char*, Matrix<S>>>;
+
+template <Scalar S>
+Coefficients<S> all(const Hbvm<S>& m) {
+  return {{"c", m.c},
+          {"b", m.b},
+          {"c_hat", m.c_hat},
+          {"b_hat", m.b_hat},
+          {"P_s", m.P_s},
+          {"I_s", m.I_s},
+          {"P_hat", m.P_hat},
+          {"I_hat", m.I_hat},
+          {"X_s", m.X_s},
+          {"projection", m.projection},
+          {"projection_hat", m.projection_hat},
+          {"A", m.A},
+          {"lagrange_at_1", m.lagrange_at_1},
+          {"extrapolation", m.extrapolation}};
+}
+
+/// |value - reference| in ulps of the value. What is 0 in the reference's digits may be anything below `nothing`.
+template <Scalar S>
+double ulps_apart(const S& value, mpfr_srcptr reference, mpfr_srcptr nothing) {
+  const BigFloat exact = exactly(value);
+  if (mpfr_cmpabs(reference, nothing) < 0 && mpfr_cmpabs(raw(exact), nothing) < 0) return 0;
+  BigFloat difference(mpfr_get_prec(reference));
+  mpfr_sub(raw(difference), raw(exact), reference, MPFR_RNDN);
+  const long ulp = mpfr_regular_p(raw(exact)) ? mpfr_get_exp(raw(exact)) - mpfr_get_prec(raw(exact)) : 0;
+  mpfr_mul_2si(raw(difference), raw(difference), -ulp, MPFR_RNDN);
+  return std::abs(mpfr_get_d(raw(difference), MPFR_RNDN));
+}
+
+TYPED_TEST(HbvmCoefficients, AgreeWithFortyMoreDigits) {
+  for (const Stages& choice : choices) {
+    const Coefficients<TypeParam> coefficients = all(make_hbvm<TypeParam>(choice.k, choice.s));
+    const auto working = static_cast<unsigned>(digits10<TypeParam>());
+    const PrecisionScope scope(working + 40);
+    const Coefficients<Mpfr> references = all(make_hbvm<Mpfr>(choice.k, choice.s));
+    const Mpfr nothing = pow(Mpfr(10), -static_cast<int>(working) - 10);
+    for (std::size_t n = 0; n < coefficients.size(); ++n) {
+      const auto& [name, values] = coefficients[n];
+      const Matrix<Mpfr>& reference = references[n].second;
+      ASSERT_EQ(values.rows(), reference.rows()) << name;
+      ASSERT_EQ(values.cols(), reference.cols()) << name;
+      double worst = 0;
+      for (Index i = 0; i < values.size(); ++i)
+        worst = std::max(worst, ulps_apart(values.data()[i], raw(reference.data()[i]), raw(nothing)));
+      EXPECT_LE(worst, 1.0) << name << " of k = " << choice.k << ", s = " << choice.s;
+    }
+  }
+}
+
+TYPED_TEST(HbvmCoefficients, HaveTheirShapes) {
+  const auto m = make_hbvm<TypeParam>(5, 3);
+  EXPECT_EQ(m.k, 5);
+  EXPECT_EQ(m.s, 3);
+  const auto shape = [](const Matrix<TypeParam>& a) { return std::pair<Index, Index>(a.rows(), a.cols()); };
+  const std::pair<Index, Index> square(3, 3), hat(5, 3);
+  EXPECT_EQ(m.c.size(), 3);
+  EXPECT_EQ(m.b.size(), 3);
+  EXPECT_EQ(m.c_hat.size(), 5);
+  EXPECT_EQ(m.b_hat.size(), 5);
+  EXPECT_EQ(shape(m.P_s), square);
+  EXPECT_EQ(shape(m.I_s), square);
+  EXPECT_EQ(shape(m.P_hat), hat);
+  EXPECT_EQ(shape(m.I_hat), hat);
+  EXPECT_EQ(shape(m.X_s), square);
+  EXPECT_EQ(shape(m.projection), square);
+  EXPECT_EQ(shape(m.projection_hat), (std::pair<Index, Index>(3, 5)));
+  EXPECT_EQ(shape(m.A), square);
+  EXPECT_EQ(m.lagrange_at_1.size(), 3);
+  EXPECT_EQ(shape(m.extrapolation), (std::pair<Index, Index>(3, 4)));
+}
+
+TYPED_TEST(HbvmCoefficients, NodesAreGauss) {
+  const auto m = make_hbvm<TypeParam>(7, 4);
+  const auto gauss = gauss_legendre<TypeParam>(4), gauss_hat = gauss_legendre<TypeParam>(7);
+  EXPECT_EQ(m.c, gauss.c);
+  EXPECT_EQ(m.b, gauss.b);
+  EXPECT_EQ(m.c_hat, gauss_hat.c);
+  EXPECT_EQ(m.b_hat, gauss_hat.b);
+}
+
+TYPED_TEST(HbvmCoefficients, HatsAreTheMethodItselfForKEqualToS) {
+  const auto m = make_hbvm<TypeParam>(4, 4);
+  EXPECT_EQ(m.P_hat, m.P_s);
+  EXPECT_EQ(m.I_hat, m.I_s);
+  EXPECT_EQ(m.projection_hat, m.projection);
+}
+
+TYPED_TEST(HbvmCoefficients, IntegralsAreValuesTimesX) {
+  for (const auto& [k, s] : choices) {
+    const auto m = make_hbvm<TypeParam>(k, s);
+    EXPECT_LE(max_norm(Matrix<TypeParam>(m.I_s - times(m.P_s, m.X_s))), this->tolerance(s)) << s;
+  }
+}
+
+TYPED_TEST(HbvmCoefficients, ProjectionInvertsTheValues) {
+  for (const auto& [k, s] : choices) {
+    const auto m = make_hbvm<TypeParam>(k, s);
+    EXPECT_LE(max_norm(defect_from_identity(times(m.projection, m.P_s))), this->tolerance(s)) << s;
+    EXPECT_LE(max_norm(defect_from_identity(times(m.P_s, m.projection))), this->tolerance(s)) << s;
+    EXPECT_LE(max_norm(defect_from_identity(times(m.projection_hat, m.P_hat))), this->tolerance(k)) << k << " " << s;
+  }
+}
+
+TYPED_TEST(HbvmCoefficients, ButcherMatrixIsPXProjection) {
+  for (const auto& [k, s] : choices) {
+    const auto m = make_hbvm<TypeParam>(k, s);
+    EXPECT_LE(max_norm(Matrix<TypeParam>(m.A - times(times(m.P_s, m.X_s), m.projection))), this->tolerance(s)) << s;
+  }
+}
+
+TYPED_TEST(HbvmCoefficients, OneStageIsTheMidpointRule) {
+  const auto m = make_hbvm<TypeParam>(1, 1);
+  const TypeParam half = TypeParam(1) / 2;
+  EXPECT_EQ(m.c[0], half);
+  EXPECT_EQ(m.b[0], 1);
+  EXPECT_EQ(m.A(0, 0), half);
+  EXPECT_EQ(m.P_s(0, 0), 1);
+  EXPECT_EQ(m.I_s(0, 0), half);
+  EXPECT_EQ(m.X_s(0, 0), half);
+  EXPECT_EQ(m.projection(0, 0), 1);
+  EXPECT_EQ(m.lagrange_at_1[0], 1);
+}
+
+TYPED_TEST(HbvmCoefficients, TwoStagesHaveTheirClosedForm) {
+  const auto m = make_hbvm<TypeParam>(2, 2);
+  const auto expect_near = [](const TypeParam& value, const char* exact) {
+    const TypeParam expected = literal<TypeParam>(exact);
+    EXPECT_LE(magnitude(TypeParam(value - expected)), epsilon<TypeParam>() * magnitude(expected)) << exact;
+  };
+  expect_near(m.c[0], "1/2-sqrt(3)/6");
+  expect_near(m.c[1], "1/2+sqrt(3)/6");
+  expect_near(m.A(0, 0), "1/4");
+  expect_near(m.A(0, 1), "1/4-sqrt(3)/6");
+  expect_near(m.A(1, 0), "1/4+sqrt(3)/6");
+  expect_near(m.A(1, 1), "1/4");
+  expect_near(m.lagrange_at_1[0], "(1-sqrt(3))/2");
+  expect_near(m.lagrange_at_1[1], "(1+sqrt(3))/2");
+  expect_near(m.X_s(1, 0), "1/(2*sqrt(3))");
+  expect_near(m.X_s(0, 1), "-1/(2*sqrt(3))");
+  expect_near(m.P_s(0, 1), "-1");
+  expect_near(m.projection(1, 1), "1/2");
+}
+
+TYPED_TEST(HbvmCoefficients, SatisfyConditionsBAndC) {
+  using std::pow;
+  for (const auto& [k, s] : choices) {
+    const auto m = make_hbvm<TypeParam>(k, s);
+    for (int q = 1; q <= 2 * s; ++q) {
+      TypeParam sum = 0;
+      for (int i = 0; i < s; ++i) sum += m.b[i] * pow(m.c[i], q - 1);
+      EXPECT_LE(magnitude(TypeParam(q * sum - 1)), q * this->tolerance(s)) << "B(" << q << "), s = " << s;
+    }
+    for (int q = 1; q <= s; ++q) {
+      for (int i = 0; i < s; ++i) {
+        TypeParam sum = 0;
+        for (int j = 0; j < s; ++j) sum += m.A(i, j) * pow(m.c[j], q - 1);
+        EXPECT_LE(magnitude(TypeParam(sum - pow(m.c[i], q) / q)), this->tolerance(s)) << "C(" << q << "), s = " << s;
+      }
+    }
+  }
+}
+
+/// The Butcher matrix I_hat projection_hat of the k-stage method integrates polynomials of degree < s exactly.
+TYPED_TEST(HbvmCoefficients, HatsSatisfyConditionC) {
+  using std::pow;
+  for (const auto& [k, s] : choices) {
+    const auto m = make_hbvm<TypeParam>(k, s);
+    const Matrix<TypeParam> A_hat = times(m.I_hat, m.projection_hat);
+    for (int q = 1; q <= s; ++q) {
+      for (int i = 0; i < k; ++i) {
+        TypeParam sum = 0;
+        for (int j = 0; j < k; ++j) sum += A_hat(i, j) * pow(m.c_hat[j], q - 1);
+        EXPECT_LE(magnitude(TypeParam(sum - pow(m.c_hat[i], q) / q)), this->tolerance(k)) << q << " " << k << " " << s;
+      }
+    }
+  }
+}
+
+TYPED_TEST(HbvmCoefficients, LagrangeExtrapolatesPolynomialsToOne) {
+  using std::pow;
+  for (const auto& [k, s] : choices) {
+    const auto m = make_hbvm<TypeParam>(k, s);
+    for (int degree = 0; degree < s; ++degree) {
+      TypeParam sum = 0;
+      for (int i = 0; i < s; ++i) sum += m.lagrange_at_1[i] * pow(m.c[i], degree);
+      EXPECT_LE(magnitude(TypeParam(sum - 1)), this->tolerance(s)) << "c^" << degree << ", s = " << s;
+    }
+  }
+}
+
+/// On [1, 2] a polynomial of degree s has the same coefficient of P_s as on [0, 1].
+TYPED_TEST(HbvmCoefficients, ExtrapolationContinuesPolynomials) {
+  using std::pow;
+  for (const auto& [k, s] : choices) {
+    const auto m = make_hbvm<TypeParam>(k, s);
+    const Vector<TypeParam> gamma = this->random.vector(s + 1);
+    Vector<TypeParam> c(6), shifted(6);
+    for (int i = 0; i < 6; ++i) {
+      c[i] = magnitude(this->random.value());
+      shifted[i] = 1 + c[i];
+    }
+    const Matrix<TypeParam> P = legendre_values<TypeParam>(c, s + 1),
+                            P_beyond = legendre_values<TypeParam>(shifted, s + 1);
+    Vector<TypeParam> continued(s + 1);
+    for (int l = 0; l < s; ++l) {
+      continued[l] = 0;
+      for (int j = 0; j <= s; ++j) continued[l] += m.extrapolation(l, j) * gamma[j];
+    }
+    continued[s] = gamma[s];
+    // P_j(2) grows as (3 + sqrt 8)^j.
+    const TypeParam tolerance = this->tolerance(s + 1) * pow(TypeParam(6), s);
+    for (int i = 0; i < 6; ++i) {
+      TypeParam before = 0, after = 0;
+      for (int j = 0; j <= s; ++j) {
+        before += P_beyond(i, j) * gamma[j];
+        after += P(i, j) * continued[j];
+      }
+      EXPECT_LE(magnitude(TypeParam(after - before)), tolerance) << "s = " << s;
+    }
+  }
+}
+
+TYPED_TEST(HbvmCoefficients, RefusesStagesOutOfRange) {
+  for (const auto& [k, s] : {Stages{0, 0}, Stages{0, 1}, Stages{1, 0}, Stages{2, 3}, Stages{-1, -1},
+                             Stages{max_k + 1, 1}, Stages{max_s + 1, max_s + 1}})
+    EXPECT_THROW(make_hbvm<TypeParam>(k, s), InputError) << k << " " << s;
+}
+
+TEST(HbvmInDouble, LargestNumberOfStagesIsFinite) {
+  const Hbvm<double> m = make_hbvm<double>(max_s, max_s);
+  for (const auto& [name, values] : all(m)) EXPECT_TRUE(std::isfinite(max_norm(values))) << name;
+  EXPECT_LE(max_norm(defect_from_identity(times(m.projection, m.P_s))), 8 * max_s * epsilon<double>());
+}
+
+TEST(HbvmInMpfr, CoefficientsHaveTheDigitsOfTheScope) {
+  const PrecisionScope scope(37);
+  for (const auto& [name, values] : all(make_hbvm<Mpfr>(5, 3)))
+    for (Index i = 0; i < values.size(); ++i)
+      EXPECT_EQ(mpfr_get_prec(raw(values.data()[i])), mpfr_working_bits()) << name;
+  EXPECT_EQ(Mpfr::thread_default_precision(), 37u);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,66 @@
+#include "hbvm/method/method_name.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+TEST(MethodName, ReadsKAndS) {
+  const MethodName name = MethodName::parse("hbvm:5,3");
+  EXPECT_EQ(name.k, 5);
+  EXPECT_EQ(name.s, 3);
+  EXPECT_FALSE(name.is_auto());
+}
+
+TEST(MethodName, ReadsAuto) {
+  const MethodName name = MethodName::parse("hbvm:auto,3");
+  EXPECT_TRUE(name.is_auto());
+  EXPECT_EQ(name.s, 3);
+}
+
+TEST(MethodName, TextReadsBack) {
+  for (const char* text : {"hbvm:1,1", "hbvm:5,3", "hbvm:1000,200", "hbvm:auto,1", "hbvm:auto,200"}) {
+    EXPECT_EQ(MethodName::parse(text).text(), text);
+    EXPECT_EQ(MethodName::parse(MethodName::parse(text).text()), MethodName::parse(text));
+  }
+}
+
+TEST(MethodName, LimitsAreInclusive) {
+  EXPECT_NO_THROW((MethodName{1, 1}.check()));
+  EXPECT_NO_THROW((MethodName{max_k, max_s}.check()));
+  EXPECT_NO_THROW((MethodName{0, max_s}.check()));
+  EXPECT_THROW((MethodName{max_k + 1, 1}.check()), InputError);
+  EXPECT_THROW((MethodName{max_s + 1, max_s + 1}.check()), InputError);
+  EXPECT_THROW((MethodName{0, max_s + 1}.check()), InputError);
+  EXPECT_THROW((MethodName{2, 3}.check()), InputError);
+  EXPECT_THROW((MethodName{2, 0}.check()), InputError);
+  EXPECT_THROW((MethodName{0, 0}.check()), InputError);
+  EXPECT_THROW((MethodName{-3, 1}.check()), InputError);
+}
+
+class RefusedMethod : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(RefusedMethod, IsAnInputErrorThatQuotesIt) {
+  try {
+    MethodName::parse(GetParam());
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(GetParam()), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, RefusedMethod,
+                         ::testing::Values("", "hbvm", "hbvm:", "hbvm:5", "hbvm:5,", "hbvm:,3", "hbvm:5,3,1",
+                                           "hbvm:5,3 ", " hbvm:5,3", "hbvm: 5,3", "hbvm:5, 3", "hbvm:+5,3",
+                                           "hbvm:5.0,3", "hbvm:5;3", "HBVM:5,3", "hbvm(5,3)", "gauss:3", "hbvm:five,3",
+                                           "hbvm:auto", "hbvm:auto,", "hbvm:auto5,3", "hbvm:Auto,3",
+                                           "hbvm:99999999999,3", "hbvm:5,99999999999"));
+INSTANTIATE_TEST_SUITE_P(Limits, RefusedMethod,
+                         ::testing::Values("hbvm:2,3", "hbvm:0,0", "hbvm:5,0", "hbvm:0,3", "hbvm:-5,3", "hbvm:5,-3",
+                                           "hbvm:1001,3", "hbvm:201,201", "hbvm:auto,0", "hbvm:auto,201",
+                                           "hbvm:auto,-1"));
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,177 @@
+#include "hbvm/problem/potential.hpp"
+
+#include "hbvm/problem/effect/term.hpp"
+#include "printing.hpp"
+#include "problem/dense.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class PotentialTest : public ::testing::Test {
+ protected:
+  static constexpr Index d = 2, m = 4;
+  PrecisionScope digits{50};
+  RandomValues<S> random{73};
+
+  using Use = EffectUse<S>;
+  using Instance = typename Use::Instance;
+
+  static Instance instance(const Displacement<S>& x, int mass) {
+    Instance result;
+    result.x = x;
+    result.mass_matrix = Matrix<S>::Identity(d, d) * S(mass);
+    result.masses[0] = result.masses[1] = S(mass);
+    return result;
+  }
+  static Displacement<S> body(Index number) { return {{{number * d, S(1)}}, {}}; }
+  static Displacement<S> pair() { return {{{0, S(1)}, {d, S(-1)}}, {}}; }
+
+  static EffectTerm<S> gravity() {
+    Use use{"uniform_gravity", d, {}, {{"acceleration", {S(2), S(-3)}}}, {instance(body(0), 1), instance(body(1), 5)}};
+    return make_term(use);
+  }
+  static EffectTerm<S> attraction() {
+    return make_term(Use{"mutual_gravity", d, {{"strength", S(2)}}, {}, {instance(pair(), 3)}});
+  }
+  static EffectTerm<S> trap() {
+    return make_term(
+        Use{"trap", d, {{"stiffness", S(4)}, {"exponent", S(2)}}, {}, {instance(body(0), 1), instance(body(1), 1)}});
+  }
+  static Potential<S> potential(std::vector<EffectTerm<S>> terms) { return {d, m, std::move(terms)}; }
+
+  Matrix<S> apart(Index lanes) {
+    Matrix<S> q = random.matrix(lanes, m);
+    q.leftCols(2).array() += S(3);
+    return q;
+  }
+};
+TYPED_TEST_SUITE(PotentialTest, AllScalars, ScalarNames);
+
+TYPED_TEST(PotentialTest, ConstantForceIsEvaluatedOnce) {
+  const auto U = this->potential({this->gravity()});
+  PotentialEvaluator<TypeParam> evaluator(U, 3);
+  EXPECT_FALSE(evaluator.has_varying_force());
+  Vector<TypeParam> expected(4);
+  expected << TypeParam(2), TypeParam(-3), TypeParam(10), TypeParam(-15);
+  EXPECT_EQ(evaluator.constant_force(), expected);
+  Matrix<TypeParam> force = this->random.matrix(3, 4);
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const Matrix<TypeParam> q = this->apart(3);
+    evaluator.varying_force(lanes(q), force);
+    EXPECT_EQ(force, (Matrix<TypeParam>(Matrix<TypeParam>::Zero(3, 4))));
+  }
+  ASSERT_EQ(evaluator.counts().size(), 1u);
+  EXPECT_EQ(evaluator.counts()[0].calls, 1u);
+  EXPECT_EQ(evaluator.counts()[0].evaluations, 1u);
+}
+
+TYPED_TEST(PotentialTest, CountsCallsAndEvaluations) {
+  const auto U = this->potential({this->gravity(), this->attraction()});
+  PotentialEvaluator<TypeParam> evaluator(U, 3);
+  EXPECT_TRUE(evaluator.has_varying_force());
+  Matrix<TypeParam> force;
+  Vector<TypeParam> values;
+  const Matrix<TypeParam> q = this->apart(3);
+  for (int call = 0; call < 4; ++call) evaluator.varying_force(lanes(q), force);
+  evaluator.values(lanes(q), values);
+  EXPECT_EQ(evaluator.counts()[0].calls, 1u);
+  EXPECT_EQ(evaluator.counts()[1].calls, 4u);
+  EXPECT_EQ(evaluator.counts()[1].evaluations, 12u);
+}
+
+TYPED_TEST(PotentialTest, CountsOperationsOfAnEvaluation) {
+  const auto U = this->potential({this->attraction()});
+  const PotentialEvaluator<TypeParam> evaluator(U, 3);
+  // x = a - b, the gradient, and its sum into both bodies
+  OperationCounts expected = U.terms[0].gradient.operations();
+  expected.add(Op::subtract, 2 + 2);
+  expected.add(Op::add, 2);
+  EXPECT_EQ(evaluator.counts()[0].per_evaluation, expected);
+}
+
+TYPED_TEST(PotentialTest, EveryLaneIsTreatedAlike) {
+  const auto U = this->potential({this->gravity(), this->attraction(), this->trap()});
+  PotentialEvaluator<TypeParam> together(U, 5), alone(U, 1);
+  const Matrix<TypeParam> q = this->apart(5);
+  Matrix<TypeParam> forces, force;
+  Vector<TypeParam> values, one;
+  together.varying_force(lanes(q), forces);
+  together.values(lanes(q), values);
+  EXPECT_EQ(together.constant_force(), alone.constant_force());
+  for (Index i = 0; i < 5; ++i) {
+    const Matrix<TypeParam> position = q.row(i);
+    alone.varying_force(lanes(position), force);
+    alone.values(lanes(position), one);
+    EXPECT_EQ(Matrix<TypeParam>(forces.row(i)), force);
+    EXPECT_EQ(values[i], one[0]);
+  }
+}
+
+TYPED_TEST(PotentialTest, TermsAddUp) {
+  const auto sum = this->potential({this->attraction(), this->trap()}), first = this->potential({this->attraction()}),
+             second = this->potential({this->trap()});
+  const Matrix<TypeParam> q = this->apart(2);
+  Matrix<TypeParam> all, a, b;
+  Vector<TypeParam> U, U_a, U_b;
+  PotentialEvaluator<TypeParam> evaluator(sum, 2), evaluator_a(first, 2), evaluator_b(second, 2);
+  evaluator.varying_force(lanes(q), all);
+  evaluator_a.varying_force(lanes(q), a);
+  evaluator_b.varying_force(lanes(q), b);
+  evaluator.values(lanes(q), U);
+  evaluator_a.values(lanes(q), U_a);
+  evaluator_b.values(lanes(q), U_b);
+  const TypeParam tolerance = 8 * epsilon<TypeParam>();
+  EXPECT_LE(max_norm(Matrix<TypeParam>(all - a - b)), tolerance * max_norm(all));
+  EXPECT_LE(max_norm(Vector<TypeParam>(U - U_a - U_b)), tolerance * max_norm(U));
+}
+
+TYPED_TEST(PotentialTest, EvaluationsOverwrite) {
+  const auto U = this->potential({this->attraction()});
+  PotentialEvaluator<TypeParam> evaluator(U, 2);
+  const Matrix<TypeParam> q = this->apart(2);
+  Matrix<TypeParam> fresh, used = this->random.matrix(2, 4);
+  Vector<TypeParam> value, used_value = this->random.vector(2);
+  evaluator.varying_force(lanes(q), fresh);
+  evaluator.varying_force(lanes(q), used);
+  evaluator.values(lanes(q), value);
+  evaluator.values(lanes(q), used_value);
+  EXPECT_EQ(fresh, used);
+  EXPECT_EQ(value, used_value);
+}
+
+TYPED_TEST(PotentialTest, ActionAndReaction) {
+  const auto U = this->potential({this->attraction()});
+  PotentialEvaluator<TypeParam> evaluator(U, 3);
+  const Matrix<TypeParam> q = this->apart(3);
+  Matrix<TypeParam> force;
+  evaluator.varying_force(lanes(q), force);
+  EXPECT_EQ(Matrix<TypeParam>(force.leftCols(2)), Matrix<TypeParam>(-force.rightCols(2)));
+  for (Index i = 0; i < 3; ++i) EXPECT_LT(force(i, 0), 0) << "the body on the right is pulled left";
+}
+
+TYPED_TEST(PotentialTest, NoTermsGiveZero) {
+  const auto nothing = this->potential({});
+  PotentialEvaluator<TypeParam> evaluator(nothing, 2);
+  const Matrix<TypeParam> q = this->apart(2);
+  Vector<TypeParam> U = this->random.vector(2);
+  evaluator.values(lanes(q), U);
+  EXPECT_EQ(U, (Vector<TypeParam>(Vector<TypeParam>::Zero(2))));
+  EXPECT_EQ(evaluator.constant_force(), (Vector<TypeParam>(Vector<TypeParam>::Zero(4))));
+  EXPECT_FALSE(evaluator.has_varying_force());
+}
+
+TYPED_TEST(PotentialTest, MeasuresTimeIfAsked) {
+  const auto U = this->potential({this->attraction()});
+  PotentialEvaluator<TypeParam> evaluator(U, 3);
+  const Matrix<TypeParam> q = this->apart(3);
+  Matrix<TypeParam> force;
+  evaluator.varying_force(lanes(q), force);
+  EXPECT_EQ(evaluator.counts()[0].seconds, 0);
+  evaluator.measure_time();
+  for (int call = 0; call < 100; ++call) evaluator.varying_force(lanes(q), force);
+  EXPECT_GT(evaluator.counts()[0].seconds, 0);
+}
+
+}  // namespace
+}  // namespace hbvm

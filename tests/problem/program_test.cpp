@@ -1,0 +1,128 @@
+#include "hbvm/problem/effect/program.hpp"
+
+#include <cmath>
+#include <functional>
+
+#include "printing.hpp"
+#include "scalar/random_values.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class ProgramTest : public ::testing::Test {
+ protected:
+  using Code = Program<S>;
+  static constexpr Index count = 3;
+  PrecisionScope digits{50};
+  RandomValues<S> random{59};
+  Matrix<S> x = random.matrix(count, 2);
+  std::vector<const S*> inputs{x.data(), x.data() + count};
+
+  /// One instruction on the two inputs.
+  Vector<S> run(Op op) {
+    using Bank = typename Code::Bank;
+    const Code code({}, {{op, {Bank::input, 0}, {Bank::input, 1}, 0}}, {{Bank::temporary, 0}}, 1);
+    Matrix<S> registers = code.make_registers(count);
+    code.run(registers, inputs);
+    Vector<S> result(count);
+    for (Index i = 0; i < count; ++i) result[i] = code.output(0, i, registers, inputs);
+    return result;
+  }
+
+  void expect(Op op, const std::function<S(const S&, const S&)>& f) {
+    const Vector<S> result = run(op);
+    for (Index i = 0; i < count; ++i) EXPECT_EQ(result[i], f(x(i, 0), x(i, 1))) << name_of(op);
+  }
+};
+TYPED_TEST_SUITE(ProgramTest, AllScalars, ScalarNames);
+
+TYPED_TEST(ProgramTest, EveryOperationInEveryLane) {
+  using S = TypeParam;
+  using std::cos, std::exp, std::log, std::sin, std::sqrt;
+  this->x(1, 0) = -magnitude(this->x(1, 0));
+  this->expect(Op::add, [](const S& a, const S& b) { return S(a + b); });
+  this->expect(Op::subtract, [](const S& a, const S& b) { return S(a - b); });
+  this->expect(Op::multiply, [](const S& a, const S& b) { return S(a * b); });
+  this->expect(Op::negate, [](const S& a, const S&) { return S(-a); });
+  this->expect(Op::abs, [](const S& a, const S&) { return magnitude(a); });
+  this->expect(Op::sign, [](const S& a, const S&) { return S(a < 0 ? -1 : 1); });
+  this->expect(Op::reciprocal, [](const S& a, const S&) { return S(1 / a); });
+  this->expect(Op::sin, [](const S& a, const S&) { return S(sin(a)); });
+  this->expect(Op::cos, [](const S& a, const S&) { return S(cos(a)); });
+  this->expect(Op::exp, [](const S& a, const S&) { return S(exp(a)); });
+  for (Index i = 0; i < this->count; ++i) this->x(i, 0) = magnitude(this->x(i, 0));
+  this->expect(Op::sqrt, [](const S& a, const S&) { return S(sqrt(a)); });
+  this->expect(Op::log, [](const S& a, const S&) { return S(log(a)); });
+}
+
+TYPED_TEST(ProgramTest, SignOfZeroIsZero) {
+  this->x.col(0).setZero();
+  EXPECT_EQ(this->run(Op::sign), (Vector<TypeParam>(Vector<TypeParam>::Zero(this->count))));
+}
+
+TYPED_TEST(ProgramTest, ConstantsStandOnEitherSide) {
+  using S = TypeParam;
+  using Bank = typename Program<S>::Bank;
+  const S seven = 7;
+  const Program<S> code({seven},
+                        {{Op::subtract, {Bank::constant, 0}, {Bank::input, 0}, 0},
+                         {Op::subtract, {Bank::input, 1}, {Bank::constant, 0}, 1}},
+                        {{Bank::temporary, 0}, {Bank::temporary, 1}}, 2);
+  Matrix<S> registers = code.make_registers(this->count);
+  code.run(registers, this->inputs);
+  for (Index i = 0; i < this->count; ++i) {
+    EXPECT_EQ(code.output(0, i, registers, this->inputs), seven - this->x(i, 0));
+    EXPECT_EQ(code.output(1, i, registers, this->inputs), this->x(i, 1) - seven);
+  }
+}
+
+TYPED_TEST(ProgramTest, AResultMayReplaceItsOperand) {
+  using S = TypeParam;
+  using Bank = typename Program<S>::Bank;
+  const Program<S> code({},
+                        {{Op::add, {Bank::input, 0}, {Bank::input, 1}, 0},
+                         {Op::multiply, {Bank::temporary, 0}, {Bank::temporary, 0}, 0},
+                         {Op::negate, {Bank::temporary, 0}, {}, 0}},
+                        {{Bank::temporary, 0}}, 1);
+  Matrix<S> registers = code.make_registers(this->count);
+  code.run(registers, this->inputs);
+  for (Index i = 0; i < this->count; ++i) {
+    const S sum = this->x(i, 0) + this->x(i, 1);
+    EXPECT_EQ(code.output(0, i, registers, this->inputs), -(sum * sum));
+  }
+}
+
+TYPED_TEST(ProgramTest, OutputsComeFromEveryBank) {
+  using S = TypeParam;
+  using Bank = typename Program<S>::Bank;
+  const Program<S> code({S(5)}, {{Op::negate, {Bank::input, 1}, {}, 0}},
+                        {{Bank::input, 1}, {Bank::constant, 0}, {Bank::temporary, 0}}, 1);
+  ASSERT_EQ(code.outputs(), 3u);
+  EXPECT_FALSE(code.is_constant(0));
+  EXPECT_TRUE(code.is_constant(1));
+  EXPECT_FALSE(code.is_constant(2));
+  Matrix<S> registers = code.make_registers(this->count);
+  code.run(registers, this->inputs);
+  for (Index i = 0; i < this->count; ++i) {
+    EXPECT_EQ(code.output(0, i, registers, this->inputs), this->x(i, 1));
+    EXPECT_EQ(code.output(1, i, registers, this->inputs), 5);
+    EXPECT_EQ(code.output(2, i, registers, this->inputs), -this->x(i, 1));
+  }
+}
+
+TYPED_TEST(ProgramTest, CountsItsInstructions) {
+  using Bank = typename Program<TypeParam>::Bank;
+  const Program<TypeParam> code({},
+                                {{Op::add, {Bank::input, 0}, {Bank::input, 1}, 0},
+                                 {Op::sqrt, {Bank::temporary, 0}, {}, 0},
+                                 {Op::add, {Bank::temporary, 0}, {Bank::input, 1}, 0}},
+                                {{Bank::temporary, 0}}, 1);
+  OperationCounts expected;
+  expected.add(Op::add, 2);
+  expected.add(Op::sqrt, 1);
+  EXPECT_EQ(code.operations(), expected);
+}
+
+}  // namespace
+}  // namespace hbvm

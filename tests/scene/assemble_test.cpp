@@ -1,0 +1,490 @@
+#include "hbvm/scene/assemble.hpp"
+
+#include "hbvm/problem/point.hpp"
+#include "printing.hpp"
+#include "scene/scene_text.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+Assembled<S> assembled(const std::string& text) {
+  return assemble<S>(read_scene(text, "test.toml"));
+}
+
+/// What assemble refuses the text with; empty if it does not.
+template <Scalar S>
+std::string inconsistency(const std::string& text) {
+  try {
+    assembled<S>(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void expect_words(const std::string& message, const std::vector<std::string>& words) {
+  for (const std::string& word : words)
+    EXPECT_NE(message.find(word), std::string::npos) << word << " is not in: " << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+void expect_equal(const Vector<Mpfr>& v, Index first, const std::vector<const char*>& expected) {
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(v[first + static_cast<Index>(i)], literal<Mpfr>(expected[i]))
+        << "entry " << first + static_cast<Index>(i);
+}
+
+void expect_near(const Mpfr& a, const Mpfr& b, const Mpfr& scale, const char* what) {
+  EXPECT_LE(magnitude(Mpfr(a - b)), 100 * epsilon<Mpfr>() * scale) << what << ": " << to_text(a) << ", " << to_text(b);
+}
+
+/// A state that is on no symmetry of every_key.
+Vector<Mpfr> generic(Index size, int seed) {
+  Vector<Mpfr> v(size);
+  for (Index i = 0; i < size; ++i) v[i] = Mpfr((i * i * 7 + i * 5 + seed * 11) % 23 - 11) / 7;
+  return v;
+}
+
+class EveryKey : public ::testing::Test {
+ protected:
+  /// The block of three coordinates that starts at `offset`.
+  static Vector<Mpfr> block(const Vector<Mpfr>& q, Index offset) { return q.segment(offset, 3); }
+  static Mpfr squared(const Vector<Mpfr>& v) { return Mpfr(v.dot(v)); }
+
+  PrecisionScope digits{50};
+  Assembled<Mpfr> scene = assembled<Mpfr>(every_key);
+  static constexpr Index a = 0, b = 3, c = 6, top = 9, stone = 18;  // offsets of the coordinates
+};
+
+TEST_F(EveryKey, HasBodiesThenRigidBodiesAsCoordinates) {
+  EXPECT_EQ(scene.problem.dimension, 3);
+  ASSERT_EQ(scene.problem.m(), 3 * 3 + 9 + 12);
+  expect_equal(scene.q0, a, {"3/5", "0", "-4/5"});
+  expect_equal(scene.q0, b, {"1", "1", "1"});
+  expect_equal(scene.q0, c, {"1", "1", "0"});
+  expect_equal(scene.q0, top, {"2/3", "2/3", "1/3", "-2/3", "1/3", "2/3", "1/3", "-2/3", "2/3"});
+  expect_equal(scene.q0, stone, {"5", "6", "7", "1", "0", "0", "0", "1", "0", "0", "0", "1"});
+}
+
+TEST_F(EveryKey, VelocitiesBecomeMomentaAndMomentaStay) {
+  expect_equal(scene.p0, a, {"4/5", "0", "3/5"});
+  expect_equal(scene.p0, b, {"87/16", "-3/2", "9/8"});
+  expect_equal(scene.p0, c, {"2", "-1", "0"});
+  // The stone: v = (1, -1, 1/3), rates of its directors omega x d = (0, 5, -3), (-5, 0, 2), (3, -2, 0),
+  // m = 4, centre (0, 1/8, 0): p of the reference point is m v + m/8 d2'.
+  const Vector<Mpfr> p = scene.p0.segment(stone, 12);
+  const Mpfr third = Mpfr(1) / 3;
+  const Mpfr half = Mpfr(1) / 2;
+  const std::vector<Mpfr> expected{4 * 1 - 5 * half,
+                                   -4,
+                                   4 * third + 1,  // m v + m c2 d2'
+                                   0,
+                                   5,
+                                   -3,  // J11 d1'
+                                   half - 10,
+                                   -half,
+                                   half * third + 4 + 0 * half,  // m c2 v + J22 d2' + J23 d3'
+                                   -5 * half + 9,
+                                   -6,
+                                   1};                                           // J32 d2' + J33 d3'
+  const std::vector<Mpfr> coupling{0, 0, 0, 0, 0, 0, 3 * half, -1, 0, 0, 0, 0};  // J23 d3' of the third block
+  for (Index i = 0; i < 12; ++i)
+    expect_near(p[i], expected[static_cast<std::size_t>(i)] + coupling[static_cast<std::size_t>(i)], 10, "p");
+}
+
+TEST_F(EveryKey, ConstraintsOfRigidBodiesComeFirst) {
+  const std::vector<std::string> words{"1 and 1 of 'top'",
+                                       "1 and 2 of 'top'",
+                                       "1 and 3 of 'top'",
+                                       "2 and 2 of 'top'",
+                                       "2 and 3 of 'top'",
+                                       "3 and 3 of 'top'",
+                                       "1 and 1 of 'stone'",
+                                       "1 and 2 of 'stone'",
+                                       "1 and 3 of 'stone'",
+                                       "2 and 2 of 'stone'",
+                                       "2 and 3 of 'stone'",
+                                       "3 and 3 of 'stone'",
+                                       "rod",
+                                       "quadric",
+                                       "plane",
+                                       "angle"};
+  ASSERT_EQ(scene.problem.nu(), static_cast<Index>(words.size()));
+  for (std::size_t i = 0; i < words.size(); ++i)
+    EXPECT_NE(scene.problem.constraints[i].name.find(words[i]), std::string::npos) << scene.problem.constraints[i].name;
+}
+
+TEST_F(EveryKey, ConstraintsAreScaledAsTheFormatSays) {
+  const Vector<Mpfr> q = generic(scene.problem.m(), 1);
+  Point<Mpfr> point(scene.problem);
+  const Vector<Mpfr> g = point.constraints(q);
+  Index i = 0;
+  for (const Index first : {top, stone + 3})
+    for (Index x = 0; x < 3; ++x)
+      for (Index y = x; y < 3; ++y, ++i) {
+        const Mpfr product = block(q, first + 3 * x).dot(block(q, first + 3 * y));
+        expect_near(g[i], Mpfr(product - (x == y ? 1 : 0)), 10, "directors");
+      }
+  const Vector<Mpfr> qa = block(q, a), qb = block(q, b), qc = block(q, c);
+  const Mpfr quarter = Mpfr(1) / 4;
+  expect_near(g[12], Mpfr(squared(qa) - 1), 10, "rod");
+  expect_near(
+      g[13],
+      Mpfr(qb[0] * qb[0] + 2 * quarter * qb[0] * qb[1] + 2 * qb[1] * qb[1] + qb[2] * qb[2] + qb[0] / 2 - qb[2] - 4), 10,
+      "quadric");
+  expect_near(g[14], Mpfr(qc[0] + 2 * qc[1] + 2 * qc[2] - 3), 10, "plane");
+  expect_near(g[15], Mpfr(qa.dot(Vector<Mpfr>(qc - qb)) - Mpfr(4) / 5), 10, "angle");
+}
+
+TEST_F(EveryKey, HiddenConstraintsAreTheirTimeDerivatives) {
+  const Vector<Mpfr> q = generic(scene.problem.m(), 1), p = generic(scene.problem.m(), 2);
+  Vector<Mpfr> v(p.size());
+  scene.problem.mass.velocity(lanes(p), lanes(v));
+  Point<Mpfr> point(scene.problem);
+  const Vector<Mpfr> hidden = point.hidden_constraints(q, p);
+  // g is quadratic: the central difference is exact.
+  const Vector<Mpfr> ahead = point.constraints(Vector<Mpfr>(q + v)), behind = point.constraints(Vector<Mpfr>(q - v));
+  for (Index i = 0; i < hidden.size(); ++i) expect_near(hidden[i], Mpfr((ahead[i] - behind[i]) / 2), 1'000, "hidden");
+}
+
+TEST_F(EveryKey, EnergyIsTheSumOfTheTable) {
+  const Vector<Mpfr> q = generic(scene.problem.m(), 3);
+  const Vector<Mpfr> qa = block(q, a), qb = block(q, b), qc = block(q, c);
+  Vector<Mpfr> charge(3), gravity(3), axis(3), top_centre(3), stone_centre(3);
+  charge << Mpfr(2), Mpfr(1) / 2, Mpfr(1) / 4;
+  gravity << Mpfr(0), Mpfr(-1) / 7, Mpfr(-1);
+  axis << Mpfr(1) / 3, Mpfr(2) / 3, Mpfr(2) / 3;
+  top_centre = block(q, top) / Mpfr(10) + block(q, top + 3) / Mpfr(5) + block(q, top + 6);
+  top_centre[1] += 1;
+  top_centre[2] += Mpfr(1) / 2;
+  stone_centre = block(q, stone) + block(q, stone + 6) / Mpfr(8);
+  const auto distance = [&](const Vector<Mpfr>& x, const Vector<Mpfr>& y) {
+    return Mpfr(sqrt(squared(Vector<Mpfr>(x - y))));
+  };
+
+  Matrix<Mpfr> M(3, 3);
+  M << Mpfr(2), Mpfr(1) / 4, Mpfr(0), Mpfr(1) / 4, Mpfr(1), Mpfr(0), Mpfr(0), Mpfr(0), Mpfr(1);
+  Mpfr V = -(2 * gravity.dot(qa) + gravity.dot(Vector<Mpfr>(M * qb)) + gravity.dot(qc) + 3 * gravity.dot(top_centre) +
+             4 * gravity.dot(stone_centre));
+  const Vector<Mpfr> origin = Vector<Mpfr>::Zero(3);
+  V -= literal<Mpfr>("0.3") * (2 / distance(qa, origin) + 1 / distance(qc, origin));
+  V -= 2 / (5 * distance(qa, qc));
+  V += literal<Mpfr>("0.7") * literal<Mpfr>("-3/2") / distance(qa, charge);
+  for (const Mpfr& r : {distance(qa, qb), distance(qc, charge)})
+    V += literal<Mpfr>("5/16") * pow(Mpfr(r - Mpfr(1) / 3), 4);
+  V += squared(Vector<Mpfr>(qb - qc));
+  for (const Vector<Mpfr>& x : {qa, qb, qc}) {
+    const Mpfr r = distance(x, charge);
+    V += pow(r, 4) / 80;
+    V -= cos(r) / 2;
+  }
+  const Mpfr sixth = pow(Mpfr(literal<Mpfr>("9/10") / distance(qa, qb)), 6);
+  V += literal<Mpfr>("4/100") * (sixth * sixth - sixth);
+  const Mpfr r = distance(qa, charge), z = axis.dot(Vector<Mpfr>(qa - charge)) / r;
+  V += literal<Mpfr>("1.5 * 2 * 1.08e-3 / 4 / 2") * (3 * z * z - 1) / (r * r * r);
+
+  Point<Mpfr> point(scene.problem);
+  const Mpfr H = point.energy(q, Vector<Mpfr>::Zero(q.size()));
+  expect_near(H, V, 1'000, "potential energy");
+}
+
+TEST_F(EveryKey, IsConsistentInEveryPrecision) {
+  EXPECT_EQ(inconsistency<double>(every_key), "");
+  EXPECT_EQ(inconsistency<Quad>(every_key), "");
+  for (const unsigned n : {20u, 100u, 1'000u}) {
+    const PrecisionScope other(n);
+    EXPECT_EQ(inconsistency<Mpfr>(every_key), "") << n;
+  }
+}
+
+/// An angle between a rod and a direction that two fixed points give.
+class FixedDirection : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(FixedDirection, GivesALinearConstraint) {
+  const PrecisionScope digits(50);
+  const std::string text = R"(dimension = 3
+[[point]]
+name = "P"
+position = [0, 0, 1]
+[[point]]
+name = "R"
+position = [1, 1, 3]
+[[body]]
+name = "a"
+mass = 1
+position = [1, 0, 0]
+velocity = [1, 1, -1]
+[[body]]
+name = "c"
+mass = 2
+position = [0, "3/2", 1]
+velocity = [0, 0, 0]
+[[constraint]]
+kind = "angle"
+first = )" + GetParam().first +
+                           "\nsecond = " + GetParam().second + "\nvalue = \"5/2\"\n";
+  const Assembled<Mpfr> scene = assembled<Mpfr>(text);
+  Point<Mpfr> point(scene.problem);
+  const Vector<Mpfr> q = generic(6, 1), p = generic(6, 2);
+  const auto along = [](const Vector<Mpfr>& x) { return Mpfr(-(x[0] - x[3]) - (x[1] - x[4]) - 2 * (x[2] - x[5])); };
+  expect_near(point.constraints(q)[0], Mpfr(along(q) - Mpfr(5) / 2), 10, "angle");
+  Vector<Mpfr> v(6);
+  scene.problem.mass.velocity(lanes(p), lanes(v));
+  expect_near(point.hidden_constraints(q, p)[0], along(v), 10, "its rate");
+  expect_near(point.hidden_constraints(q, p)[0], along(v), 10, "its rate, evaluated again");
+}
+
+INSTANTIATE_TEST_SUITE_P(Order, FixedDirection,
+                         ::testing::Values(std::pair(R"(["P", "R"])", R"(["a", "c"])"),
+                                           std::pair(R"(["a", "c"])", R"(["P", "R"])")));
+
+/// The bodies and points of this scene by default: 1, 2 and the points carry charges, 3 does not.
+const std::string charges = R"(dimension = 2
+[[point]]
+name = "P"
+position = [0, 3]
+charge = 2
+[[point]]
+name = "Q"
+position = [0, -3]
+charge = 5
+[[point]]
+name = "R"
+position = [4, 0]
+[[body]]
+name = "1"
+mass = 1
+position = [1, 0]
+velocity = [0, 0]
+charge = 7
+[[body]]
+name = "2"
+mass = 1
+position = [-1, 0]
+velocity = [0, 0]
+charge = -1
+[[body]]
+name = "3"
+mass = 1
+position = [0, 0]
+velocity = [0, 0]
+[[effect]]
+kind = "coulomb"
+strength = 3
+)";
+
+double energy_at_start(const std::string& text) {
+  const Assembled<double> scene = assembled<double>(text);
+  return Point<double>(scene.problem).energy(scene.q0, scene.p0);
+}
+
+TEST(DefaultPairs, AllChargedBodiesAndPoints) {
+  const double far = std::sqrt(10);
+  const double expected = 3 * (7 * -1 / 2.0 + (7 - 1) * (2 + 5) / far);
+  EXPECT_NEAR(energy_at_start(charges), expected, 1e-13);
+}
+
+TEST(DefaultPairs, AllBodiesForMutualGravity) {
+  const std::string text = changed(charges, "kind = \"coulomb\"", "kind = \"mutual_gravity\"");
+  EXPECT_NEAR(energy_at_start(text), -3 * (1 / 2.0 + 1 + 1), 1e-13);
+}
+
+TEST(DefaultPairs, NamedPairsReplaceThem) {
+  EXPECT_NEAR(energy_at_start(charges + "between = [\"P\", \"2\"]\n"), 3 * 2 * -1 / std::sqrt(10), 1e-13);
+}
+
+struct Unusable {
+  const char *name, *from, *to, *at;
+  std::vector<std::string> words;
+};
+void PrintTo(const Unusable& u, std::ostream* out) { *out << u.to; }
+std::string name_of_case(const ::testing::TestParamInfo<Unusable>& info) { return info.param.name; }
+
+class UnusableScene : public ::testing::TestWithParam<Unusable> {};
+
+TEST_P(UnusableScene, IsRefusedWithFileAndLine) {
+  const std::string text = changed(every_key, GetParam().from, GetParam().to);
+  const std::string message = inconsistency<double>(text);
+  EXPECT_TRUE(message.starts_with("test.toml:" + std::to_string(line_of(text, GetParam().at)) + ": ")) << message;
+  expect_words(message, GetParam().words);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, UnusableScene,
+    ::testing::Values(
+        Unusable{"MassZero", "mass = 2", "mass = 0", "[[body]]\nname = \"a\"", {"'a'", "mass", "positive"}},
+        Unusable{"MassNegative", "mass = 2", "mass = \"-L\"", "[[body]]\nname = \"a\"", {"'a'", "mass", "positive"}},
+        Unusable{"MassOfUnknownName", "mass = 2", "mass = \"2*K\"", "[[body]]\nname = \"a\"", {"'a'", "'K'"}},
+        Unusable{
+            "MassOfDivisionByZero", "mass = 2", "mass = \"1/(L-L)\"", "[[body]]\nname = \"a\"", {"'a'", "division"}},
+        Unusable{"MassBelowRange", "mass = 2", "mass = 1e-400", "[[body]]\nname = \"a\"", {"'a'", "1e-400", "range"}},
+        Unusable{"CircularConstants",
+                 "L = \"1/2\"",
+                 "L = \"unit/2\"",
+                 "[[point]]\nname = \"charge\"",
+                 {"defined by itself"}},
+        Unusable{"MatrixUnsymmetric",
+                 "[0.25, 1, 0], [0, 0, 1]]",
+                 "[0.26, 1, 0], [0, 0, 1]]",
+                 "[[body]]\nname = \"b\"",
+                 {"'b'", "mass matrix", "symmetric"}},
+        Unusable{"MatrixIndefinite",
+                 "[0.25, 1, 0], [0, 0, 1]]",
+                 "[0.25, \"1/33\", 0], [0, 0, 1]]",
+                 "[[body]]\nname = \"b\"",
+                 {"'b'", "mass matrix", "positive definite"}},
+        Unusable{"MatrixSingular",
+                 "[0.25, 1, 0], [0, 0, 1]]",
+                 "[0.25, \"1/32\", 0], [0, 0, 1]]",
+                 "[[body]]\nname = \"b\"",
+                 {"'b'", "mass matrix", "positive definite"}},
+        Unusable{"RigidMassNegative",
+                 "mass = 4",
+                 "mass = -4",
+                 "[[rigid_body]]\nname = \"stone\"",
+                 {"'stone'", "mass", "positive"}},
+        Unusable{"SecondMomentUnsymmetric",
+                 "[0, 0.5, 3]]",
+                 "[0, 0.6, 3]]",
+                 "[[rigid_body]]\nname = \"stone\"",
+                 {"'stone'", "second_moment", "symmetric"}},
+        Unusable{"SecondMomentIndefinite",
+                 "second_moment = [[1, 0, 0]",
+                 "second_moment = [[-1, 0, 0]",
+                 "[[rigid_body]]\nname = \"stone\"",
+                 {"'stone'", "positive definite"}},
+        Unusable{"QuadricUnsymmetric",
+                 "[\"1/4\", 2, 0], [0, 0, 1]]",
+                 "[\"1/5\", 2, 0], [0, 0, 1]]",
+                 "[[constraint]]\nkind = \"quadric\"",
+                 {"quadric", "'A'", "symmetric"}},
+        Unusable{"LengthZero",
+                 "length = \"unit\"",
+                 "length = \"unit-1\"",
+                 "[[constraint]]\nkind = \"rod\"",
+                 {"rod", "length", "positive"}},
+        Unusable{"NoCharge",
+                 "strength = 0.7",
+                 "strength = 0.7\nbetween = [\"a\", \"b\"]",
+                 "[[effect]]\nkind = \"coulomb\"",
+                 {"coulomb", "'b'", "charge"}},
+        Unusable{"PointWithoutCharge",
+                 "strength = 0.7",
+                 "strength = 0.7\nbetween = [\"a\", \"pivot\"]",
+                 "[[effect]]\nkind = \"coulomb\"",
+                 {"coulomb", "'pivot'", "charge"}},
+        Unusable{"BothPoints",
+                 "strength = 0.7",
+                 "strength = 0.7\nbetween = [\"charge\", \"pivot\"]",
+                 "[[effect]]\nkind = \"coulomb\"",
+                 {"coulomb", "'charge'", "'pivot'"}},
+        Unusable{"MatrixMassAboutCenter",
+                 "on = [\"a\", \"c\"]",
+                 "",
+                 "[[effect]]\nkind = \"central_gravity\"",
+                 {"central_gravity", "'b'", "scalar mass"}},
+        Unusable{"MatrixMassOfPair",
+                 "strength = \"1/5\"\nbetween = [\"a\", \"c\"]",
+                 "strength = \"1/5\"",
+                 "[[effect]]\nkind = \"mutual_gravity\"",
+                 {"mutual_gravity", "'b'", "scalar mass"}},
+        Unusable{"PointInMutualGravity",
+                 "strength = \"1/5\"\nbetween = [\"a\", \"c\"]",
+                 "strength = \"1/5\"\nbetween = [\"a\", \"pivot\"]",
+                 "[[effect]]\nkind = \"mutual_gravity\"",
+                 {"mutual_gravity", "'pivot'", "mass"}},
+        Unusable{"TrapOfOddExponent",
+                 "stiffness = \"L/10\"\nexponent = 4",
+                 "stiffness = \"L/10\"\nexponent = 3",
+                 "[[effect]]\nkind = \"trap\"",
+                 {"trap", "exponent"}}),
+    name_of_case);
+
+/// Each constraint of every_key, its number in the problem's order, a start that violates it and the residual.
+struct Violation {
+  const char *name, *from, *to;
+  int number;
+  const char *kind, *what, *residual;
+};
+void PrintTo(const Violation& v, std::ostream* out) { *out << v.to; }
+std::string name_of_violation(const ::testing::TestParamInfo<Violation>& info) { return info.param.name; }
+
+class InconsistentStart : public ::testing::TestWithParam<Violation> {};
+
+TEST_P(InconsistentStart, NamesConstraintAndResidual) {
+  const Violation& v = GetParam();
+  const std::string message = inconsistency<double>(changed(every_key, v.from, v.to));
+  EXPECT_TRUE(message.starts_with("test.toml")) << message;
+  expect_words(message, {v.what, "constraint " + std::to_string(v.number) + " (", v.kind,
+                         std::string("residual ") + v.residual});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Constraints, InconsistentStart,
+    ::testing::Values(Violation{"RodPosition", "length = \"unit\"", "length = 2", 13, "rod", "position", "-3.00e+00"},
+                      Violation{"RodVelocity", "velocity = [0.4, 0, \"3/10\"]", "velocity = [0.4, 0, 0]", 13, "rod",
+                                "velocity", "4.80e-01"},
+                      Violation{"QuadricPosition", "c = -4", "c = -4.001", 14, "quadric", "position", "-1.00e-03"},
+                      Violation{"QuadricVelocity", "-1.5, 1.125]", "-1.5, 1]", 14, "quadric", "velocity", "-1.25e-01"},
+                      Violation{"PlanePosition", "offset = 3", "offset = 2", 15, "plane", "position", "1.00e+00"},
+                      Violation{"PlaneVelocity", "velocity = [2, -1, 0]", "velocity = [2, -1, 1]", 15, "plane",
+                                "velocity", "2.00e+00"},
+                      Violation{"AnglePosition", "value = 0.8", "value = 0.9", 16, "angle", "position", "-1.00e-01"},
+                      Violation{"DirectorsPosition", "directors = [[1, 0, 0]", "directors = [[1, 0.25, 0]", 7,
+                                "'stone'", "position", "6.25e-02"}),
+    name_of_violation);
+
+std::string pendulum(const std::string& position, const std::string& velocity) {
+  return "dimension = 2\n[[point]]\nname = \"O\"\nposition = [0, 0]\n[[body]]\nname = \"bob\"\nmass = 3\nposition = " +
+         position + "\nvelocity = " + velocity +
+         "\n[[constraint]]\nkind = \"rod\"\nbetween = [\"O\", \"bob\"]\nlength = 1\n";
+}
+
+TEST(Consistency, IsJudgedInTheWorkingPrecision) {
+  const std::string rounded = pendulum("[0.70710678118654752, -0.70710678118654752]", "[1, 1]");
+  EXPECT_EQ(inconsistency<double>(rounded), "");
+  expect_words(inconsistency<Quad>(rounded), {"position", "constraint 1", "residual"});
+  const PrecisionScope digits(50);
+  expect_words(inconsistency<Mpfr>(rounded), {"position", "constraint 1", "residual -1.24e-17"});
+}
+
+TEST(Consistency, OfVelocitiesIsJudgedInTheWorkingPrecision) {
+  const std::string rounded = pendulum("[\"sqrt(1/2)\", \"-sqrt(1/2)\"]", "[0.33333333333333333, \"1/3\"]");
+  EXPECT_EQ(inconsistency<double>(rounded), "");
+  const PrecisionScope digits(50);
+  expect_words(inconsistency<Mpfr>(rounded), {"velocity", "constraint 1", "residual"});
+}
+
+TEST(Consistency, HoldsForExactExpressionsAtAnyDigits) {
+  const std::string exact = pendulum("[\"sin(1/3)\", \"-cos(1/3)\"]", "[\"7*cos(1/3)\", \"7*sin(1/3)\"]");
+  EXPECT_EQ(inconsistency<double>(exact), "");
+  EXPECT_EQ(inconsistency<Quad>(exact), "");
+  for (unsigned digits = 20; digits <= 300; digits += 7) {
+    const PrecisionScope scope(digits);
+    EXPECT_EQ(inconsistency<Mpfr>(exact), "") << digits;
+  }
+}
+
+TEST(Consistency, FarFromTheOriginAllowsTheRoundOffThere) {
+  const std::string text =
+      "dimension = 2\n[[body]]\nname = \"a\"\nmass = 1\nposition = [1000000.1, 0.3]\nvelocity = [5, 1]\n"
+      "[[body]]\nname = \"b\"\nmass = 7\nposition = [1000000.7, 1.1]\nvelocity = [5, 1]\n"
+      "[[constraint]]\nkind = \"rod\"\nbetween = [\"a\", \"b\"]\nlength = 1\n";
+  EXPECT_EQ(inconsistency<double>(text), "");
+  EXPECT_NE(inconsistency<double>(changed(text, "length = 1\n", "length = 1.00001\n")), "");
+}
+
+TEST(Consistency, OfTheBuiltInScenesHoldsAtAnyPrecision) {
+  for (const auto& [name, text] : built_in_scenes()) {
+    EXPECT_EQ(inconsistency<double>(text), "") << name;
+    EXPECT_EQ(inconsistency<Quad>(text), "") << name;
+    for (unsigned digits = 20; digits <= 200; digits += 9) {
+      const PrecisionScope scope(digits);
+      EXPECT_EQ(inconsistency<Mpfr>(text), "") << name << ", " << digits;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hbvm

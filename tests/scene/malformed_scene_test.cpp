@@ -1,0 +1,332 @@
+#include <random>
+
+#include "hbvm/scene/assemble.hpp"
+#include "scene/scene_text.hpp"
+
+namespace hbvm {
+namespace {
+
+/// every_key with `from` replaced by `to`, and what the message must hold besides the name of the file and the line:
+/// that of `at` in the malformed text.
+struct Malformed {
+  const char* name;
+  const char *from, *to;
+  const char* at;
+  std::vector<const char*> words;
+};
+void PrintTo(const Malformed& m, std::ostream* out) { *out << m.to; }
+
+std::string name_of_case(const ::testing::TestParamInfo<Malformed>& info) { return info.param.name; }
+
+void expect_message(const std::string& message, const std::string& where, const std::vector<const char*>& words) {
+  EXPECT_TRUE(message.starts_with(where)) << "not at " << where << " but: " << message;
+  for (const char* const word : words)
+    EXPECT_NE(message.find(word), std::string::npos) << word << " is not in: " << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << "more than one line: " << message;
+}
+
+class MalformedScene : public ::testing::TestWithParam<Malformed> {};
+
+TEST_P(MalformedScene, IsRefusedWithFileLineAndKey) {
+  const Malformed& m = GetParam();
+  const std::string text = changed(every_key, m.from, m.to);
+  const std::string message = refusal(text);
+  ASSERT_NE(message, "") << "not refused";
+  expect_message(message, "test.toml:" + std::to_string(line_of(text, m.at)) + ": ", m.words);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Toml, MalformedScene,
+    ::testing::Values(Malformed{"OpenString", "\"Every key\"", "\"Every key", "\"Every key", {}},
+                      Malformed{"NoValue", "dimension = 3", "dimension =", "dimension =", {}},
+                      Malformed{"NoKey", "dimension = 3", "dimension = 3\n= 4", "= 4", {}},
+                      Malformed{"OpenArray", "axis = [1, 2, 2]", "axis = [1, 2, 2", "on = [\"a\"]", {}},
+                      Malformed{"RepeatedKey",
+                                "exponent = 4\n\n[[effect]]\nkind = \"spring\"",
+                                "exponent = 4\nexponent = 2\n\n[[effect]]\nkind = \"spring\"",
+                                "exponent = 2",
+                                {"exponent"}},
+                      Malformed{"RepeatedTable",
+                                "[[point]]\nname = \"pivot\"",
+                                "[constants]\n[[point]]\nname = \"pivot\"",
+                                "[constants]\n[[point]]",
+                                {"constants"}},
+                      Malformed{"ByteOrderMarkInside", "\"made up\"", "\"made\xEF\xBB\xBFup\"", "source", {"U+FEFF"}},
+                      Malformed{"ByteOrderMarkInComment",
+                                "[[body]]\nname = \"a\"",
+                                "# \xEF\xBB\xBF\n[[body]]\nname = \"a\"",
+                                "# \xEF",
+                                {"U+FEFF"}},
+                      Malformed{"InvalidUtf8", "\"made up\"", "\"made\xFFup\"", "source", {}},
+                      Malformed{"OverlongUtf8", "\"made up\"", "\"made\xC0\x80up\"", "source", {}},
+                      Malformed{"ControlCharacter", "\"made up\"", "\"made\x01up\"", "source", {}},
+                      Malformed{"HugeInteger", "mass = 3", "mass = 99999999999999999999", "mass = 99999", {}},
+                      Malformed{"LeadingZero", "mass = 3", "mass = 03", "mass = 03", {}}),
+    name_of_case);
+
+INSTANTIATE_TEST_SUITE_P(
+    Keys, MalformedScene,
+    ::testing::Values(
+        Malformed{"MisspeltBodyKey", "charge = \"3/2\"", "chrage = 1", "chrage", {"'chrage'", "'charge'"}},
+        Malformed{"MisspeltRequiredKey", "mass = 2", "mas = 2", "mas = 2", {"'mas'", "'mass'"}},
+        Malformed{"MisspeltMomentum", "momentum = [", "momentun = [", "momentun", {"'momentun'", "'momentum'"}},
+        Malformed{"MisspeltTopKey", "source = ", "sorce = ", "sorce", {"'sorce'", "'source'"}},
+        Malformed{"MisspeltConstraintKey", "offset = 3", "offfset = 3", "offfset", {"'offfset'", "'offset'"}},
+        Malformed{"MisspeltEffectKey", "rest_length", "restlength", "restlength", {"'restlength'", "'rest_length'"}},
+        Malformed{"MisspeltOn", "on = [\"a\"]", "onn = [\"a\"]", "onn", {"'onn'", "'on'"}},
+        Malformed{"MisspeltRigidBodyKey",
+                  "second_moment = [[2",
+                  "second_momnt = [[2",
+                  "second_momnt",
+                  {"'second_momnt'", "'second_moment'"}},
+        Malformed{"MisspeltTable",
+                  "[[point]]\nname = \"pivot\"",
+                  "[[pont]]\nname = \"pivot\"",
+                  "[[pont]]",
+                  {"'pont'", "'point'"}},
+        Malformed{"UnknownKey", "mass = 3", "mass = 3\nxylophone = 1", "xylophone", {"'xylophone'"}},
+        Malformed{
+            "UnknownTable", "[constants]", "[orchestra]\nviolins = 2\n[constants]", "[orchestra]", {"'orchestra'"}},
+        Malformed{"MissingMass", "mass = 2\n", "", "[[body]]\nname = \"a\"", {"'a'", "'mass'"}},
+        Malformed{"MissingPosition", "position = [1, 1, 0]\n", "", "[[body]]\nname = \"c\"", {"'c'", "'position'"}},
+        Malformed{
+            "MissingVelocityAndMomentum", "velocity = [2, -1, 0]\n", "", "[[body]]\nname = \"c\"", {"'c'", "velocity"}},
+        Malformed{"VelocityAndMomentum",
+                  "momentum = [",
+                  "velocity = [0, 0, 0]\nmomentum = [",
+                  "[[body]]\nname = \"b\"",
+                  {"'b'", "'velocity'", "'momentum'"}},
+        Malformed{"MissingName", "name = \"c\"\n", "", "[[body]]\nmass = \"unit\"", {"'name'"}},
+        Malformed{"MissingDimension", "dimension = 3\n", "", "title", {"'dimension'"}},
+        Malformed{"MissingKind", "kind = \"plane\"\n", "", "[[constraint]]\nbody = \"c\"", {"'kind'"}},
+        Malformed{"MissingLength", "length = \"unit\"\n", "", "[[constraint]]\nkind = \"rod\"", {"rod", "'length'"}},
+        Malformed{
+            "MissingStrength", "strength = 0.7\n", "", "[[effect]]\nkind = \"coulomb\"", {"coulomb", "'strength'"}},
+        Malformed{"MissingCenter",
+                  "center = \"pivot\"\n",
+                  "",
+                  "[[effect]]\nkind = \"central_gravity\"",
+                  {"central_gravity", "'center'"}},
+        Malformed{
+            "MissingAxis", "axis = [1, 2, 2]\n", "", "[[effect]]\nkind = \"oblateness\"", {"oblateness", "'axis'"}}),
+    name_of_case);
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, MalformedScene,
+    ::testing::Values(
+        Malformed{"DimensionOne", "dimension = 3", "dimension = 1", "dimension", {"'dimension'"}},
+        Malformed{"DimensionDecimal", "dimension = 3", "dimension = 3.0", "dimension", {"'dimension'"}},
+        Malformed{
+            "PlanarWithSpatialVectors", "dimension = 3", "dimension = 2", "position = [0, 0, 0]", {"'position'", "3"}},
+        Malformed{
+            "ShortVector", "velocity = [2, -1, 0]", "velocity = [2, -1]", "velocity = [2, -1]", {"'c'", "'velocity'"}},
+        Malformed{"VectorNotArray", "velocity = [2, -1, 0]", "velocity = 2", "velocity = 2", {"'c'", "'velocity'"}},
+        Malformed{"TextInVector",
+                  "velocity = [2, -1, 0]",
+                  "velocity = [2, \"x y\", 0]",
+                  "velocity = [2, \"x",
+                  {"'c'", "'velocity'", "2"}},
+        Malformed{"BooleanMass", "mass = 2", "mass = true", "mass = true", {"'a'", "'mass'"}},
+        Malformed{"DateMass", "mass = 2", "mass = 1979-05-27", "mass = 1979", {"'a'", "'mass'"}},
+        Malformed{"InfiniteMass", "mass = 2", "mass = inf", "mass = inf", {"'a'", "'mass'", "finite"}},
+        Malformed{"SignedInfiniteMass", "mass = 2", "mass = +inf", "mass = +inf", {"'a'", "'mass'", "finite"}},
+        Malformed{"NotANumber", "mass = 2", "mass = nan", "mass = nan", {"'a'", "'mass'", "finite"}},
+        Malformed{"EmptyExpression", "mass = 2", "mass = \"\"", "mass = \"\"", {"'a'", "'mass'"}},
+        Malformed{"MalformedExpression",
+                  "length = \"unit\"",
+                  "length = \"2*(unit\"",
+                  "2*(unit",
+                  {"rod", "'length'", "column 8"}},
+        Malformed{"ExpressionOfTwoLines",
+                  "length = \"unit\"",
+                  "length = \"\"\"2 +\n*\"\"\"",
+                  "length = ",
+                  {"rod", "'length'"}},
+        Malformed{"MatrixOfVectors",
+                  "mass = [[2, \"1/4\", 0], [0.25, 1, 0], [0, 0, 1]]",
+                  "mass = [1, 2, 3]",
+                  "mass = [1, 2, 3]",
+                  {"'b'", "'mass'"}},
+        Malformed{"MatrixRowMissing", "[0.25, 1, 0], [0, 0, 1]]", "[0, 0, 1]]", "mass = [[2", {"'b'", "'mass'"}},
+        Malformed{"MatrixRowShort",
+                  "[0.25, 1, 0], [0, 0, 1]]",
+                  "[0.25, 1], [0, 0, 1]]",
+                  "mass = [[2",
+                  {"'b'", "'mass'", "row 2"}},
+        Malformed{"ConstantNamedPi", "unit = ", "pi = ", "pi = ", {"'pi'"}},
+        Malformed{"ConstantNamedSin", "unit = ", "sin = ", "sin = ", {"'sin'"}},
+        Malformed{"ConstantOfOtherLetters", "unit = ", "\"ä\" = ", "\"ä\" = ", {"'ä'"}},
+        Malformed{"ConstantTable", "unit = \"2*L\"", "unit = {a = 1}", "unit = {", {"'unit'"}},
+        Malformed{"NumericTitle", "\"Every key\"", "7", "title = 7", {"'title'"}},
+        Malformed{"NumericName", "name = \"c\"", "name = 7", "name = 7", {"'name'"}},
+        Malformed{"EmptyName", "name = \"c\"", "name = \"\"", "name = \"\"", {"'name'"}},
+        Malformed{"SingleTable",
+                  "[[rigid_body]]\nname = \"top\"",
+                  "[point2]\n[[rigid_body]]\nname = \"top\"",
+                  "[point2]",
+                  {"'point2'"}}),
+    name_of_case);
+
+INSTANTIATE_TEST_SUITE_P(
+    References, MalformedScene,
+    ::testing::Values(
+        Malformed{"DuplicateBody", "name = \"b\"", "name = \"a\"", "[[body]]\nname = \"a\"\nmass = [[", {"'a'"}},
+        Malformed{"BodyNamedAsPoint", "name = \"b\"", "name = \"pivot\"", "[[body]]\nname = \"pivot\"", {"'pivot'"}},
+        Malformed{"RigidBodyNamedAsBody", "name = \"stone\"", "name = \"c\"", "[[rigid_body]]\nname = \"c\"", {"'c'"}},
+        Malformed{"UnknownBodyOfRod",
+                  "between = [\"pivot\", \"a\"]",
+                  "between = [\"pivott\", \"a\"]",
+                  "[[constraint]]\nkind = \"rod\"",
+                  {"rod", "'pivott'", "'pivot'"}},
+        Malformed{"UnknownBodyOfPlane",
+                  "body = \"c\"",
+                  "body = \"zebra\"",
+                  "[[constraint]]\nkind = \"plane\"",
+                  {"plane", "'zebra'"}},
+        Malformed{"PlaneOfPoint",
+                  "body = \"c\"",
+                  "body = \"pivot\"",
+                  "[[constraint]]\nkind = \"plane\"",
+                  {"plane", "'pivot'"}},
+        Malformed{"QuadricOfRigidBody",
+                  "body = \"b\"",
+                  "body = \"top\"",
+                  "[[constraint]]\nkind = \"quadric\"",
+                  {"quadric", "'top'"}},
+        Malformed{"RodBetweenPoints",
+                  "between = [\"pivot\", \"a\"]",
+                  "between = [\"pivot\", \"charge\"]",
+                  "[[constraint]]\nkind = \"rod\"",
+                  {"rod"}},
+        Malformed{"RodToItself",
+                  "between = [\"pivot\", \"a\"]",
+                  "between = [\"a\", \"a\"]",
+                  "[[constraint]]\nkind = \"rod\"",
+                  {"rod", "'between'", "'a'"}},
+        Malformed{"RodOfThree",
+                  "between = [\"pivot\", \"a\"]",
+                  "between = [\"pivot\", \"a\", \"b\"]",
+                  "[[constraint]]\nkind = \"rod\"",
+                  {"rod", "'between'"}},
+        Malformed{"AngleOfOne",
+                  "first = [\"a\", \"pivot\"]",
+                  "first = [\"a\"]",
+                  "[[constraint]]\nkind = \"angle\"",
+                  {"angle", "'first'"}},
+        Malformed{"UnknownConstraint",
+                  "kind = \"plane\"",
+                  "kind = \"plain\"",
+                  "[[constraint]]\nkind = \"plain\"",
+                  {"'plane'"}},
+        Malformed{"ConstraintOfTwoLines",
+                  "kind = \"plane\"",
+                  "kind = \"pla\\nne\"",
+                  "[[constraint]]\nkind = \"pla",
+                  {"'plane'"}},
+        Malformed{
+            "UnknownEffect", "kind = \"coulomb\"", "kind = \"coulom\"", "[[effect]]\nkind = \"coulom\"", {"'coulomb'"}},
+        Malformed{"UnknownCenter",
+                  "center = \"pivot\"",
+                  "center = \"a\"",
+                  "[[effect]]\nkind = \"central_gravity\"",
+                  {"'center'", "'a'"}},
+        Malformed{"UnknownBodyOfOn",
+                  "on = [\"a\"]",
+                  "on = [\"aa\"]",
+                  "[[effect]]\nkind = \"oblateness\"",
+                  {"oblateness", "'aa'"}},
+        Malformed{"OnNamesTwice",
+                  "on = [\"a\"]",
+                  "on = [\"a\", \"a\"]",
+                  "[[effect]]\nkind = \"oblateness\"",
+                  {"'on'", "'a'"}},
+        Malformed{"PairTwice",
+                  "[[\"a\", \"b\"], [\"c\", \"charge\"]]",
+                  "[[\"a\", \"b\"], [\"b\", \"a\"]]",
+                  "between = [[",
+                  {"spring", "'a'", "'b'"}},
+        Malformed{"PairOfThree",
+                  "[[\"a\", \"b\"], [\"c\", \"charge\"]]",
+                  "[[\"a\", \"b\", \"c\"]]",
+                  "between = [[",
+                  {"spring", "'between'"}}),
+    name_of_case);
+
+TEST(MalformedScenes, EmptyFile) { expect_message(refusal(""), "test.toml:1: ", {"'dimension'"}); }
+
+TEST(MalformedScenes, NoBody) { expect_message(refusal("dimension = 2\n"), "test.toml:1: ", {"[[body]]"}); }
+
+TEST(MalformedScenes, NulByte) { expect_message(refusal(every_key + '\0'), "test.toml:", {}); }
+
+TEST(MalformedScenes, PlanarRigidBody) {
+  const std::string text = "dimension = 2\n[[rigid_body]]\nname = \"top\"\n";
+  expect_message(refusal(text), "test.toml:2: ", {"rigid_body", "dimension"});
+}
+
+TEST(MalformedScenes, BodyAsSingleTable) {
+  expect_message(refusal("dimension = 2\n\n[body]\nname = \"a\"\n"), "test.toml:3: ", {"'body'", "[[body]]"});
+}
+
+std::string repeated(const std::string& part, int times) {
+  std::string text;
+  for (int i = 0; i < times; ++i) text += part;
+  return text;
+}
+
+TEST(MalformedScenes, HugeNestingOfArrays) {
+  expect_message(refusal("title = \"\"\nx = " + repeated("[", 100'000)), "test.toml:2: ", {});
+}
+
+TEST(MalformedScenes, HugeNestingOfTables) {
+  expect_message(refusal("title = \"\"\nx = " + repeated("{a=", 100'000)), "test.toml:2: ", {});
+}
+
+TEST(MalformedScenes, HugeNestingOfBrackets) {
+  const std::string text = changed(every_key, "mass = 3", "mass = \"" + repeated("(", 100'000) + "\"");
+  const std::string message = refusal(text);
+  EXPECT_TRUE(message.starts_with("test.toml:" + std::to_string(line_of(text, "mass = \"(("))))
+      << message.substr(0, 200);
+}
+
+/// A crash would end the test program: run where it can be seen.
+TEST(MalformedScenesDeathTest, HugeNestingOfDottedKeys) {
+  EXPECT_EXIT(std::exit(refusal(repeated("a.", 100'000) + "b = 1\n").empty() ? 1 : 0), ::testing::ExitedWithCode(0),
+              "");
+}
+
+TEST(MalformedScenesDeathTest, HugeNestingOfDottedQuotedKeys) {
+  for (const char* part : {"\"\xC3\xA9\".", "'!'."})
+    EXPECT_EXIT(std::exit(refusal(repeated(part, 100'000) + "b = 1\n").empty() ? 1 : 0), ::testing::ExitedWithCode(0),
+                "");
+}
+
+TEST(MalformedScenesDeathTest, HugeNestingOfDottedTableNames) {
+  EXPECT_EXIT(std::exit(refusal("[" + repeated("a.", 100'000) + "b]\n").empty() ? 1 : 0), ::testing::ExitedWithCode(0),
+              "");
+}
+
+void read_and_assemble(const std::string& text) {
+  try {
+    assemble<double>(read_scene(text, "test.toml"));
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("test.toml:")) << error.what();
+  }
+}
+
+TEST(MalformedScenes, AnyBeginningIsReadOrRefused) {
+  for (std::size_t length = 0; length < every_key.size(); ++length) read_and_assemble(every_key.substr(0, length));
+}
+
+TEST(MalformedScenes, AnyChangedCharactersAreReadOrRefused) {
+  std::mt19937 random(1);
+  const std::string characters = "\"'[]{}=#.,-+*/^()_0189eEnaxL\n\t\r \\\xEF\xBB\xBF\xC3\x01\x7F";
+  for (int trial = 0; trial < 4'000; ++trial) {
+    std::string text = every_key;
+    for (unsigned changes = 1 + random() % 3; changes > 0; --changes)
+      text[random() % text.size()] = characters[random() % characters.size()];
+    read_and_assemble(text);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,277 @@
+#include <fstream>
+
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "printing.hpp"
+#include "scene/scene_text.hpp"
+
+namespace hbvm {
+namespace {
+
+class ReadScene : public ::testing::Test {
+ protected:
+  void expect_numbers(const SceneVector& v, const std::vector<const char*>& expected) const {
+    ASSERT_EQ(v.size(), expected.size());
+    for (std::size_t i = 0; i < v.size(); ++i) EXPECT_EQ(value(v[i], scene), literal<Mpfr>(expected[i])) << i;
+  }
+  void expect_numbers(const SceneMatrix& a, const std::vector<std::vector<const char*>>& expected) const {
+    ASSERT_EQ(a.size(), expected.size());
+    for (std::size_t i = 0; i < a.size(); ++i) expect_numbers(a[i], expected[i]);
+  }
+  void expect_number(const std::optional<Expression>& e, const char* expected) const {
+    ASSERT_TRUE(e.has_value());
+    EXPECT_EQ(value(*e, scene), literal<Mpfr>(expected));
+  }
+  void expect_numbers(const SceneEffect& effect, const std::map<std::string, const char*>& expected) const {
+    EXPECT_EQ(effect.numbers.size(), expected.size());
+    for (const auto& [key, text] : expected) {
+      ASSERT_TRUE(effect.numbers.contains(key)) << key;
+      EXPECT_EQ(value(effect.numbers.at(key), scene), literal<Mpfr>(text)) << key;
+    }
+  }
+
+  PrecisionScope digits{50};
+  Scene scene = read_scene(every_key, "every_key.toml");
+};
+
+TEST_F(ReadScene, Header) {
+  EXPECT_EQ(scene.name, "every_key.toml");
+  EXPECT_EQ(scene.title, "Every key");
+  EXPECT_EQ(scene.source, "made up");
+  EXPECT_EQ(scene.dimension, 3);
+  ASSERT_EQ(scene.constants.size(), 2u);
+  EXPECT_EQ(value(scene.constants.at("unit"), scene), 1);
+}
+
+TEST_F(ReadScene, Points) {
+  ASSERT_EQ(scene.points.size(), 2u);
+  EXPECT_EQ(scene.points[0].name, "pivot");
+  EXPECT_FALSE(scene.points[0].charge);
+  EXPECT_EQ(scene.points[1].name, "charge");
+  expect_numbers(scene.points[1].position, {"2", "1/2", "1/4"});
+  expect_number(scene.points[1].charge, "-1");
+  EXPECT_EQ(scene.points[1].line, line_of(every_key, "name = \"charge\"") - 1);
+}
+
+TEST_F(ReadScene, Bodies) {
+  ASSERT_EQ(scene.bodies.size(), 3u);
+  const SceneBody &a = scene.bodies[0], &b = scene.bodies[1], &c = scene.bodies[2];
+  EXPECT_EQ(a.name, "a");
+  expect_number(a.mass, "2");
+  EXPECT_FALSE(a.mass_matrix);
+  expect_numbers(a.position, {"3/5", "0", "-4/5"});
+  expect_numbers(a.velocity, {"2/5", "0", "3/10"});
+  EXPECT_TRUE(a.momentum.empty());
+  expect_number(a.charge, "3/2");
+  EXPECT_EQ(a.line, line_of(every_key, "[[body]]"));
+
+  EXPECT_FALSE(b.mass);
+  ASSERT_TRUE(b.mass_matrix);
+  expect_numbers(*b.mass_matrix, {{"2", "1/4", "0"}, {"1/4", "1", "0"}, {"0", "0", "1"}});
+  EXPECT_TRUE(b.velocity.empty());
+  expect_numbers(b.momentum, {"87/16", "-3/2", "9/8"});
+  EXPECT_FALSE(b.charge);
+
+  expect_number(c.mass, "1");
+}
+
+TEST_F(ReadScene, RigidBodies) {
+  ASSERT_EQ(scene.rigid_bodies.size(), 2u);
+  const SceneRigidBody &top = scene.rigid_bodies[0], &stone = scene.rigid_bodies[1];
+  EXPECT_EQ(top.name, "top");
+  EXPECT_TRUE(top.fixed);
+  expect_numbers(top.position, {"0", "1", "1/2"});
+  EXPECT_TRUE(top.velocity.empty());
+  EXPECT_EQ(value(top.mass, scene), 3);
+  expect_numbers(top.center, {"1/10", "1/5", "1"});
+  expect_numbers(top.second_moment, {{"2", "1/4", "1/5"}, {"1/4", "3/2", "-1/3"}, {"1/5", "-1/3", "4"}});
+  expect_numbers(top.directors, {{"2/3", "2/3", "1/3"}, {"-2/3", "1/3", "2/3"}, {"1/3", "-2/3", "2/3"}});
+  expect_numbers(top.angular_velocity, {"1/2", "1", "-1/2"});
+
+  EXPECT_EQ(stone.name, "stone");
+  EXPECT_FALSE(stone.fixed);
+  expect_numbers(stone.position, {"5", "6", "7"});
+  expect_numbers(stone.velocity, {"1", "-1", "1/3"});
+  EXPECT_EQ(stone.line, line_of(every_key, "name = \"stone\"") - 1);
+}
+
+TEST_F(ReadScene, Constraints) {
+  ASSERT_EQ(scene.constraints.size(), 4u);
+  const auto& [rod, quadric, plane, angle] =
+      std::tie(scene.constraints[0], scene.constraints[1], scene.constraints[2], scene.constraints[3]);
+  using Names = std::array<std::string, 2>;
+  EXPECT_EQ(rod.kind, "rod");
+  EXPECT_EQ(rod.first, (Names{"pivot", "a"}));
+  expect_number(rod.number, "1");
+
+  EXPECT_EQ(quadric.kind, "quadric");
+  EXPECT_EQ(quadric.body, "b");
+  expect_numbers(quadric.A, {{"1", "1/4", "0"}, {"1/4", "2", "0"}, {"0", "0", "1"}});
+  expect_numbers(quadric.vector, {"1/2", "0", "-1"});
+  expect_number(quadric.number, "-4");
+
+  EXPECT_EQ(plane.kind, "plane");
+  EXPECT_EQ(plane.body, "c");
+  expect_numbers(plane.vector, {"1", "2", "2"});
+  expect_number(plane.number, "3");
+
+  EXPECT_EQ(angle.kind, "angle");
+  EXPECT_EQ(angle.first, (Names{"a", "pivot"}));
+  EXPECT_EQ(angle.second, (Names{"c", "b"}));
+  expect_number(angle.number, "4/5");
+  EXPECT_EQ(angle.line, line_of(every_key, "kind = \"angle\"") - 1);
+}
+
+TEST_F(ReadScene, Effects) {
+  ASSERT_EQ(scene.effects.size(), 10u);
+  const auto& e = scene.effects;
+  const std::vector<const char*> kinds{"uniform_gravity", "central_gravity", "mutual_gravity", "coulomb",
+                                       "spring",          "spring",          "trap",           "lennard_jones",
+                                       "radial_cosine",   "oblateness"};
+  for (std::size_t i = 0; i < kinds.size(); ++i) EXPECT_EQ(e[i].kind, kinds[i]);
+  using On = std::vector<std::string>;
+  using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+  expect_numbers(e[0], {});
+  expect_numbers(e[0].vectors.at("acceleration"), {"0", "-1/7", "-1"});
+  EXPECT_FALSE(e[0].on);
+
+  expect_numbers(e[1], {{"strength", "3/10"}});
+  EXPECT_EQ(e[1].center, "pivot");
+  EXPECT_EQ(e[1].on, (On{"a", "c"}));
+
+  expect_numbers(e[2], {{"strength", "1/5"}});
+  EXPECT_EQ(e[2].between, (Pairs{{"a", "c"}}));
+
+  expect_numbers(e[3], {{"strength", "7/10"}});
+  EXPECT_FALSE(e[3].between);
+
+  expect_numbers(e[4], {{"stiffness", "5/4"}, {"rest_length", "1/3"}, {"exponent", "4"}});
+  EXPECT_EQ(e[4].between, (Pairs{{"a", "b"}, {"c", "charge"}}));
+
+  expect_numbers(e[6], {{"stiffness", "1/20"}, {"exponent", "4"}});
+  EXPECT_EQ(e[6].center, "charge");
+  EXPECT_FALSE(e[6].on);
+
+  expect_numbers(e[7], {{"depth", "1/100"}, {"diameter", "9/10"}});
+  expect_numbers(e[8], {{"strength", "1/2"}});
+
+  expect_numbers(e[9], {{"strength", "3/2"}, {"radius", "1/2"}, {"J2", "27/25000"}});
+  expect_numbers(e[9].vectors.at("axis"), {"1", "2", "2"});
+  EXPECT_EQ(e[9].on, (On{"a"}));
+  EXPECT_EQ(e[9].line, line_of(every_key, "kind = \"oblateness\"") - 1);
+}
+
+TEST_F(ReadScene, AbsentRestLengthIsZeroAndAbsentExponentTwo) {
+  expect_numbers(scene.effects[5], {{"stiffness", "2"}, {"rest_length", "0"}, {"exponent", "2"}});
+}
+
+TEST_F(ReadScene, TitleAndSourceMayBeAbsent) {
+  std::string text = changed(every_key, "title = \"Every key\"\n", "");
+  text = changed(text, "source = \"made up\"\n", "");
+  EXPECT_EQ(refusal(text), "");
+}
+
+/// The decimal as it stands is read, never a double next to it.
+struct Decimal {
+  const char *name, *line, *value;
+};
+void PrintTo(const Decimal& d, std::ostream* out) { *out << d.line; }
+std::string name_of_case(const ::testing::TestParamInfo<Decimal>& info) { return info.param.name; }
+
+class ReadDecimal : public ::testing::TestWithParam<Decimal> {};
+
+TEST_P(ReadDecimal, IsExact) {
+  const PrecisionScope digits(50);
+  const std::string text = changed(every_key, "mass = 2", GetParam().line);
+  const Scene scene = read_scene(text, "test.toml");
+  EXPECT_EQ(value(*scene.bodies[0].mass, scene), literal<Mpfr>(GetParam().value));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, ReadDecimal,
+    ::testing::Values(
+        Decimal{"Tenth", "mass = 0.1", "1/10"}, Decimal{"WithoutBlanks", "mass=0.1", "1/10"},
+        Decimal{"ManyDigits", "mass = 0.1234567890123456789012345678901234567890123",
+                "1234567890123456789012345678901234567890123/10^43"},
+        Decimal{"Exponent", "mass = 6.25e-2", "1/16"}, Decimal{"SmallExponent", "mass = 1E-3", "1/1000"},
+        Decimal{"SignedExponent", "mass = 1.1e+1", "11"}, Decimal{"PlusSign", "mass = +0.3", "3/10"},
+        Decimal{"MinusSign", "mass = -0.3", "-3/10"}, Decimal{"Underscores", "mass = 1_000.000_1", "10000001/10000"},
+        Decimal{"AfterTabs", "mass\t=\t0.7\t# and a comment", "7/10"}, Decimal{"QuotedTenth", "mass = \"0.1\"", "1/10"},
+        Decimal{"QuotedSum", "mass = \"0.1 + 0.2\"", "3/10"}, Decimal{"Root", "mass = \"sqrt(1/2)\"", "2^(-1/2)"},
+        Decimal{"Constant", "mass = \"L^2\"", "1/4"}, Decimal{"Integer", "mass = 1_000", "1000"},
+        Decimal{"HexadecimalInteger", "mass = 0xff", "255"}, Decimal{"BelowDoubleRange", "mass = 1e-400", "10^-400"}),
+    name_of_case);
+
+TEST(ReadDecimals, AreExactAfterOtherCharactersInTheSameLine) {
+  const PrecisionScope digits(50);
+  const std::string text =
+      "dimension = 2\n\"point\" = [{name = \"Ω→𝄞é\", position = [0.1, -0.7]}]\n"
+      "body = [{name = \"日本\", mass = 0.3, position = [1.1e1, 0.1_1], velocity = [0, 0.9]}]\n";
+  const Scene scene = read_scene(text, "test.toml");
+  EXPECT_EQ(scene.points[0].name, "Ω→𝄞é");
+  EXPECT_EQ(value(scene.points[0].position[0], scene), literal<Mpfr>("1/10"));
+  EXPECT_EQ(value(scene.points[0].position[1], scene), literal<Mpfr>("-7/10"));
+  EXPECT_EQ(value(*scene.bodies[0].mass, scene), literal<Mpfr>("3/10"));
+  EXPECT_EQ(value(scene.bodies[0].position[0], scene), 11);
+  EXPECT_EQ(value(scene.bodies[0].position[1], scene), literal<Mpfr>("11/100"));
+  EXPECT_EQ(value(scene.bodies[0].velocity[1], scene), literal<Mpfr>("9/10"));
+}
+
+TEST(ReadDecimals, AreExactAfterCarriageReturns) {
+  const PrecisionScope digits(50);
+  std::string text;
+  for (const char c : every_key) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  const Scene scene = read_scene(text, "test.toml");
+  EXPECT_EQ(value(scene.effects[1].numbers.at("strength"), scene), literal<Mpfr>("3/10"));
+}
+
+TEST(ReadDecimals, AreExactInTheLineOfALeadingByteOrderMark) {
+  const PrecisionScope digits(50);
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::string rest = changed(every_key, "[constants]\nL = \"1/2\"\nunit = \"2*L\"\n", "");
+  const Scene scene = read_scene(mark + "constants = {x = 0.1}\n" + rest, "test.toml");
+  EXPECT_EQ(value(scene.constants.at("x"), scene), literal<Mpfr>("1/10"));
+}
+
+TEST(LoadScene, ReadsAFile) {
+  const std::string path = ::testing::TempDir() + "hbvm_load_scene_test.toml";
+  std::ofstream(path) << every_key;
+  const Scene scene = load_scene(path);
+  EXPECT_EQ(scene.name, path);
+  EXPECT_EQ(scene.title, "Every key");
+}
+
+TEST(LoadScene, NamesTheFileInMessages) {
+  const std::string path = ::testing::TempDir() + "hbvm_malformed_scene_test.toml";
+  std::ofstream(path) << changed(every_key, "mass = 3", "mass = true");
+  try {
+    load_scene(path);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    const std::string where = path + ":" + std::to_string(line_of(every_key, "mass = 3")) + ": ";
+    EXPECT_TRUE(std::string(error.what()).starts_with(where)) << error.what();
+  }
+}
+
+TEST(LoadScene, RefusesWhatIsNeitherFileNorName) {
+  for (const char* name : {"no_such_scene", "", "/", "/tmp", "/nonexistent/scene.toml"})
+    EXPECT_THROW(load_scene(name), InputError) << name;
+}
+
+TEST(LoadScene, SuggestsTheNearestName) {
+  try {
+    load_scene("conical_pendulm");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'conical_pendulum'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(BuiltInScenes, AreThePapersFour) {
+  for (const char* name : {"simple_pendulum", "modified_pendulum", "conical_pendulum", "tethered_satellites"})
+    EXPECT_EQ(load_scene(name).name, name);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,175 @@
+#include "hbvm/solver/fixed_point.hpp"
+
+#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+/// The simple pendulum with this momentum at its lowest point.
+std::string swinging(const std::string& p0) {
+  return "dimension = 2\n[[point]]\nname = \"O\"\nposition = [0, 0]\n[[body]]\nname = \"bob\"\nmass = 1\n"
+         "position = [0, -1]\nvelocity = [\"" +
+         p0 +
+         "\", 0]\n[[constraint]]\nkind = \"rod\"\nbetween = [\"O\", \"bob\"]\n"
+         "length = 1\n[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, -1]\n";
+}
+
+const std::vector<SolverKind> kinds{SolverKind::fixed_point, SolverKind::paper};
+
+TEST(BeyondBreakdown, IsATypedErrorThatNamesStepTimeAndIncrement) {
+  const Assembled<double> scene = assemble<double>(read_scene(swinging("3"), "swinging"));
+  for (const int s : {1, 2, 4})
+    for (const SolverKind kind : kinds) {
+      const Hbvm<double> method = make_hbvm<double>(s, s);
+      const TimeGrid<double> grid(Expression::parse("3/2"), Expression::parse("15"));
+      Stepper<double> stepper(scene.problem, method, grid.step(), kind);
+      State<double> state(scene.q0, scene.p0);
+      try {
+        integrate<double>(stepper, state, grid, {});
+        FAIL() << "no error, s = " << s;
+      } catch (const StepError& error) {
+        const std::string what = error.what();
+        EXPECT_GE(error.step(), 1);
+        EXPECT_LE(error.step(), 10);
+        EXPECT_NE(what.find("step " + std::to_string(error.step())), std::string::npos) << what;
+        EXPECT_EQ(error.time(), to_text(grid.time(error.step() - 1)));
+        EXPECT_NE(what.find("t = " + error.time()), std::string::npos) << what;
+        EXPECT_NE(what.find("increment " + error.increment()), std::string::npos) << what;
+        EXPECT_NE(what.find("smaller step"), std::string::npos) << what;
+        const double increment = std::stod(error.increment());
+        EXPECT_TRUE(increment > 1e-10 || !std::isfinite(increment)) << what;
+        EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+      }
+    }
+}
+
+TEST(BeyondBreakdown, TheStateStaysAsItWas) {
+  const Assembled<double> scene = assemble<double>(read_scene(swinging("3"), "swinging"));
+  const Hbvm<double> method = make_hbvm<double>(1, 1);
+  for (const SolverKind kind : kinds) {
+    Stepper<double> stepper(scene.problem, method, 1.5, kind);
+    State<double> state(scene.q0, scene.p0);
+    EXPECT_THROW(stepper.step(state), StageFailure);
+    EXPECT_EQ(state.q, scene.q0);
+    EXPECT_EQ(state.p, scene.p0);
+    EXPECT_EQ(max_norm(state.q_carry), 0);
+    EXPECT_EQ(max_norm(state.p_carry), 0);
+  }
+}
+
+TEST(BeyondBreakdown, AStepFromThereWithAnotherSizeSucceeds) {
+  const Assembled<double> scene = assemble<double>(read_scene(swinging("3"), "swinging"));
+  const Hbvm<double> method = make_hbvm<double>(2, 2);
+  State<double> state(scene.q0, scene.p0);
+  Stepper<double> large(scene.problem, method, 1.5, SolverKind::fixed_point);
+  EXPECT_THROW(large.step(state), StageFailure);
+  Stepper<double> small(scene.problem, method, 0.1, SolverKind::fixed_point);
+  EXPECT_NO_THROW(small.step(state));
+}
+
+/// Whatever the step: a finite state that fulfils the constraint and keeps H, or a StageFailure.
+TEST(AnyStep, SucceedsOrFailsButNeverLies) {
+  int solved = 0, failed = 0;
+  for (const char* p0 : {"1/10", "1", "3", "10"}) {
+    const Assembled<double> scene = assemble<double>(read_scene(swinging(p0), "swinging"));
+    for (const auto& [k, s] : std::vector<std::pair<int, int>>{{1, 1}, {2, 2}, {4, 2}, {3, 3}, {4, 4}, {10, 8}}) {
+      const Hbvm<double> method = make_hbvm<double>(k, s);
+      for (const SolverKind kind : kinds)
+        for (int eighths = 1; eighths <= 40; ++eighths) {
+          Stepper<double> stepper(scene.problem, method, eighths / 8.0, kind);
+          State<double> state(scene.q0, scene.p0);
+          const double H0 = scene.p0.squaredNorm() / 2 + scene.q0[1];
+          try {
+            for (int step = 0; step < 4; ++step) {
+              stepper.step(state);
+              ++solved;
+              ASSERT_TRUE(state.q.allFinite() && state.p.allFinite() && stepper.multiplier().allFinite());
+              EXPECT_NEAR(state.q.squaredNorm(), 1, 1e-9)
+                  << "p0 = " << p0 << ", h = " << eighths / 8.0 << ", " << k << "," << s;
+              EXPECT_NEAR(state.p.squaredNorm() / 2 + state.q[1], H0, 1e-9 * (1 + H0))
+                  << "p0 = " << p0 << ", h = " << eighths / 8.0 << ", " << k << "," << s;
+            }
+          } catch (const StageFailure& failure) {
+            ++failed;
+            EXPECT_GE(failure.sweeps(), 2);
+          }
+        }
+    }
+  }
+  EXPECT_GT(solved, 100);
+  EXPECT_GT(failed, 100);
+}
+
+/// Near the breakdown the increments fall slowly, and once rise on the way: "stop at the first increment that does not
+/// fall" ends after two sweeps with an error of 0.3.
+TEST(NearBreakdown, AStepIsSolvedCompletely) {
+  struct Case {
+    int s;
+    const char* h;
+  };
+  for (const Case c : {Case{1, "0.6"}, Case{2, "0.77"}, Case{4, "1.05"}})
+    for (const SolverKind kind : kinds) {
+      const PrecisionScope digits(40);
+      const Assembled<double> scene = assemble<double>(read_scene(swinging("3"), "swinging"));
+      const Assembled<Mpfr> exact_scene = assemble<Mpfr>(read_scene(swinging("3"), "swinging"));
+      const Hbvm<double> method = make_hbvm<double>(c.s, c.s);
+      const Hbvm<Mpfr> exact_method = make_hbvm<Mpfr>(c.s, c.s);
+      Stepper<double> stepper(scene.problem, method, literal<double>(c.h), kind);
+      State<double> state(scene.q0, scene.p0);
+      const Mpfr step(literal<double>(c.h));
+      for (int n = 0; n < 5; ++n) {
+        State<Mpfr> exact(state.q.cast<Mpfr>(), state.p.cast<Mpfr>());
+        Stepper<Mpfr>(exact_scene.problem, exact_method, step, SolverKind::fixed_point).step(exact);
+        stepper.step(state);
+        const Mpfr miss = max_norm(Vector<Mpfr>(state.q.cast<Mpfr>() - exact.q)),
+                   miss_p = max_norm(Vector<Mpfr>(state.p.cast<Mpfr>() - exact.p));
+        EXPECT_LE(miss, literal<Mpfr>("1e-12")) << "s = " << c.s << ", step " << n + 1;
+        EXPECT_LE(miss_p, literal<Mpfr>("1e-12")) << "s = " << c.s << ", step " << n + 1;
+      }
+    }
+}
+
+TEST(FixedPoint, ReturnsTheNumberOfSweeps) {
+  const Assembled<double> scene = assemble<double>(read_scene(swinging("1"), "swinging"));
+  const Hbvm<double> method = make_hbvm<double>(2, 2);
+  for (const SolverKind kind : kinds) {
+    const auto coarse = make_solver(kind, scene.problem, method, 0.5),
+               fine = make_solver(kind, scene.problem, method, 0.01);
+    const long many = coarse->solve(scene.q0, scene.p0), few = fine->solve(scene.q0, scene.p0);
+    EXPECT_GE(few, 3);
+    EXPECT_LT(few, many);
+    EXPECT_LT(many, 200);
+  }
+}
+
+TEST(FixedPoint, SweepsGrowLinearlyWithTheDigits) {
+  std::vector<long> sweeps;
+  for (const unsigned n : {50u, 100u, 200u}) {
+    const PrecisionScope digits(n);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(swinging("1"), "swinging"));
+    const Hbvm<Mpfr> method = make_hbvm<Mpfr>(2, 2);
+    sweeps.push_back(
+        make_solver(SolverKind::paper, scene.problem, method, Mpfr(Mpfr(1) / 10))->solve(scene.q0, scene.p0));
+  }
+  EXPECT_GT(sweeps[1], sweeps[0]);
+  EXPECT_NEAR(static_cast<double>(sweeps[2] - sweeps[1]), 2.0 * static_cast<double>(sweeps[1] - sweeps[0]), 6);
+}
+
+TEST(FixedPoint, AtRestNothingMoves) {
+  const Assembled<double> scene = assemble<double>(read_scene(swinging("0"), "at rest"));
+  const Hbvm<double> method = make_hbvm<double>(3, 3);
+  for (const SolverKind kind : kinds) {
+    Stepper<double> stepper(scene.problem, method, 0.1, kind);
+    State<double> state(scene.q0, scene.p0);
+    for (int n = 0; n < 10; ++n) stepper.step(state);
+    EXPECT_EQ(state.q, scene.q0);
+    EXPECT_NEAR(max_norm(state.p), 0, 1e-16);
+    EXPECT_NEAR(stepper.multiplier()[0], 0.5, 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,118 @@
+#include "hbvm/solver/stage_solver.hpp"
+
+#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+#include "solver/stage_formulas.hpp"
+
+namespace hbvm {
+namespace {
+
+TEST(SolverKind, IsReadByItsName) {
+  for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::paper})
+    EXPECT_EQ(parse_solver(name_of(kind)), kind);
+  EXPECT_EQ(name_of(SolverKind::paper), "paper");
+  for (const char* name : {"", "Paper", "newtonian", "paper "}) EXPECT_THROW(parse_solver(name), InputError) << name;
+}
+
+using Methods = std::vector<std::pair<int, int>>;
+const Methods methods{{1, 1}, {2, 1}, {2, 2}, {3, 2}, {3, 3}, {5, 3}, {4, 4}, {6, 4}, {5, 5}, {8, 5}};
+
+class StageSolution : public ::testing::TestWithParam<SolverKind> {
+ protected:
+  PrecisionScope digits{50};
+};
+
+TEST_P(StageSolution, FulfilsThePapersEquations) {
+  const Mpfr h = Mpfr(1) / 20;
+  for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
+    const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
+    for (const auto& [k, s] : methods) {
+      const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
+      const StageFormulas formulas(model, k, s, h);
+      const auto solver = make_solver(GetParam(), scene.problem, method, h);
+      Vector<Mpfr> q0 = scene.q0, p0 = scene.p0;
+      for (int step = 0; step < 3; ++step) {  // from the second on started from the step before
+        solver->solve(q0, p0);
+        const StageUnknowns<Mpfr>& x = solver->unknowns();
+        // 50 digits, sums of some twenty terms, and monomials of P_4 that cancel by a factor of 10^3.
+        const Mpfr tolerance = 1'000'000 * epsilon<Mpfr>();
+        const auto expect_small = [&](const Matrix<Mpfr>& residual, const char* what) {
+          EXPECT_LE(max_norm(residual), tolerance) << what << ", HBVM(" << k << "," << s << "), step " << step;
+        };
+        expect_small(x.psi - formulas.psi(q0, x.gamma), "psi");
+        expect_small(x.zeta - formulas.zeta(q0, x.gamma, x.lambda), "zeta");
+        const Matrix<Mpfr> v = formulas.velocities(x.gamma);
+        expect_small(v - formulas.velocities(p0, x.psi, x.zeta), "(dispro1)");
+        expect_small(formulas.hidden(q0, x.gamma, v), "grad g(u)^T M^-1 v");
+        const StageFormulas::Step end = formulas.step(q0, p0, x);
+        EXPECT_LE(max_norm(model.g(end.q)), tolerance) << "g";
+        q0 = end.q;
+        p0 = end.p;
+      }
+    }
+  }
+}
+
+TEST_P(StageSolution, DoesNotDependOnEarlierSteps) {
+  const DenseModel model = ellipsoid_bead();
+  const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
+  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 3);
+  const Mpfr h = Mpfr(1) / 10;
+  const auto fresh = make_solver(GetParam(), scene.problem, method, h);
+  fresh->solve(scene.q0, scene.p0);
+  const auto used = make_solver(GetParam(), scene.problem, method, h);
+  const Vector<Mpfr> elsewhere = -scene.p0;
+  used->solve(scene.q0, elsewhere);
+  used->solve(scene.q0, scene.p0);
+  const Mpfr difference = max_norm(Matrix<Mpfr>(fresh->unknowns().gamma - used->unknowns().gamma));
+  EXPECT_LE(difference, 1'000 * epsilon<Mpfr>());
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, StageSolution, ::testing::Values(SolverKind::fixed_point, SolverKind::paper),
+                         [](const ::testing::TestParamInfo<SolverKind>& kind) {
+                           return kind.param == SolverKind::paper ? "Paper" : "FixedPoint";
+                         });
+
+Integration<Mpfr> run(const Scene& text, SolverKind kind, int k, int s, const char* step, const char* until) {
+  const Assembled<Mpfr> scene = assemble<Mpfr>(text);
+  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
+  const TimeGrid<Mpfr> grid(Expression::parse(step), Expression::parse(until));
+  Stepper<Mpfr> stepper(scene.problem, method, grid.step(), kind);
+  State<Mpfr> state(scene.q0, scene.p0);
+  return integrate<Mpfr>(stepper, state, grid, {});
+}
+
+TEST(Solvers, GiveTheSameDigits) {
+  const PrecisionScope digits(50);
+  std::vector<Scene> scenes;
+  for (const char* name : {"simple_pendulum", "modified_pendulum", "conical_pendulum", "tethered_satellites"})
+    scenes.push_back(load_scene(name));
+  for (const char* name : {"double_pendulum", "spherical_pendulum", "ellipsoid_bead"})
+    scenes.push_back(load_scene(scene_path(name)));
+  scenes.push_back(read_scene(bead_on_curve().scene, "bead_on_curve"));
+  for (const Scene& scene : scenes)
+    for (const auto& [k, s] : methods) {
+      const auto mine = run(scene, SolverKind::fixed_point, k, s, "1/16", "1/4");
+      const auto papers = run(scene, SolverKind::paper, k, s, "1/16", "1/4");
+      const auto expect_same = [&](const Vector<Mpfr>& a, const Vector<Mpfr>& b, const char* what) {
+        // Multipliers are p differenced over the step; the start at distance 20 costs the satellites two digits.
+        EXPECT_LE(max_norm(Vector<Mpfr>(a - b)), 100'000 * epsilon<Mpfr>())
+            << what << ", HBVM(" << k << "," << s << "), " << scene.name;
+      };
+      expect_same(mine.end.q, papers.end.q, "q");
+      expect_same(mine.end.p, papers.end.p, "p");
+      expect_same(mine.end.lambda, papers.end.lambda, "lambda");
+    }
+}
+
+TEST(Solvers, NewestValuesAndAWarmStartNeedFewerSweeps) {
+  const PrecisionScope digits(50);
+  const Scene bead = load_scene(scene_path("ellipsoid_bead"));
+  const auto mine = run(bead, SolverKind::fixed_point, 4, 3, "1/32", "1");
+  const auto papers = run(bead, SolverKind::paper, 4, 3, "1/32", "1");
+  EXPECT_LT(mine.sweeps, papers.sweeps);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,59 @@
+#include "verification/second_route.hpp"
+
+#include "hbvm/integrate/drift.hpp"
+#include "hbvm/integrate/output_state.hpp"
+#include "integrate/runs.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+/// HBVM of high order against an integration by other variables and another method.
+class SecondRoute : public ::testing::Test {
+ protected:
+  static constexpr int k = 10, s = 8;
+  PrecisionScope digits{40};
+  const Mpfr T = Mpfr(1) / 2, thirty_digits = literal<Mpfr>("1e-30");
+
+  Exact by_hbvm(const Scene& scene, const char* step) {
+    SceneRun<Mpfr> run(scene, k, s, step, "1/2");
+    Drift<Mpfr> drift(run.scene.problem);
+    const Integration<Mpfr> result = run({&drift});
+    EXPECT_LE(drift.e_g(), 1'000 * epsilon<Mpfr>());
+    Point<Mpfr> point(run.scene.problem);
+    const OutputState<Mpfr> output = output_state(point, result.end.q, result.end.p);
+    return {result.end.q, output.p, output.lambda};
+  }
+
+  void expect_agreement(const Exact& a, const Exact& b) const {
+    EXPECT_LE(max_norm(Vector<Mpfr>(a.q - b.q)), thirty_digits);
+    EXPECT_LE(max_norm(Vector<Mpfr>(a.p - b.p)), thirty_digits);
+    EXPECT_LE(max_norm(Vector<Mpfr>(a.lambda - b.lambda)), thirty_digits);
+  }
+};
+
+TEST_F(SecondRoute, DoublePendulumOfUnequalMasses) {
+  expect_agreement(by_hbvm(load_scene(scene_path("double_pendulum")), "1/256"), DoublePendulumInAngles().at(T, 8'000));
+}
+
+TEST_F(SecondRoute, SphericalPendulumBesideACharge) {
+  expect_agreement(by_hbvm(load_scene(scene_path("spherical_pendulum")), "1/128"),
+                   SphericalPendulumInAngles().at(T, 4'000));
+}
+
+TEST_F(SecondRoute, BeadOfMatrixMassOnAnEllipsoid) {
+  const DenseModel model = ellipsoid_bead();
+  const Scene scene = read_scene(model.scene, "ellipsoid_bead");
+  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
+  expect_agreement(by_hbvm(scene, "1/128"), IndexReduced{model}.at(start.q0, start.p0, T, 4'000));
+}
+
+TEST_F(SecondRoute, BeadOnACurve) {
+  const DenseModel model = bead_on_curve();
+  const Scene scene = read_scene(model.scene, "bead_on_curve");
+  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
+  expect_agreement(by_hbvm(scene, "1/128"), IndexReduced{model}.at(start.q0, start.p0, T, 4'000));
+}
+
+}  // namespace
+}  // namespace hbvm

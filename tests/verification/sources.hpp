@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace hbvm {
+
+/// A C++ file of include/hbvm or src. `folder` is the one below: "problem" for src/problem/effect/trace.cpp.
+struct Source {
+  std::filesystem::path path;
+  std::string folder, text;
+
+  std::string place(std::size_t line) const { return path.string() + ":" + std::to_string(line); }
+};
+
+inline std::vector<Source> sources() {
+  namespace fs = std::filesystem;
+  std::vector<Source> result;
+  for (const char* root : {"include/hbvm", "src"}) {
+    const fs::path base = fs::path(HBVM_SOURCE_DIR) / root;
+    for (const auto& entry : fs::recursive_directory_iterator(base)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".hpp" && extension != ".cpp" && extension != ".in") continue;
+      const fs::path relative = fs::relative(entry.path(), base);
+      std::ifstream file(entry.path());
+      std::ostringstream text;
+      text << file.rdbuf();
+      const bool in_folder = std::distance(relative.begin(), relative.end()) > 1;
+      result.push_back({entry.path(), in_folder ? relative.begin()->string() : std::string(), text.str()});
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const Source& a, const Source& b) { return a.path < b.path; });
+  return result;
+}
+
+}  // namespace hbvm
