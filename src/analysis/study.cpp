@@ -284,6 +284,8 @@ class Study {
         if (cells[0] != expected.cell(row, "k") || cells[1] != expected.cell(row, "s") ||
             cells[2] != expected.cell(row, "until"))
           continue;
+        const std::string only = expected.cell(row, "only");
+        if (!only.empty() && only != precision_.name()) continue;
         const std::string place = "k = " + cells[0] + ", s = " + cells[1] + ", until " + cells[2] + ": ";
         const auto bound = [&](const char* name, const std::string& computed, const std::string& limit, bool upper) {
           if (limit.empty()) return;

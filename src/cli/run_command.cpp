@@ -101,7 +101,7 @@ std::unique_ptr<std::ostream> open(const std::string& path, const std::string& s
   std::error_code ignored;
   if (std::filesystem::equivalent(path, scene, ignored)) throw InputError("'" + path + "' is the scene itself");
   auto file = std::make_unique<std::ofstream>(path);
-  if (!*file) throw InputError("cannot write '" + path + "': " + std::strerror(errno));
+  if (!*file) throw InputError("--out: cannot write '" + path + "': " + std::strerror(errno));
   return file;
 }
 
