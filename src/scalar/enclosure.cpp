@@ -25,7 +25,7 @@ struct Undecided {
 
 constexpr long max_exponent = 131'072;  // of values: an argument of this size takes that many bits of pi
 constexpr long min_exponent = -1'000'000'000;
-constexpr int max_depth = 2'000;
+constexpr int max_depth = 700;  // of nodes, those of constants included: no stack may overflow
 
 }  // namespace
 
