@@ -21,31 +21,14 @@ void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
 }
 
 template <Scalar S>
-void transposed_product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
-  const Index rows = a.cols(), inner = a.rows(), columns = b.cols();
-  if (c.rows() != rows || c.cols() != columns) c.resize(rows, columns);
-  S t;
-  for (Index j = 0; j < columns; ++j) {
-    const S* const x = b.data() + j * inner;
-    for (Index i = 0; i < rows; ++i) {
-      S& sum = c(i, j);
-      set_zero(sum);
-      const S* const column = a.data() + i * inner;
-      for (Index l = 0; l < inner; ++l) add_product(sum, column[l], x[l], t);
-    }
-  }
-}
-
-template <Scalar S>
 S dot(const Vector<S>& a, const Vector<S>& b) {
   S sum = 0, t;
   for (Index i = 0; i < a.size(); ++i) add_product(sum, a[i], b[i], t);
   return sum;
 }
 
-#define HBVM_DEFINE(S)                                                                 \
-  template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);            \
-  template void transposed_product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
+#define HBVM_DEFINE(S)                                                      \
+  template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
   template S dot<S>(const Vector<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -9,17 +9,12 @@ namespace hbvm {
 template <Scalar S>
 void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
 
-/// c = a^T b, for a (l x n) and b (l x m).
-template <Scalar S>
-void transposed_product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
-
 /// sum_i a_i b_i.
 template <Scalar S>
 S dot(const Vector<S>& a, const Vector<S>& b);
 
-#define HBVM_DECLARE(S)                                                                       \
-  extern template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&);            \
-  extern template void transposed_product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
+#define HBVM_DECLARE(S)                                                            \
+  extern template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
   extern template S dot<S>(const Vector<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
