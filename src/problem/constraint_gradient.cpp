@@ -213,6 +213,12 @@ void ConstraintGradient<S>::coupling(const Coupling& pair, Index i, Index j, S& 
     add_product(result, values_.data()[column * lanes_ + i], weighted_.data()[weighted_column * lanes_ + j], t_);
 }
 
+template <Scalar S>
+void ConstraintGradient<S>::gram(Matrix<S>& result) {
+  result.setZero(problem_.nu(), problem_.nu());
+  for (const Coupling& pair : couplings_) coupling(pair, 0, 0, result(pair.a, pair.b));
+}
+
 #define HBVM_DEFINE(S) template class ConstraintGradient<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

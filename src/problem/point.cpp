@@ -17,9 +17,7 @@ Point<S>::Point(const Problem<S>& problem)
       tangential_(problem.m()),
       multiplier_(problem.nu()),
       force_(1, problem.m()),
-      row_(1, problem.nu()) {
-  gram_.matrix().resize(problem.nu(), problem.nu());
-}
+      row_(1, problem.nu()) {}
 
 template <Scalar S>
 S Point<S>::energy(const Vector<S>& q, const Vector<S>& p) {
@@ -36,14 +34,9 @@ const Vector<S>& Point<S>::constraints(const Vector<S>& q) {
 }
 
 template <Scalar S>
-void Point<S>::move_to(const Vector<S>& q) {
-  gradient_.update(lanes(q));
-}
-
-template <Scalar S>
 const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S>& p) {
   if (problem_.nu() == 0) return hidden_;
-  move_to(q);
+  gradient_.update(lanes(q));
   problem_.mass.velocity(lanes(p), lanes(v_));
   for (Index a = 0; a < problem_.nu(); ++a) gradient_.transposed_times(0, a, lanes(v_), hidden_[a]);
   return hidden_;
@@ -51,8 +44,7 @@ const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S
 
 template <Scalar S>
 void Point<S>::solve_gram(Vector<S>& x) {
-  gram_.matrix().setZero();
-  for (const auto& pair : gradient_.couplings()) gradient_.coupling(pair, 0, 0, gram_.matrix()(pair.a, pair.b));
+  gradient_.gram(gram_.matrix());
   if (!gram_.factor())
     throw IntegrationError("the constraints' gradients are linearly dependent: (regular) does not hold here");
   gram_.solve(x);
@@ -72,7 +64,7 @@ const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
 template <Scalar S>
 const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
   if (problem_.nu() == 0) return multiplier_;
-  move_to(q);
+  gradient_.update(lanes(q));
   if (potential_.has_varying_force()) {
     potential_.varying_force(lanes(q), force_);
   } else {

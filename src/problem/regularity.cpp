@@ -95,14 +95,11 @@ double gram_condition(const Problem<S>& problem, const Vector<S>& q) {
   if (nu == 0) return 1;
   ConstraintGradient<S> gradient(problem, 1);
   gradient.update(lanes(q));
-  Matrix<double> gram = Matrix<double>::Zero(nu, nu);
-  S entry;
-  for (const auto& pair : gradient.couplings()) {
-    gradient.coupling(pair, 0, 0, entry);
-    gram(pair.a, pair.b) = approximately(entry);
-  }
+  Matrix<S> gram;
+  gradient.gram(gram);
+  const Matrix<double> displayed = gram.unaryExpr([](const S& x) { return approximately(x); });
   const auto eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix<double>>(gram, Eigen::EigenvaluesOnly).eigenvalues().eval();
+      Eigen::SelfAdjointEigenSolver<Matrix<double>>(displayed, Eigen::EigenvaluesOnly).eigenvalues().eval();
   return eigenvalues.maxCoeff() / eigenvalues.minCoeff();
 }
 

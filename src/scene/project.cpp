@@ -16,7 +16,6 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, c
   Point<S> point(problem);
   ConstraintGradient<S> gradient(problem, 1);
   Lu<S> gram;
-  gram.matrix().resize(nu, nu);
   Vector<S> q = target, next(problem.m()), mu(nu);
   Matrix<S> row(1, nu);
   S least = -1;
@@ -30,8 +29,7 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, c
       gradient.transposed_times(0, a, lanes(away), mu[a]);
       mu[a] += g[a];
     }
-    gram.matrix().setZero();
-    for (const auto& pair : gradient.couplings()) gradient.coupling(pair, 0, 0, gram.matrix()(pair.a, pair.b));
+    gradient.gram(gram.matrix());
     if (!gram.factor()) break;
     gram.solve(mu);
     for (Index a = 0; a < nu; ++a) row(0, a) = -mu[a];

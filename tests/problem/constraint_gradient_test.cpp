@@ -94,6 +94,23 @@ TYPED_TEST(ConstraintGradientTest, CouplingsAreTheProductsAcrossLanes) {
   }
 }
 
+TYPED_TEST(ConstraintGradientTest, GramMatrixIsThatOfTheFirstLane) {
+  using S = TypeParam;
+  for (const Index d : {2, 3}) {
+    const Problem<S> problem = constrained_problem<S>(d);
+    const Matrix<S> q = this->random.matrix(this->count, problem.m()), W = dense_inverse(dense_mass(problem.mass)),
+                    G = dense_gradient(problem, this->lane(q, 0));
+    ConstraintGradient<S> gradient(problem, this->count);
+    gradient.update(lanes(q));
+    Matrix<S> gram = this->random.matrix(2, 5);  // overwritten
+    gradient.gram(gram);
+    const Matrix<S> WG = W.lazyProduct(G), expected = G.transpose().lazyProduct(WG);
+    ASSERT_EQ(gram.rows(), problem.nu());
+    ASSERT_EQ(gram.cols(), problem.nu());
+    EXPECT_LE(max_norm(Matrix<S>(gram - expected)), 8 * this->tolerance());
+  }
+}
+
 TYPED_TEST(ConstraintGradientTest, CouplesOverAFullMassBlockWithoutSharedCoordinates) {
   using S = TypeParam;
   Problem<S> problem;

@@ -35,6 +35,8 @@ class ConstraintGradient {
   };
   const std::vector<Coupling>& couplings() const { return couplings_; }
   void coupling(const Coupling& pair, Index i, Index j, S& result);
+  /// The Gram matrix grad g^T M^-1 grad g of the first lane, nu x nu.
+  void gram(Matrix<S>& result);
 
  private:
   /// The stored columns of one constraint: coordinates_[k] is the coordinate of column first + k.

@@ -29,8 +29,7 @@ class Point {
   const Vector<S>& multiplier(const Vector<S>& q, const Vector<S>& p);
 
  private:
-  void move_to(const Vector<S>& q);
-  /// x = (grad g^T M^-1 grad g)^-1 x at the current point.
+  /// x = (grad g^T M^-1 grad g)^-1 x at the q of the last gradient.
   void solve_gram(Vector<S>& x);
 
   const Problem<S>& problem_;
