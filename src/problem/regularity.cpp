@@ -1,7 +1,9 @@
 #include "hbvm/problem/regularity.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <limits>
 
+#include "hbvm/linear/lu.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"
 
 namespace hbvm {
@@ -21,6 +23,13 @@ Matrix<S> dense_gradient(ConstraintGradient<S>& gradient, const Problem<S>& prob
     G.col(a) = column;
   }
   return G;
+}
+
+/// Of a symmetric matrix, in double.
+template <Scalar S>
+double largest_eigenvalue(const Matrix<S>& a) {
+  const Matrix<double> rounded = a.unaryExpr([](const S& x) { return approximately(x); });
+  return Eigen::SelfAdjointEigenSolver<Matrix<double>>(rounded, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 }  // namespace
@@ -56,19 +65,19 @@ std::optional<Dependence> find_dependence(const Problem<S>& problem, const Vecto
   tolerance *= tolerance;
   Matrix<Mpfr> L = Matrix<Mpfr>::Zero(nu, nu);
   for (Index a = 0; a < nu; ++a) {
-    const auto gram = [&](Index b) {
+    const auto gram = [&](Index b, Index c) {
       Mpfr sum = 0;
       for (Index i = 0; i < m; ++i)
-        if (exact_G(i, b) != 0) sum += exact_G(i, b) * weighted(i, a);
+        if (exact_G(i, b) != 0) sum += exact_G(i, b) * weighted(i, c);
       return sum;
     };
     for (Index b = 0; b < a; ++b) {
-      Mpfr sum = gram(b);
+      Mpfr sum = gram(b, a);
       for (Index c = 0; c < b; ++c)
         if (L(a, c) != 0 && L(b, c) != 0) sum -= L(a, c) * L(b, c);
       L(a, b) = sum / L(b, b);
     }
-    const Mpfr size = gram(a);
+    const Mpfr size = gram(a, a);
     Mpfr pivot = size;
     for (Index c = 0; c < a; ++c) pivot -= L(a, c) * L(a, c);
     if (!(pivot > tolerance * size)) {
@@ -81,7 +90,7 @@ std::optional<Dependence> find_dependence(const Problem<S>& problem, const Vecto
         x[b] = sum / L(b, b);
       }
       for (Index b = 0; b < a; ++b)
-        if (magnitude(x[b]) * magnitude(x[b]) * gram(b) * gram(b) > tolerance * size * size) found.others.push_back(b);
+        if (x[b] * x[b] * gram(b, b) > tolerance * size) found.others.push_back(b);
       return found;
     }
     L(a, a) = sqrt(pivot);
@@ -95,12 +104,18 @@ double gram_condition(const Problem<S>& problem, const Vector<S>& q) {
   if (nu == 0) return 1;
   ConstraintGradient<S> gradient(problem, 1);
   gradient.update(lanes(q));
-  Matrix<S> gram;
-  gradient.gram(gram);
-  const Matrix<double> displayed = gram.unaryExpr([](const S& x) { return approximately(x); });
-  const auto eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix<double>>(displayed, Eigen::EigenvaluesOnly).eigenvalues().eval();
-  return eigenvalues.maxCoeff() / eigenvalues.minCoeff();
+  Lu<S> lu;
+  gradient.gram(lu.matrix());
+  const double largest = largest_eigenvalue(lu.matrix());
+  if (!lu.factor()) return std::numeric_limits<double>::infinity();
+  // The smallest one may be lost in double, but not the largest one of the inverse.
+  Matrix<S> inverse(nu, nu);
+  for (Index a = 0; a < nu; ++a) {
+    Vector<S> column = Vector<S>::Unit(nu, a);
+    lu.solve(column);
+    inverse.col(a) = column;
+  }
+  return largest * largest_eigenvalue(inverse);
 }
 
 #define HBVM_DEFINE(S)                                                                        \

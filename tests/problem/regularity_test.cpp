@@ -1,0 +1,203 @@
+#include "hbvm/problem/regularity.hpp"
+
+#include <cmath>
+
+#include "hbvm/scalar/literal.hpp"
+#include "printing.hpp"
+#include "problem/dense.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class Regularity : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+  RandomValues<S> random{97};
+
+  static Vector<S> vector(std::initializer_list<const char*> entries) {
+    Vector<S> v(static_cast<Index>(entries.size()));
+    Index i = 0;
+    for (const char* entry : entries) v[i++] = literal<S>(entry);
+    return v;
+  }
+
+  /// Bodies of these masses in the plane.
+  static Problem<S> bodies(std::initializer_list<int> masses) {
+    Problem<S> problem;
+    problem.dimension = problem.potential.dimension = 2;
+    for (const int mass : masses) problem.mass.add_scalar(2, S(mass));
+    problem.potential.m = problem.m();
+    return problem;
+  }
+  static void hold(Problem<S>& problem, Index body, std::initializer_list<const char*> normal) {
+    problem.constraints.push_back({"plane", Plane<S>{2 * body, vector(normal), S(0)}});
+  }
+  static void tie(Problem<S>& problem, Index a, Index b) {
+    const Displacement<S> x{{{2 * a, S(1)}, {2 * b, S(-1)}}, {}};
+    problem.constraints.push_back({"rod", DisplacementProduct<S>{x, x, true, S(1)}});
+  }
+  static void pin(Problem<S>& problem, Index body) {
+    const Displacement<S> x{{{2 * body, S(1)}}, {}};
+    problem.constraints.push_back({"pin", DisplacementProduct<S>{x, x, true, S(1)}});
+  }
+
+  static void expect_dependence(const Problem<S>& problem, const Vector<S>& q, Index constraint,
+                                const std::vector<Index>& others) {
+    const auto found = find_dependence(problem, q);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->constraint, constraint);
+    EXPECT_EQ(found->others, others);
+  }
+
+  static void expect_condition(const Problem<S>& problem, const Vector<S>& q, double expected) {
+    EXPECT_NEAR(gram_condition(problem, q) / expected, 1, 1e-12);
+  }
+};
+TYPED_TEST_SUITE(Regularity, AllScalars, ScalarNames);
+
+TYPED_TEST(Regularity, HoldsForIndependentConstraints) {
+  for (const Index d : {2, 3}) {
+    const auto problem = constrained_problem<TypeParam>(d);
+    for (int trial = 0; trial < 5; ++trial)
+      EXPECT_FALSE(find_dependence(problem, this->random.vector(problem.m()))) << "dimension " << d;
+  }
+  const auto nothing = this->bodies({1});
+  EXPECT_FALSE(find_dependence(nothing, this->vector({"0", "0"})));
+}
+
+TYPED_TEST(Regularity, FindsARepeatedConstraint) {
+  auto problem = constrained_problem<TypeParam>(2);
+  for (const std::size_t copied : {0, 1, 2, 3, 5}) {
+    auto repeated = problem;
+    repeated.constraints.push_back(problem.constraints[copied]);
+    this->expect_dependence(repeated, this->random.vector(problem.m()), problem.nu(), {static_cast<Index>(copied)});
+  }
+}
+
+TYPED_TEST(Regularity, NamesTheConstraintsItIsACombinationOfAndNoOthers) {
+  auto problem = this->bodies({3, 2});
+  this->hold(problem, 1, {"1", "2"});
+  this->hold(problem, 0, {"1", "0"});
+  this->hold(problem, 1, {"1", "-1"});
+  this->hold(problem, 0, {"1", "1"});
+  auto one = problem, two = problem;
+  const auto q = this->vector({"0", "0", "0", "0"});
+  EXPECT_FALSE(find_dependence(problem, q));
+  this->hold(one, 0, {"-5", "0"});
+  this->expect_dependence(one, q, 4, {1});
+  this->hold(two, 0, {"3", "1/3"});
+  this->expect_dependence(two, q, 4, {1, 3});
+}
+
+/// (0, 1) = (1, 1) - (1, 0), though it is orthogonal to (1, 0).
+TYPED_TEST(Regularity, NamesAConstraintWhoseGradientIsOrthogonal) {
+  auto problem = this->bodies({2});
+  this->hold(problem, 0, {"1", "0"});
+  this->hold(problem, 0, {"1", "1"});
+  this->hold(problem, 0, {"0", "1"});
+  this->expect_dependence(problem, this->vector({"0", "0"}), 2, {0, 1});
+}
+
+TYPED_TEST(Regularity, FindsTheFirst) {
+  auto problem = this->bodies({1, 1});
+  this->hold(problem, 0, {"1", "0"});
+  this->hold(problem, 0, {"2", "0"});
+  this->hold(problem, 0, {"4", "0"});
+  this->expect_dependence(problem, this->vector({"0", "0", "0", "0"}), 1, {0});
+}
+
+/// A rod stretched between a pin and a wall it meets at a right angle.
+TYPED_TEST(Regularity, DependsOnThePlace) {
+  auto problem = this->bodies({2});
+  this->pin(problem, 0);
+  this->hold(problem, 0, {"1", "0"});
+  this->expect_dependence(problem, this->vector({"1", "0"}), 1, {0});
+  EXPECT_FALSE(find_dependence(problem, this->vector({"3/5", "4/5"})));
+}
+
+/// Four coordinates, two pins and the rod between them: singular where all three lie on a line.
+TYPED_TEST(Regularity, FailsForAStretchedLinkage) {
+  auto problem = this->bodies({1, 3});
+  this->pin(problem, 0);
+  this->pin(problem, 1);
+  this->tie(problem, 0, 1);
+  this->expect_dependence(problem, this->vector({"3/5", "4/5", "-9/5", "-12/5"}), 2, {0, 1});
+  EXPECT_FALSE(find_dependence(problem, this->vector({"3/5", "4/5", "-9/5", "-2"})));
+}
+
+TYPED_TEST(Regularity, FailsWhereAGradientVanishes) {
+  auto problem = this->bodies({1, 1});
+  this->pin(problem, 0);
+  this->tie(problem, 0, 1);
+  this->expect_dependence(problem, this->vector({"1", "2", "1", "2"}), 1, {});
+  this->expect_dependence(problem, this->vector({"0", "0", "1", "2"}), 0, {});
+}
+
+TYPED_TEST(Regularity, FailsInAFullMassMatrixToo) {
+  using S = TypeParam;
+  Problem<S> problem;
+  problem.dimension = problem.potential.dimension = 2;
+  problem.mass.add_full(mass_block<S>(2));
+  problem.potential.m = 2;
+  this->hold(problem, 0, {"1", "0"});
+  this->hold(problem, 0, {"1/3", "2"});
+  EXPECT_FALSE(find_dependence(problem, this->vector({"0", "0"})));
+  this->hold(problem, 0, {"1/7", "5"});
+  this->expect_dependence(problem, this->vector({"0", "0"}), 2, {0, 1});
+}
+
+/// Normals at an angle of 1/10^n: dependent if that is round-off in the working precision, and not if it is more.
+TYPED_TEST(Regularity, IsJudgedInTheWorkingPrecision) {
+  const auto at_angle = [&](const char* angle) {
+    auto problem = this->bodies({1});
+    this->hold(problem, 0, {"1", "0"});
+    this->hold(problem, 0, {"1", angle});
+    return find_dependence(problem, this->vector({"0", "0"})).has_value();
+  };
+  const int carried = digits10<TypeParam>();
+  EXPECT_FALSE(at_angle("1e-12"));
+  EXPECT_EQ(at_angle("1e-16"), carried < 20);
+  EXPECT_EQ(at_angle("1e-29"), carried < 30);
+  EXPECT_EQ(at_angle("1e-46"), carried < 50);
+  EXPECT_TRUE(at_angle("1e-51"));
+}
+
+TYPED_TEST(Regularity, ConditionOfOneOrNoConstraintIsOne) {
+  auto problem = this->bodies({7});
+  EXPECT_EQ(gram_condition(problem, this->vector({"3", "4"})), 1);
+  this->pin(problem, 0);
+  this->expect_condition(problem, this->vector({"3", "4"}), 1);
+}
+
+TYPED_TEST(Regularity, ConditionIsTheRatioOfTheEigenvalues) {
+  // Unit normals with cosine 3/5: 1 + 3/5 and 1 - 3/5.
+  auto problem = this->bodies({1});
+  this->hold(problem, 0, {"1", "0"});
+  this->hold(problem, 0, {"3/5", "4/5"});
+  this->expect_condition(problem, this->vector({"0", "0"}), 4);
+  // On bodies of mass 2 and 5: |n|^2/m, 9/2 and 1/5.
+  auto apart = this->bodies({2, 5});
+  this->hold(apart, 0, {"0", "3"});
+  this->hold(apart, 1, {"1", "0"});
+  this->expect_condition(apart, this->vector({"0", "0", "0", "0"}), 22.5);
+  // A stretched chain from the origin, masses 1, steps (1, 0): gradients 2 (1, -1 and 1): Gram 4 [[1, -1], [-1, 2]],
+  // whose eigenvalues are 4 (3 -+ sqrt(5))/2.
+  auto chain = this->bodies({1, 1});
+  this->pin(chain, 0);
+  this->tie(chain, 0, 1);
+  const double root = std::sqrt(5.0);
+  this->expect_condition(chain, this->vector({"1", "0", "2", "0"}), (3 + root) / (3 - root));
+}
+
+/// Normals (1, 0) and (1, a): trace 2 + a^2 and determinant a^2, which double cannot hold.
+TYPED_TEST(Regularity, ConditionBeyondDouble) {
+  if (digits10<TypeParam>() < 30) GTEST_SKIP();
+  auto problem = this->bodies({1});
+  this->hold(problem, 0, {"1", "0"});
+  this->hold(problem, 0, {"1", "1e-8"});
+  this->expect_condition(problem, this->vector({"0", "0"}), 4e16);
+}
+
+}  // namespace
+}  // namespace hbvm
