@@ -182,15 +182,15 @@ class Study {
       for (const auto& [column, order] : *node->as_table())
         orders.emplace(column.str(), top_.to_number(order, "an order"));
     }
-    if (check_) check_halvings(blocks, round_off, orders);
+    const Expression above_round_off = top_.number("compare_above");
+    if (check_) check_halvings(blocks, value(above_round_off.text()), round_off, orders);
   }
 
   /// Every printed figure above round-off, to all printed digits; beyond double also that what was round-off in double
   /// is round-off here, and that the rates double could not show (***) are there.
-  void check_halvings(const std::vector<Block>& blocks, const std::vector<std::string>& round_off,
-                      const std::map<std::string, Expression>& orders) {
+  void check_halvings(const std::vector<Block>& blocks, double above_round_off,
+                      const std::vector<std::string>& round_off, const std::map<std::string, Expression>& orders) {
     const Expected expected(folder_ / "expected.csv");
-    const double above_round_off = value(top_.number("compare_above").text());
     outcome_.what = "printed figures";
     for (const auto& printed : expected.rows) {
       const std::string k = expected.cell(printed, "k"), s = expected.cell(printed, "s"),
