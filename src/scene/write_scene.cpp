@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "hbvm/scene/project.hpp"
 
 namespace hbvm {
@@ -7,8 +9,9 @@ std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
-    if (c == '\n')
-      result += "\\n";
+    const auto code = static_cast<unsigned char>(c);
+    if (code < ' ' || code == 0x7f)
+      result += fmt::format("\\u{:04X}", code);
     else
       result += c;
   }
