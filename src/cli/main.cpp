@@ -32,9 +32,12 @@ int main(int argc, char** argv) {
   hbvm::add_scene_command(app);
   hbvm::add_study_command(app);
   try {
-    const auto is_first = [&](CLI::App* command) { return command->get_name() == argv[1]; };
-    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_first).empty())
-      throw hbvm::InputError("unknown command '" + std::string(argv[1]) + "' (see hbvm --help)");
+    const CLI::App* command = &app;
+    for (int i = 1; i < argc && argv[i][0] != '-' && command->get_require_subcommand_min() > 0; ++i) {
+      const auto named = command->get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[i]; });
+      if (named.empty()) throw hbvm::InputError("unknown command '" + std::string(argv[i]) + "' (see hbvm --help)");
+      command = named.front();
+    }
     if (argc > 1 && argv[1][0] == '-' && !app.get_option_no_throw(argv[1]))
       throw hbvm::InputError("unknown option '" + std::string(argv[1]) + "' before a command (see hbvm --help)");
     app.parse(argc, argv);  // runs the subcommand

@@ -1,6 +1,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "hbvm/analysis/describe.hpp"
@@ -11,7 +12,8 @@ namespace hbvm {
 namespace {
 
 struct Options {
-  std::string scene, precision = "double", out;
+  std::string scene, precision = "double";
+  std::optional<std::string> out;
 };
 
 void project_command(const Options& o) {
@@ -21,14 +23,14 @@ void project_command(const Options& o) {
     assemble<S>(projected);  // what is written must be accepted
     return write_scene(projected);
   });
-  if (o.out.empty()) {
+  if (!o.out) {
     std::cout << text;
     return;
   }
-  std::ofstream file(o.out);
+  std::ofstream file(*o.out);
   file << text;
   file.close();
-  if (!file) throw InputError("cannot write '" + o.out + "'");
+  if (!file) throw InputError("--out: cannot write '" + *o.out + "'");
 }
 
 }  // namespace
