@@ -5,21 +5,6 @@
 namespace hbvm {
 namespace {
 
-/// Exit code 2, nothing on standard output, one line on standard error that holds these words, within a second.
-void expect_refused(const Arguments& arguments, const std::vector<std::string>& words) {
-  const Outcome outcome = hbvm(arguments, 5);
-  std::string command = "hbvm";
-  for (const std::string& argument : arguments) command += " '" + argument + "'";
-  SCOPED_TRACE(command);
-  EXPECT_EQ(outcome.code, 2) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_LT(outcome.cpu_seconds, 1);
-  EXPECT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
-  EXPECT_TRUE(outcome.err.ends_with('\n'));
-  for (const std::string& word : words)
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' is not in: " << outcome.err;
-}
-
 /// A run of `scene` with one option replaced.
 Arguments run_with(const std::string& option, const std::string& value, const std::string& scene = "simple_pendulum") {
   Arguments arguments{"run", scene};

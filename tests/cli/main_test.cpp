@@ -19,7 +19,7 @@ std::vector<std::string> subcommands() {
 
 TEST(Help, ListsTheSubcommands) {
   const std::vector<std::string> names = subcommands();
-  for (const char* name : {"run", "nodes", "scenes"})
+  for (const char* name : {"run", "nodes", "scenes", "scene", "study"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
@@ -40,10 +40,20 @@ TEST(Help, OfEverySubcommandShowsAnExample) {
   }
 }
 
+TEST(Help, OfTheSubcommandsOfSceneShowsAnExample) {
+  for (const char* name : {"check", "project"}) {
+    const Outcome help = hbvm({"scene", name, "--help"});
+    EXPECT_EQ(help.code, 0) << help.err;
+    EXPECT_NE(help.out.find("Example: hbvm scene " + std::string(name)), std::string::npos) << help.out;
+    EXPECT_NE(help.out.find("--precision"), std::string::npos) << help.out;
+    EXPECT_EQ(help.out.find("--out") != std::string::npos, name == std::string("project")) << help.out;
+  }
+}
+
 TEST(Help, OfRunNamesEveryOption) {
   const std::string help = hbvm({"run", "--help"}).out;
   for (const char* option :
-       {"scene", "--method", "--step", "--until", "--precision", "--solver", "--out", "--every", "--json"})
+       {"scene", "--method", "--step", "--until", "--precision", "--solver", "--out", "--every", "--account", "--json"})
     EXPECT_NE(help.find(option), std::string::npos) << option;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -107,6 +108,21 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
+}
+
+/// Exit code 2, nothing on standard output, one line on standard error that holds these words, within a second.
+inline void expect_refused(const Arguments& arguments, const std::vector<std::string>& words) {
+  const Outcome outcome = hbvm(arguments, 5);
+  std::string command = "hbvm";
+  for (const std::string& argument : arguments) command += " '" + argument + "'";
+  SCOPED_TRACE(command);
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_LT(outcome.cpu_seconds, 1);
+  EXPECT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with('\n'));
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' is not in: " << outcome.err;
 }
 
 /// A pendulum of this velocity at its lowest point.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/program.hpp"
@@ -139,6 +140,66 @@ TEST(Run, WithoutJsonPrintsTextForReaders) {
   EXPECT_EQ(outcome.err, "");
   for (const char* word : {"simple_pendulum", "Simple pendulum", "hbvm:2,2", "double", "e_H", "e_g", "e_hid"})
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+}
+
+/// The lines of the account, by name.
+std::map<std::string, ordered_json> account_of(const std::string& scene, const char* method) {
+  const ordered_json j = json_of({"run", scene, "--method", method, "--step", "1/16", "--until", "1/2", "--account"});
+  std::map<std::string, ordered_json> lines;
+  for (const ordered_json& line : j["account"]) lines[line["name"]] = line;
+  lines["run"] = j;
+  return lines;
+}
+
+std::uint64_t sweeps(const std::map<std::string, ordered_json>& lines) {
+  const double steps = lines.at("run")["steps"], each = lines.at("run")["iterations_per_step"];
+  return static_cast<std::uint64_t>(std::lround(steps * each));
+}
+
+TEST(RunAccount, CountsWhatTheSceneNames) {
+  auto lines = account_of("modified_pendulum", "hbvm:3,2");
+  const std::uint64_t n = sweeps(lines);
+  EXPECT_GT(n, 8u);
+  int effects = 0;
+  for (const auto& [name, line] : lines) effects += line.value("effect", false);
+  EXPECT_EQ(effects, 2);
+  EXPECT_EQ(lines["uniform_gravity"]["evaluations"], 1);
+  EXPECT_EQ(lines["coulomb"]["calls"], n);
+  EXPECT_EQ(lines["coulomb"]["evaluations"], 3 * n);
+  // x = q - (2, 0); r^2, 1/r and c/r^3; two products and the sum into the force.
+  const ordered_json& operations = lines["coulomb"]["operations"];
+  EXPECT_EQ(operations["add"], (2 + 1 + 2) * 3 * n);
+  EXPECT_EQ(operations["multiply"], (2 + 3 + 2) * 3 * n);
+  EXPECT_EQ(operations["divide"], 3 * n);
+  EXPECT_EQ(operations["sqrt"], 3 * n);
+  EXPECT_EQ(operations["subtract"], 0);
+  EXPECT_EQ(operations["cos"], 0);
+  EXPECT_EQ(lines["constraint gradients"]["calls"], n);
+  EXPECT_EQ(lines["solution of (lam)"]["calls"], n);
+  EXPECT_FALSE(lines["solution of (lam)"].contains("evaluations"));
+}
+
+TEST(RunAccount, OfAnUnconstrainedSceneHasNoCallsOfConstraints) {
+  auto lines = account_of("kepler", "hbvm:4,2");
+  const std::uint64_t n = sweeps(lines);
+  for (const char* name : {"positions at c", "constraint gradients", "matrix of (lam)", "right-hand side of (lam)",
+                           "solution of (lam)", "coefficients zeta"}) {
+    EXPECT_EQ(lines[name]["calls"], 0) << name;
+    for (const auto& [operation, count] : lines[name]["operations"].items()) EXPECT_EQ(count, 0) << name << operation;
+  }
+  for (const char* name :
+       {"velocities h M^-1 gamma", "positions at c_hat", "coefficients psi_hat", "coefficients gamma"})
+    EXPECT_EQ(lines[name]["calls"], n) << name;
+  EXPECT_EQ(lines["central_gravity"]["evaluations"], 4 * n);
+}
+
+TEST(RunAccount, IsPrintedOnlyIfAskedFor) {
+  const Arguments run{"run", "kepler", "--method", "hbvm:2,2", "--step", "1/16", "--until", "1/2"};
+  EXPECT_EQ(hbvm(run).out.find("central_gravity"), std::string::npos);
+  EXPECT_FALSE(json_of(run).contains("account"));
+  const std::string text = hbvm(run + Arguments{"--account"}).out;
+  for (const char* word : {"8 steps, ", "central_gravity", "all effects", "coefficients gamma", "all of the solver"})
+    EXPECT_NE(text.find(word), std::string::npos) << word << " is not in\n" << text;
 }
 
 /// Done means 2 of the issue: the satellites at the paper's energy errors.

@@ -1,0 +1,109 @@
+#include "cli/program.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/scene.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Off the circle and with a velocity along the rod.
+std::string inconsistent_pendulum() {
+  std::string text = pendulum("1");
+  return text.replace(text.find("[0, -1]"), 7, "[0.9, -1.2]");
+}
+
+TEST(SceneCheck, ExplainsEverySceneThatIsShipped) {
+  for (const auto& [name, text] : built_in_scenes()) {
+    const Outcome outcome = hbvm({"scene", "check", name});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_TRUE(outcome.out.starts_with(name + ": ")) << outcome.out;
+    for (const char* what : {"degrees of freedom", "energy H", "L_z"})
+      EXPECT_NE(outcome.out.find(what), std::string::npos) << what << " is not in\n" << outcome.out;
+  }
+}
+
+TEST(SceneCheck, ReadsAFileInThePrecisionAsked) {
+  const Folder folder;
+  const std::string path = folder.write("scene.toml", pendulum("\"2^(1/4)\""));
+  // H = sqrt(2)/2 - 1
+  for (const auto& [precision, H] :
+       {std::pair("double", "-0.29289321881345"), {"mpfr:40", "-0.29289321881345247559915"}})
+    EXPECT_NE(hbvm({"scene", "check", path, "--precision", precision}).out.find(H), std::string::npos) << precision;
+}
+
+TEST(SceneCheck, RefusesBadInput) {
+  const Folder folder;
+  expect_refused({"scene"}, {"subcommand"});
+  expect_refused({"scene", "chekc", "kepler"}, {"chekc"});
+  expect_refused({"scene", "check"}, {"scene"});
+  expect_refused({"scene", "check", "keplr"}, {"'keplr'", "'kepler'"});
+  expect_refused({"scene", "check", "kepler", "more"}, {"more"});
+  expect_refused({"scene", "check", "kepler", "--precision", "mpfr:5"}, {"precision"});
+  expect_refused({"scene", "check", "kepler", "--out", "x"}, {"--out"});
+  expect_refused({"scene", "check", folder.write("bad.toml", "dimension = 4\n")}, {"bad.toml:1", "'dimension'"});
+  expect_refused({"scene", "check", folder.write("off.toml", inconsistent_pendulum())},
+                 {"off.toml", "position", "rod", "1.25e+00"});
+  std::string twice = pendulum("1");
+  twice += twice.substr(twice.find("[[constraint]]"), twice.find("[[effect]]") - twice.find("[[constraint]]"));
+  expect_refused({"scene", "check", folder.write("twice.toml", twice)}, {"constraint 2", "redundant", "constraint 1"});
+  twice.replace(twice.rfind("length = 1"), 10, "length = 2");
+  expect_refused({"scene", "check", folder.write("twice.toml", twice)},
+                 {"constraint 2", "contradictory", "constraint 1", "-3.00e+00"});
+}
+
+TEST(SceneProject, WritesASceneThatChecks) {
+  const Folder folder;
+  const std::string from = folder.write("from.toml", inconsistent_pendulum()), to = folder / "to.toml";
+  for (const char* precision : {"double", "quad", "mpfr:60"}) {
+    const Outcome outcome = hbvm({"scene", "project", from, "--precision", precision, "--out", to});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(hbvm({"scene", "check", to, "--precision", precision}).code, 0) << precision;
+    EXPECT_EQ(
+        hbvm({"run", to, "--method", "hbvm:1,1", "--step", "1/8", "--until", "1/8", "--precision", precision}).code, 0);
+    // The nearest point of the circle is (3, -4)/5; (1, 0) loses 3/5 of (3, -4)/5.
+    const Scene scene = load_scene(to);
+    const double position[2] = {0.6, -0.8}, velocity[2] = {0.64, 0.48};
+    for (std::size_t j = 0; j < 2; ++j) {
+      EXPECT_NEAR(evaluate<double>(scene.bodies[0].position[j]), position[j], 1e-15);
+      EXPECT_NEAR(evaluate<double>(scene.bodies[0].velocity[j]), velocity[j], 1e-15);
+    }
+  }
+  EXPECT_EQ(text_of(from), inconsistent_pendulum());
+}
+
+TEST(SceneProject, PrintsTheSceneWithoutAFile) {
+  const Folder folder;
+  const std::string from = folder.write("from.toml", inconsistent_pendulum()), to = folder / "to.toml";
+  const Outcome printed = hbvm({"scene", "project", from});
+  EXPECT_EQ(printed.code, 0) << printed.err;
+  EXPECT_EQ(hbvm({"scene", "project", from, "--out", to}).code, 0);
+  EXPECT_EQ(printed.out, text_of(to));
+  EXPECT_EQ(read_scene(printed.out, "printed").title, "Pendulum");
+}
+
+TEST(SceneProject, RefusesBadInput) {
+  const Folder folder;
+  const std::string good = folder.write("good.toml", inconsistent_pendulum());
+  std::string text = inconsistent_pendulum();
+  text += text.substr(text.find("[[constraint]]"), text.find("[[effect]]") - text.find("[[constraint]]"));
+  expect_refused({"scene", "project", folder.write("twice.toml", text)}, {"twice.toml", "no consistent position"});
+  expect_refused({"scene", "project"}, {"scene"});
+  expect_refused({"scene", "project", "keplr"}, {"'kepler'"});
+  expect_refused({"scene", "project", good, "--precision", "octuple"}, {"precision"});
+  expect_refused({"scene", "project", good, "--out"}, {"--out"});
+  expect_refused({"scene", "project", good, "--out", ""}, {"--out"});
+  expect_refused({"scene", "project", good, "--out", "/nonexistent/to.toml"}, {"'/nonexistent/to.toml'"});
+  expect_refused({"scene", "project", good, "--out", folder / "."}, {folder / "."});
+  expect_refused({"scene", "project", good, "--out", "/dev/full"}, {"/dev/full"});
+}
+
+TEST(SceneProject, LeavesTheFileAloneIfItFails) {
+  const Folder folder;
+  const std::string precious = folder.write("precious.toml", "precious");
+  expect_refused({"scene", "project", "keplr", "--out", precious}, {"keplr"});
+  EXPECT_EQ(text_of(precious), "precious");
+}
+
+}  // namespace
+}  // namespace hbvm
