@@ -126,11 +126,12 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
       positions(method_.I_hat, u_hat_);
     }
     potential_.varying_force(lanes(u_hat_), force_);
-    const Call call(*this, projection);
-    product(psi, method_.projection_hat, force_);
-  } else {
-    for (Index i = 0; i < psi.size(); ++i) set_zero(psi.data()[i]);
   }
+  const Call call(*this, projection);
+  if (potential_.has_varying_force())
+    product(psi, method_.projection_hat, force_);
+  else
+    for (Index i = 0; i < psi.size(); ++i) set_zero(psi.data()[i]);
   // A constant force has the one coefficient psi_0 = force.
   const Vector<S>& constant = potential_.constant_force();
   for (Index j = 0; j < psi.cols(); ++j) set_sum(psi(0, j), psi(0, j), constant[j]);
