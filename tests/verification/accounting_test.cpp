@@ -1,0 +1,297 @@
+// What was not named costs nothing: the accounts of runs, in exact integers.
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "hbvm/analysis/simulate.hpp"
+#include "hbvm/problem/effect/registry.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Two charged bodies, a fixed charge, nothing that acts on them.
+std::string bodies(int dimension, bool rod) {
+  const std::string z = dimension == 2 ? "" : ", 0";
+  std::string text = "dimension = " + std::to_string(dimension) + "\npoint = [{ name = \"O\", position = [0, -1" + z +
+                     "], charge = 1 }]\n"
+                     "body = [{ name = \"a\", mass = 1, position = [0, 0" +
+                     z + "], velocity = [0, 1" + z +
+                     "], charge = 2 },\n"
+                     "        { name = \"b\", mass = 2, position = [1, 0" +
+                     z + "], velocity = [0, 0" + z + "], charge = 3 }]\n";
+  if (rod) text += "[[constraint]]\nkind = \"rod\"\nbetween = [\"a\", \"b\"]\nlength = 1\n";
+  return text;
+}
+
+/// Every kind of effect on those bodies, weak enough for any sum of them.
+std::vector<std::pair<std::string, std::string>> effects(int dimension) {
+  const std::string z = dimension == 2 ? "" : ", 0";
+  const auto effect = [](const std::string& kind, const std::string& keys) {
+    return std::pair(kind, "[[effect]]\nkind = \"" + kind + "\"\n" + keys);
+  };
+  const std::string about = "center = \"O\"\n";
+  return {effect("uniform_gravity", "acceleration = [0, -0.1" + z + "]\n"),
+          effect("central_gravity", about + "strength = 0.1\n"),
+          effect("mutual_gravity", "strength = 0.1\n"),
+          effect("coulomb", "strength = 0.1\n"),
+          effect("spring", "between = [\"a\", \"b\"]\nstiffness = 0.1\n"),
+          effect("trap", about + "stiffness = 0.1\nexponent = 2\n"),
+          effect("lennard_jones", "depth = 0.01\ndiameter = 1\n"),
+          effect("radial_cosine", about + "strength = 0.1\n"),
+          effect("oblateness", about + "strength = 0.1\nradius = 1\nJ2 = 0.1\naxis = [0, 1" + z + "]\n")};
+}
+
+std::string effect(int dimension, const std::string& kind) {
+  for (const auto& [name, text] : effects(dimension))
+    if (name == kind) return text;
+  return {};
+}
+
+Account run(const std::string& text, int k, int s, const char* step = "1/16", const char* until = "1/8",
+            SolverKind solver = SolverKind::fixed_point) {
+  const auto scene = assemble<double>(read_scene(text, "test.toml"));
+  Account account;
+  simulate(scene, make_hbvm<double>(k, s), solver, TimeGrid<double>(Expression::parse(step), Expression::parse(until)),
+           {}, &account);
+  return account;
+}
+
+/// The account of so many sweeps over the stage equations, whatever they converge to.
+Account sweeps(const std::string& text, int k, int s, int count) {
+  const auto scene = assemble<double>(read_scene(text, "test.toml"));
+  const auto method = make_hbvm<double>(k, s);
+  StageEquations<double> equations(scene.problem, method, 1.0 / 16);
+  equations.start(scene.q0, scene.p0);
+  auto x = equations.make_unknowns();
+  x.gamma.row(0) = scene.p0.transpose();
+  for (int sweep = 0; sweep < count; ++sweep) {
+    equations.move(x.gamma);
+    equations.forces(x.psi);
+    EXPECT_TRUE(equations.multipliers(x.psi, x.lambda, x.zeta));
+    equations.momenta(x.psi, x.zeta, x.gamma);
+  }
+  return account_of(equations);
+}
+
+std::uint64_t evaluations(const Account& account, const std::string& kind) {
+  std::uint64_t sum = 0;
+  for (const AccountLine& line : account.lines)
+    if (line.effect && line.name == kind) sum += line.evaluations;
+  return sum;
+}
+
+OperationCounts force_operations(const Account& account) {
+  OperationCounts sum;
+  for (const AccountLine& line : account.lines)
+    if (line.effect) sum += line.operations;
+  return sum;
+}
+
+std::vector<AccountLine> solver_lines(const Account& account) {
+  std::vector<AccountLine> lines = account.lines;
+  std::erase_if(lines, [](const AccountLine& line) { return line.effect; });
+  return lines;
+}
+
+AccountLine line_of(const Account& account, const std::string& name) {
+  for (const AccountLine& line : account.lines)
+    if (line.name == name) return line;
+  ADD_FAILURE() << "no line '" << name << "'";
+  return {};
+}
+
+struct Count {
+  int add = 0, subtract = 0, multiply = 0, divide = 0, root = 0;
+};
+
+void expect_operations(const OperationCounts& found, std::uint64_t times, const Count& each, const std::string& what) {
+  OperationCounts expected;
+  expected.add(Op::add, each.add);
+  expected.add(Op::subtract, each.subtract);
+  expected.add(Op::multiply, each.multiply);
+  expected.add(Op::reciprocal, each.divide);
+  expected.add(Op::sqrt, each.root);
+  for (std::size_t op = 0; op < op_count; ++op)
+    EXPECT_EQ(found[static_cast<Op>(op)], times * expected[static_cast<Op>(op)])
+        << what << ", " << name_of(static_cast<Op>(op));
+}
+
+const std::set<std::string> constraint_parts{"positions at c",           "constraint gradients", "matrix of (lam)",
+                                             "right-hand side of (lam)", "solution of (lam)",    "coefficients zeta"};
+
+TEST(Accounting, KnowsEveryEffectOfTheRegistry) {
+  std::set<std::string> registered, used;
+  std::apply([&](auto... e) { (registered.emplace(decltype(e)::kind), ...); }, Effects{});
+  for (const auto& [kind, text] : effects(2)) used.insert(kind);
+  EXPECT_EQ(used, registered);
+}
+
+TEST(Accounting, AnEffectsCounterIsNotZeroExactlyIfTheSceneNamesIt) {
+  const auto all = effects(2);
+  for (unsigned subset = 0; subset < 1U << all.size(); ++subset) {
+    std::string text = bodies(2, subset % 3 == 0);
+    for (std::size_t e = 0; e < all.size(); ++e)
+      if (subset >> e & 1) text += all[e].second;
+    const Account account = run(text, 2, 1, "1/16", "1/16");
+    for (std::size_t e = 0; e < all.size(); ++e) {
+      EXPECT_EQ(evaluations(account, all[e].first) != 0, (subset >> e & 1) != 0)
+          << all[e].first << " of subset " << subset;
+    }
+  }
+}
+
+TEST(Accounting, ForcesAreEvaluatedAtKNodesASweepAndConstantOnesOnce) {
+  std::string text;
+  std::uint64_t varying = 0;
+  for (const auto& [kind, effect] : effects(2)) {
+    text += effect + effect;  // the same kind twice is two effects
+    if (kind != "uniform_gravity") varying += 2;
+  }
+  for (const bool rod : {false, true}) {
+    for (const auto solver : {SolverKind::fixed_point, SolverKind::paper}) {
+      for (const auto& [k, s] : {std::pair(1, 1), {3, 1}, {2, 2}, {5, 2}, {4, 3}}) {
+        const Account account = run(bodies(2, rod) + text, k, s, "1/32", "1/8", solver);
+        EXPECT_EQ(account.steps, 4u);
+        EXPECT_GT(account.sweeps, account.steps);
+        std::uint64_t sum = 0;
+        for (const AccountLine& line : account.lines) {
+          if (!line.effect) continue;
+          const bool constant = line.name == "uniform_gravity";
+          EXPECT_EQ(line.calls, constant ? 1 : account.sweeps) << line.name;
+          EXPECT_EQ(line.evaluations, constant ? 1 : static_cast<std::uint64_t>(k) * account.sweeps) << line.name;
+          sum += line.evaluations;
+        }
+        EXPECT_EQ(sum, static_cast<std::uint64_t>(k) * account.sweeps * varying + 2);
+      }
+    }
+  }
+}
+
+TEST(Accounting, ASceneOfConstantForcesEvaluatesOnceInAll) {
+  for (const bool rod : {false, true}) {
+    const Account account = run(bodies(2, rod) + effect(2, "uniform_gravity"), 4, 2, "1/32", "1");
+    EXPECT_EQ(account.steps, 32u);
+    EXPECT_EQ(evaluations(account, "uniform_gravity"), 1u);
+    EXPECT_EQ(line_of(account, "positions at c_hat").calls, 0u);
+  }
+}
+
+TEST(Accounting, AConstantForceCostsTheSolverOneSumACoordinate) {
+  const Account account = sweeps(bodies(3, true) + effect(3, "uniform_gravity"), 3, 2, 5);
+  EXPECT_EQ(line_of(account, "coefficients psi_hat").calls, 5u);
+  expect_operations(line_of(account, "coefficients psi_hat").operations, 5, {.add = 6}, "psi_hat");
+}
+
+TEST(Accounting, ForceOperationsAreTheSumOverTheEffects) {
+  const auto all = effects(3);
+  std::string text = bodies(3, true);
+  OperationCounts sum;
+  for (const auto& [kind, effect] : all) {
+    text += effect;
+    sum += force_operations(sweeps(bodies(3, true) + effect, 3, 2, 5));
+  }
+  EXPECT_EQ(force_operations(sweeps(text, 3, 2, 5)), sum);
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const std::string both = bodies(3, true) + all[a].second + all[b].second;
+      EXPECT_EQ(force_operations(sweeps(both, 3, 2, 5)),
+                force_operations(sweeps(bodies(3, true) + all[a].second, 3, 2, 5)) +
+                    force_operations(sweeps(bodies(3, true) + all[b].second, 3, 2, 5)))
+          << all[a].first << " and " << all[b].first;
+    }
+  }
+}
+
+TEST(Accounting, ForceOperationsOfARunAreItsEvaluationsTimesThoseOfOne) {
+  for (const auto& [kind, effect] : effects(3)) {
+    const Account one = sweeps(bodies(3, true) + effect, 1, 1, 1), whole = run(bodies(3, true) + effect, 3, 2);
+    EXPECT_EQ(evaluations(one, kind), 1u);
+    EXPECT_EQ(force_operations(whole), evaluations(whole, kind) * force_operations(one)) << kind;
+  }
+}
+
+/// Whatever the effects, the solver's lines say the same, as long as there is one that varies.
+TEST(Accounting, TheSolversOperationsAreLinesOfTheirOwn) {
+  std::string text = bodies(3, true);
+  for (const auto& [kind, effect] : effects(3)) text += effect;
+  const auto expected = solver_lines(sweeps(text, 3, 2, 5));
+  EXPECT_EQ(expected.size(), 10u);
+  for (const auto& [kind, effect] : effects(3)) {
+    if (kind == "uniform_gravity") continue;
+    const auto lines = solver_lines(sweeps(bodies(3, true) + effect, 3, 2, 5));
+    ASSERT_EQ(lines.size(), expected.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      EXPECT_EQ(lines[i].name, expected[i].name);
+      EXPECT_EQ(lines[i].calls, 5u) << lines[i].name;
+      EXPECT_EQ(lines[i].operations, expected[i].operations) << lines[i].name << " with " << kind;
+    }
+  }
+}
+
+TEST(Accounting, WithoutConstraintsNoConstraintRoutineIsEntered) {
+  for (const int dimension : {2, 3}) {
+    std::string text;
+    for (const auto& [kind, effect] : effects(dimension)) text += effect;
+    for (const auto& [k, s] : {std::pair(2, 2), {4, 1}}) {
+      for (const bool rod : {true, false}) {
+        const Account account = run(bodies(dimension, rod) + text, k, s);
+        std::set<std::string> constraint_lines;
+        for (const AccountLine& line : solver_lines(account)) {
+          const bool constraint = constraint_parts.contains(line.name);
+          if (constraint) constraint_lines.insert(line.name);
+          EXPECT_EQ(line.calls, !rod && constraint ? 0 : account.sweeps) << line.name;
+          EXPECT_EQ(line.operations.total() != 0, rod || !constraint) << line.name;
+        }
+        EXPECT_EQ(constraint_lines, constraint_parts);
+      }
+    }
+  }
+}
+
+/// Force of one pair: r^2 takes d products and d - 1 sums, 1/r a root and a quotient, c/r^3 three products, its d
+/// components d more; x = a - b takes d differences, and the sum into both bodies d sums and d differences.
+TEST(Accounting, APlanarForceWorksOnTwoCoordinates) {
+  for (const int d : {2, 3}) {
+    const Account account = sweeps(bodies(d, false) + effect(d, "mutual_gravity"), 3, 2, 5);
+    expect_operations(line_of(account, "mutual_gravity").operations, 3 * 5,
+                      {.add = (d - 1) + d, .subtract = d + d, .multiply = d + 3 + d, .divide = 1, .root = 1},
+                      "mutual_gravity");
+  }
+}
+
+/// A harmonic trap on two bodies at a centre away from the origin: x = q - c, the force stiffness x, its sum.
+TEST(Accounting, APlanarTrapWorksOnTwoCoordinates) {
+  for (const int d : {2, 3}) {
+    const Account account = sweeps(bodies(d, false) + effect(d, "trap"), 3, 2, 5);
+    expect_operations(line_of(account, "trap").operations, 3 * 5, {.add = 2 * (d + d), .multiply = 2 * d}, "trap");
+  }
+}
+
+/// m = 2 d coordinates, one rod, one mass that is not 1.
+TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
+  constexpr int k = 3, s = 2, times = 5;
+  for (const int d : {2, 3}) {
+    const Account account = sweeps(bodies(d, true) + effect(d, "mutual_gravity"), k, s, times);
+    const int m = 2 * d;
+    const auto expect = [&](const char* part, const Count& each) {
+      expect_operations(line_of(account, part).operations, times, each, part);
+    };
+    expect("velocities h M^-1 gamma", {.multiply = s * d + s * m});
+    expect("positions at c", {.add = s * s * m + s * m, .multiply = s * s * m});
+    expect("positions at c_hat", {.add = k * s * m + k * m, .multiply = k * s * m});
+    expect("coefficients psi_hat", {.add = s * k * m + m, .multiply = s * k * m});
+    // At each node x = a - b, 2 x, its sum into both gradients, and half of that of b.
+    expect("constraint gradients", {.add = s * 2 * d, .subtract = s * 2 * d, .multiply = s * d});
+    expect("matrix of (lam)", {.add = s * s * m, .multiply = s * s * (m + 1)});
+    expect("right-hand side of (lam)",
+           {.add = s * s * m + s * m + s * m, .multiply = s * d + s * s * m + s * m, .divide = m});
+    // Two equations: a quotient and a product to factor, two products and two quotients to solve.
+    expect("solution of (lam)", {.subtract = 1 + 2, .multiply = 1 + 2, .divide = 1 + 2});
+    expect("coefficients zeta", {.add = s * m + s * s * m, .multiply = s * m + s * s * m});
+    expect("coefficients gamma", {.add = (s - 1) * m + m, .subtract = s * m, .multiply = s * m + (s - 1) * m + s * m});
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
