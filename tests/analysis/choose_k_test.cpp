@@ -1,0 +1,159 @@
+#include "hbvm/analysis/choose_k.hpp"
+
+#include "hbvm/analysis/simulate.hpp"
+#include "hbvm/error.hpp"
+#include "printing.hpp"
+#include "scene/scene_text.hpp"
+
+namespace hbvm {
+namespace {
+
+std::string with(const std::vector<std::string>& effects, const std::string& velocity) {
+  std::string text =
+      "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\n"
+      "body = [{ name = \"a\", mass = 1, position = [1, 0], velocity = " +
+      velocity + " }]\n";
+  for (const std::string& effect : effects) text += "[[effect]]\n" + effect + "\n";
+  return text;
+}
+const std::string gravity = "kind = \"uniform_gravity\"\nacceleration = [0, -1]",
+                  attraction = "kind = \"central_gravity\"\ncenter = \"O\"\nstrength = 1";
+std::string spring(const std::string& exponent, const std::string& length = "0") {
+  return "kind = \"spring\"\nbetween = [\"a\", \"O\"]\nstiffness = 1\nexponent = " + exponent +
+         "\nrest_length = " + length;
+}
+
+template <Scalar S>
+Assembled<S> assembled(const std::vector<std::string>& effects, const std::string& velocity = "[0, 1]") {
+  return assemble<S>(read_scene(with(effects, velocity), "test.toml"));
+}
+
+std::optional<int> degree(const std::vector<std::string>& effects) {
+  return degree_of_U(assembled<double>(effects).problem);
+}
+
+TEST(DegreeOfU, IsTheGreatestOfItsEffects) {
+  EXPECT_EQ(degree({}), 0);
+  EXPECT_EQ(degree({gravity}), 1);
+  EXPECT_EQ(degree({spring("2")}), 2);
+  EXPECT_EQ(degree({spring("6"), gravity, spring("4")}), 6);
+}
+
+TEST(DegreeOfU, IsNoneIfOneEffectIsNoPolynomial) {
+  EXPECT_EQ(degree({attraction}), std::nullopt);
+  EXPECT_EQ(degree({gravity, attraction, spring("4")}), std::nullopt);
+  EXPECT_EQ(degree({spring("3")}), std::nullopt);       // |r|^3
+  EXPECT_EQ(degree({spring("2", "1")}), std::nullopt);  // a rest length takes the root
+}
+
+template <class S>
+class ChooseK : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+
+  static ChosenK chosen(const Assembled<S>& scene, int s, const char* step) {
+    return choose_k<S>(scene, s, literal<S>(step), SolverKind::fixed_point);
+  }
+  static S energy_error(const Assembled<S>& scene, int k, int s, const char* step, const char* until) {
+    return simulate(scene, make_hbvm<S>(k, s), SolverKind::fixed_point,
+                    TimeGrid<S>(Expression::parse(step), Expression::parse(until)))
+        .e_H;
+  }
+};
+TYPED_TEST_SUITE(ChooseK, AllScalars, ScalarNames);
+
+/// k >= mu s/2, (hDj), and k >= s.
+TYPED_TEST(ChooseK, ForAPolynomialIsTheLeastOfTheTheory) {
+  struct Case {
+    std::vector<std::string> effects;
+    int s, k;
+  };
+  for (const Case& c : std::vector<Case>{{{}, 3, 3},
+                                         {{gravity}, 1, 1},
+                                         {{gravity}, 4, 4},
+                                         {{spring("2"), gravity}, 2, 2},
+                                         {{spring("4")}, 1, 2},
+                                         {{spring("4"), gravity}, 3, 6},
+                                         {{spring("6")}, 1, 3},
+                                         {{spring("6"), spring("2")}, 3, 9}}) {
+    const ChosenK chosen = this->chosen(assembled<TypeParam>(c.effects), c.s, "1/8");
+    EXPECT_EQ(chosen.k, c.k) << "s = " << c.s;
+    EXPECT_NE(chosen.reason.find("conserves energy exactly"), std::string::npos) << chosen.reason;
+  }
+}
+
+TYPED_TEST(ChooseK, ForAPolynomialConservesEnergyAndOneNodeLessDoesNot) {
+  for (const auto& [exponent, s] : {std::pair("4", 1), {"4", 2}, {"6", 1}}) {
+    const auto scene = assembled<TypeParam>({spring(exponent)}, "[0.5, 0.75]");
+    const int k = this->chosen(scene, s, "1/8").k;
+    EXPECT_LE(this->energy_error(scene, k, s, "1/8", "2"), 1'000 * epsilon<TypeParam>()) << exponent << " " << s;
+    EXPECT_GT(this->energy_error(scene, k - 1, s, "1/8", "2"), literal<TypeParam>("1e-11")) << exponent << " " << s;
+  }
+}
+
+TYPED_TEST(ChooseK, OfALargePolynomialIsRefusedByTheMethod) {
+  // mu s/2 = 100 s for s = 20 is more than max_k
+  const ChosenK chosen = this->chosen(assembled<TypeParam>({spring("200")}), 20, "1/8");
+  EXPECT_EQ(chosen.k, 2'000);
+  EXPECT_THROW(MethodName({chosen.k, 20}).check(), InputError);
+}
+
+/// The definition itself, step by step: at the chosen k all defects are round-off, at one less some are not.
+TYPED_TEST(ChooseK, OtherwiseIsTheLeastThatReachesRoundOff) {
+  using S = TypeParam;
+  constexpr int s = 2;
+  const S step = literal<S>("1/16");
+  const auto scene = assembled<S>({attraction});
+  const ChosenK chosen = this->chosen(scene, s, "1/16");
+  EXPECT_NE(chosen.reason.find("not a polynomial"), std::string::npos) << chosen.reason;
+  ASSERT_GT(chosen.k, s);
+  for (const int k : {chosen.k, chosen.k - 1}) {
+    const Hbvm<S> method = make_hbvm<S>(k, s);
+    Stepper<S> stepper(scene.problem, method, step, SolverKind::fixed_point);
+    State<S> state(scene.q0, scene.p0);
+    bool enough = true;
+    for (int n = 0; n < 16; ++n) {
+      enough = enough && quadrature_defect(scene.problem, k, s, step, SolverKind::fixed_point, state.q, state.p) <= 1;
+      stepper.step(state);
+    }
+    EXPECT_EQ(enough, k == chosen.k) << "k = " << k;
+  }
+}
+
+TYPED_TEST(ChooseK, OtherwiseConservesEnergyToRoundOff) {
+  const auto scene = assembled<TypeParam>({attraction, gravity});
+  const int k = this->chosen(scene, 1, "1/32").k;
+  EXPECT_LE(this->energy_error(scene, k, 1, "1/32", "1/2"), 1'000 * epsilon<TypeParam>());
+  EXPECT_GT(this->energy_error(scene, 1, 1, "1/32", "1/2"), literal<TypeParam>("1e-6"));
+}
+
+TYPED_TEST(ChooseK, SmallerStepsNeedFewerNodes) {
+  const auto scene = assembled<TypeParam>({attraction});
+  const int most = this->chosen(scene, 1, "1/4").k, middle = this->chosen(scene, 1, "1/16").k,
+            least = this->chosen(scene, 1, "1/256").k;
+  EXPECT_LT(least, middle);
+  EXPECT_LT(middle, most);
+}
+
+TYPED_TEST(ChooseK, DefectOfAConstantForceIsZero) {
+  using S = TypeParam;
+  const auto scene = assembled<S>({gravity});
+  EXPECT_EQ(quadrature_defect(scene.problem, 2, 2, S(S(1) / 8), SolverKind::fixed_point, scene.q0, scene.p0), 0);
+}
+
+/// On the line (1, t) of the first step one node misses h^2/24 f'' = h^2/8 of the mean force, of size 1; round-off is
+/// 16 (k + s) epsilon = 32 epsilon of that size.
+TYPED_TEST(ChooseK, DefectIsMeasuredInRoundOff) {
+  using S = TypeParam;
+  const auto scene = assembled<S>({attraction});
+  const S h = literal<S>("1/1024");
+  const S defect = quadrature_defect(scene.problem, 1, 1, h, SolverKind::fixed_point, scene.q0, scene.p0);
+  EXPECT_NEAR(approximately(S(defect * 32 * epsilon<S>() / (h * h))), 1.0 / 8, 1e-3);
+}
+
+TYPED_TEST(ChooseK, OfAStepThatCannotBeMadeIsAnIntegrationError) {
+  EXPECT_THROW(this->chosen(assembled<TypeParam>({attraction}), 1, "20"), StepError);
+}
+
+}  // namespace
+}  // namespace hbvm

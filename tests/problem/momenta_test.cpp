@@ -1,0 +1,195 @@
+#include "hbvm/problem/momenta.hpp"
+
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+#include "scalar/random_values.hpp"
+#include "scene/scene_text.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class Momenta : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+
+  static Vector<S> vector(std::initializer_list<int> entries) {
+    Vector<S> v(static_cast<Index>(entries.size()));
+    Index i = 0;
+    for (const int entry : entries) v[i++] = S(entry);
+    return v;
+  }
+
+  static Problem<S> free_bodies(Index d, int count) {
+    Problem<S> problem;
+    problem.dimension = problem.potential.dimension = d;
+    for (int body = 0; body < count; ++body) {
+      problem.blocks.push_back({problem.m(), true});
+      problem.mass.add_scalar(d, S(body + 1));
+    }
+    problem.potential.m = problem.m();
+    return problem;
+  }
+
+  static std::string conserved(const std::string& text) {
+    const auto scene = assemble<S>(read_scene(text, "test.toml"));
+    std::string names;
+    for (const auto& component : conserved_momenta(scene.problem, scene.q0))
+      names += (names.empty() ? "" : " ") + component.name();
+    return names;
+  }
+};
+TYPED_TEST_SUITE(Momenta, AllScalars, ScalarNames);
+
+TYPED_TEST(Momenta, OfTwoBodiesInThePlane) {
+  const auto problem = this->free_bodies(2, 2);
+  const auto q = this->vector({1, 2, 3, 5}), p = this->vector({7, 11, 13, 17});
+  EXPECT_EQ(momentum(problem, {false, 0}, q, p), 7 + 13);
+  EXPECT_EQ(momentum(problem, {false, 1}, q, p), 11 + 17);
+  EXPECT_EQ(momentum(problem, {true, 2}, q, p), (1 * 11 - 2 * 7) + (3 * 17 - 5 * 13));
+}
+
+TYPED_TEST(Momenta, OfABodyInSpaceIsTheCrossProduct) {
+  const auto problem = this->free_bodies(3, 1);
+  const auto q = this->vector({1, 2, 3}), p = this->vector({4, 5, 7});
+  EXPECT_EQ(momentum(problem, {true, 0}, q, p), 2 * 7 - 3 * 5);
+  EXPECT_EQ(momentum(problem, {true, 1}, q, p), 3 * 4 - 1 * 7);
+  EXPECT_EQ(momentum(problem, {true, 2}, q, p), 1 * 5 - 2 * 4);
+}
+
+TYPED_TEST(Momenta, AreNamedByAxis) {
+  EXPECT_EQ((MomentumComponent{false, 0}.name()), "P_x");
+  EXPECT_EQ((MomentumComponent{false, 2}.name()), "P_z");
+  EXPECT_EQ((MomentumComponent{true, 1}.name()), "L_y");
+}
+
+/// The same body as four points of mass 1, 2, 3 and 4 of a turned, moving body frame.
+TYPED_TEST(Momenta, OfARigidBodyAreThoseOfThePointsItConsistsOf) {
+  using S = TypeParam;
+  const int mass[4] = {1, 2, 3, 4}, X[4][3] = {{1, 0, 0}, {0, 1, 1}, {-1, 1, 0}, {0, -1, 2}};
+  // 10 c = sum m X, J = sum m X X^T
+  const std::string text = R"(dimension = 3
+[[rigid_body]]
+name = "body"
+position = [1, -2, 3]
+velocity = ["1/2", 1, -1]
+mass = 10
+center = ["-1/5", "1/10", 1]
+second_moment = [[4, -3, 0], [-3, 9, -6], [0, -6, 18]]
+directors = [["2/3", "2/3", "1/3"], ["-2/3", "1/3", "2/3"], ["1/3", "-2/3", "2/3"]]
+angular_velocity = [1, 2, -3]
+)";
+  const int d[3][3] = {{2, 2, 1}, {-2, 1, 2}, {1, -2, 2}}, r[3] = {1, -2, 3}, omega[3] = {1, 2, -3};
+  const S v[3] = {S(1) / 2, S(1), S(-1)};
+  Vector<S> P = Vector<S>::Zero(3), L = Vector<S>::Zero(3);
+  for (int point = 0; point < 4; ++point) {
+    S arm[3], x[3], p[3];
+    for (int j = 0; j < 3; ++j) {
+      int sum = 0;
+      for (int a = 0; a < 3; ++a) sum += X[point][a] * d[a][j];
+      arm[j] = S(sum) / 3;
+      x[j] = r[j] + arm[j];
+    }
+    for (int j = 0; j < 3; ++j) {
+      const int k = (j + 1) % 3, l = (j + 2) % 3;
+      p[j] = mass[point] * (v[j] + omega[k] * arm[l] - omega[l] * arm[k]);
+      P[j] += p[j];
+    }
+    for (int j = 0; j < 3; ++j) L[j] += x[(j + 1) % 3] * p[(j + 2) % 3] - x[(j + 2) % 3] * p[(j + 1) % 3];
+  }
+  const auto scene = assemble<S>(read_scene(text, "test.toml"));
+  for (int axis = 0; axis < 3; ++axis) {
+    const S tolerance = 1'000 * epsilon<S>();
+    EXPECT_LE(magnitude(S(momentum(scene.problem, {false, axis}, scene.q0, scene.p0) - P[axis])), tolerance) << axis;
+    EXPECT_LE(magnitude(S(momentum(scene.problem, {true, axis}, scene.q0, scene.p0) - L[axis])), tolerance) << axis;
+  }
+  EXPECT_EQ(this->conserved(text), "P_x P_y P_z L_x L_y L_z");
+}
+
+const std::string plane_pair = R"(dimension = 2
+point = [{ name = "O", position = [0, 0] }, { name = "A", position = [0, 3] }]
+body = [{ name = "a", mass = 1, position = [1, 0], velocity = [0, 0] },
+        { name = "b", mass = 2, position = [0, "1/2"], velocity = [0, 0] }]
+)";
+const std::string space_body = R"(dimension = 3
+point = [{ name = "O", position = [0, 0, 0] }, { name = "A", position = [0, 0, 3] }]
+body = [{ name = "a", mass = 1, position = ["2/3", "-1/3", "2/3"], velocity = [0, 0, 0] }]
+)";
+
+std::string effect(const std::string& kind, const std::string& keys) {
+  return "[[effect]]\nkind = \"" + kind + "\"\n" + keys + "\n";
+}
+std::string constraint(const std::string& kind, const std::string& keys) {
+  return "[[constraint]]\nkind = \"" + kind + "\"\n" + keys + "\n";
+}
+
+TYPED_TEST(Momenta, ConservedInThePlane) {
+  const std::string gravity = effect("uniform_gravity", "acceleration = [0, -1]"),
+                    mutual = effect("mutual_gravity", "strength = 1"), trap = "stiffness = 1\nexponent = 2\ncenter = ";
+  EXPECT_EQ(this->conserved(plane_pair), "P_x P_y L_z");
+  EXPECT_EQ(this->conserved(plane_pair + mutual), "P_x P_y L_z");
+  EXPECT_EQ(this->conserved(plane_pair + gravity + mutual), "P_x");
+  EXPECT_EQ(this->conserved(plane_pair + mutual + effect("trap", trap + "\"O\"")), "L_z");
+  EXPECT_EQ(this->conserved(plane_pair + mutual + effect("trap", trap + "\"A\"")), "");
+  EXPECT_EQ(this->conserved(plane_pair + effect("trap", trap + "\"O\"\non = [\"a\"]")), "L_z");
+  EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"a\", \"b\"]\nlength = \"sqrt(5)/2\"")),
+            "P_x P_y L_z");
+  EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"a\", \"O\"]\nlength = 1")), "L_z");
+  EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"b\", \"A\"]\nlength = 2.5")), "");
+  EXPECT_EQ(this->conserved(plane_pair + constraint("plane", "body = \"a\"\nnormal = [0, 2]\noffset = 0")), "P_x");
+  EXPECT_EQ(this->conserved(plane_pair +
+                            constraint("angle", "first = [\"a\", \"b\"]\nsecond = [\"b\", \"a\"]\nvalue = -1.25")),
+            "P_x P_y L_z");
+}
+
+TYPED_TEST(Momenta, ConservedInSpace) {
+  const auto quadric = [](const std::string& A, const std::string& c) {
+    return constraint("quadric", "body = \"a\"\nb = [0, 0, 0]\nA = " + A + "\nc = \"" + c + "\"");
+  };
+  const std::string gravity = effect("uniform_gravity", "acceleration = [0, 0, -1]"),
+                    pull = "strength = 1\ncenter = ", sphere = quadric("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]", "-1");
+  EXPECT_EQ(this->conserved(space_body), "P_x P_y P_z L_x L_y L_z");
+  EXPECT_EQ(this->conserved(space_body + gravity), "P_x P_y L_z");
+  EXPECT_EQ(this->conserved(space_body + effect("central_gravity", pull + "\"O\"")), "L_x L_y L_z");
+  EXPECT_EQ(this->conserved(space_body + effect("central_gravity", pull + "\"A\"")), "L_z");
+  EXPECT_EQ(
+      this->conserved(space_body + effect("central_gravity", pull + "\"A\"") + effect("radial_cosine", pull + "\"O\"")),
+      "L_z");
+  EXPECT_EQ(this->conserved(space_body + sphere), "L_x L_y L_z");
+  EXPECT_EQ(this->conserved(space_body + sphere + gravity), "L_z");
+  EXPECT_EQ(this->conserved(space_body + quadric("[[2, 0, 0], [0, 1, 0], [0, 0, 1]]", "-13/9")), "L_x");
+  EXPECT_EQ(this->conserved(space_body + quadric("[[2, 0, 0], [0, 1, 0], [0, 0, 3]]", "-21/9")), "");
+  EXPECT_EQ(this->conserved(space_body + quadric("[[1, 0, 0], [0, 1, 0], [0, 0, 0]]", "-5/9")), "P_z L_z");
+  EXPECT_EQ(this->conserved(space_body + effect("oblateness", pull + "\"O\"\nradius = 1\nJ2 = 1\naxis = [0, 1, 0]")),
+            "L_y");
+}
+
+/// The kinetic energy must not change either: M of no symmetry moves freely, but does not turn freely.
+TYPED_TEST(Momenta, ConservedWithAMassMatrix) {
+  const auto body = [](const std::string& mass, const std::string& zeros) {
+    return "dimension = " + std::string(zeros == "[0, 0]" ? "2" : "3") + "\nbody = [{ name = \"a\", mass = " + mass +
+           ", position = " + zeros + ", velocity = " + zeros + " }]\n";
+  };
+  EXPECT_EQ(this->conserved(body("[[3, 0], [0, 3]]", "[0, 0]")), "P_x P_y L_z");
+  EXPECT_EQ(this->conserved(body("[[3, 1], [1, 3]]", "[0, 0]")), "P_x P_y");
+  EXPECT_EQ(this->conserved(body("[[3, 0, 0], [0, 2, 0], [0, 0, 3]]", "[0, 0, 0]")), "P_x P_y P_z L_y");
+}
+
+TYPED_TEST(Momenta, ConservedByRigidBodies) {
+  const std::string top = R"(dimension = 3
+[[rigid_body]]
+name = "top"
+fixed_at = [0, 0, 0]
+mass = 1
+center = [0, "1/4", 1]
+second_moment = [[1, 0, 0], [0, 2, "1/3"], [0, "1/3", 3]]
+directors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+angular_velocity = [1, 2, 3]
+)";
+  EXPECT_EQ(this->conserved(top), "L_x L_y L_z");
+  EXPECT_EQ(this->conserved(top + effect("uniform_gravity", "acceleration = [0, -2, 0]")), "L_y");
+  EXPECT_EQ(this->conserved(top + effect("uniform_gravity", "acceleration = [0, -2, 1]")), "");
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,175 @@
+#include "hbvm/scene/project.hpp"
+
+#include "printing.hpp"
+#include "scene/scene_text.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class Project : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+
+  static Scene projected(const std::string& text) { return project<S>(read_scene(text, "test.toml")); }
+
+  static void expect_near(const SceneVector& found, const std::vector<std::string>& expected, const char* what) {
+    ASSERT_EQ(found.size(), expected.size()) << what;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const S error = evaluate<S>(found[i]) - literal<S>(expected[i]);
+      EXPECT_LE(magnitude(error), 64 * epsilon<S>())
+          << what << " " << i << " is " << found[i].text() << " instead of " << expected[i];
+    }
+  }
+};
+TYPED_TEST_SUITE(Project, AllScalars, ScalarNames);
+
+std::string body(const std::string& name, const std::string& mass, const std::string& position,
+                 const std::string& velocity = "[0, 0]") {
+  return "[[body]]\nname = \"" + name + "\"\nmass = " + mass + "\nposition = " + position + "\nvelocity = " + velocity +
+         "\n";
+}
+std::string rod(const std::string& a, const std::string& b, const std::string& length) {
+  return "[[constraint]]\nkind = \"rod\"\nbetween = [\"" + a + "\", \"" + b + "\"]\nlength = " + length + "\n";
+}
+const std::string plane_with_origin = "dimension = 2\n[[point]]\nname = \"O\"\nposition = [0, 0]\n";
+
+/// The nearest point of a circle is on the radius; of the velocity the part along it goes.
+TYPED_TEST(Project, OnACircleMovesAlongTheRadius) {
+  const Scene scene = this->projected(plane_with_origin + body("a", "3", "[0.75, 1]", "[1, 0]") + rod("O", "a", "1"));
+  this->expect_near(scene.bodies[0].position, {"3/5", "4/5"}, "position");
+  this->expect_near(scene.bodies[0].velocity, {"16/25", "-12/25"}, "velocity");
+}
+
+TYPED_TEST(Project, HasAllDigitsOfThePrecision) {
+  const Scene scene = this->projected(plane_with_origin + body("a", "1", "[0.7, 0.7]") + rod("O", "a", "1"));
+  this->expect_near(scene.bodies[0].position, {"sqrt(1/2)", "sqrt(1/2)"}, "position");
+}
+
+/// To the nearest point in the metric M bodies move inversely to their masses.
+TYPED_TEST(Project, SharesADisplacementInverselyToTheMasses) {
+  const Scene scene = this->projected("dimension = 2\n" + body("a", "1", "[0, 0]", "[1, 1]") +
+                                      body("b", "3", "[2, 0]", "[-1, 0]") + rod("a", "b", "1"));
+  this->expect_near(scene.bodies[0].position, {"3/4", "0"}, "a");
+  this->expect_near(scene.bodies[1].position, {"7/4", "0"}, "b");
+  // Both keep the velocity of their centre of mass, along the rod.
+  this->expect_near(scene.bodies[0].velocity, {"-1/2", "1"}, "velocity of a");
+  this->expect_near(scene.bodies[1].velocity, {"-1/2", "0"}, "velocity of b");
+}
+
+/// q = q0 - W n (n.q0 - offset)/(n.W n), v = v0 - W n (n.v0)/(n.W n) with W = M^-1.
+TYPED_TEST(Project, OntoAPlaneInTheMetricOfAMassMatrix) {
+  const auto on_plane = [&](const std::string& mass, const std::string& normal, const char* offset) {
+    return this->projected("dimension = 2\n" + body("a", mass, "[0, 0]", "[1, 0]") +
+                           "[[constraint]]\nkind = \"plane\"\nbody = \"a\"\nnormal = " + normal +
+                           "\noffset = " + offset + "\n");
+  };
+  // W = diag(1, 1/4), W n = (1, 1/4), n.W n = 5/4
+  const Scene diagonal = on_plane("[[1, 0], [0, 4]]", "[1, 1]", "5");
+  this->expect_near(diagonal.bodies[0].position, {"4", "1"}, "position");
+  this->expect_near(diagonal.bodies[0].velocity, {"1/5", "-1/5"}, "velocity");
+  // W = [[1, -1], [-1, 2]], W n = (1, -1), n.W n = 1
+  const Scene full = on_plane("[[2, 1], [1, 1]]", "[1, 0]", "3");
+  this->expect_near(full.bodies[0].position, {"3", "-3"}, "position");
+  this->expect_near(full.bodies[0].velocity, {"0", "1"}, "velocity");
+}
+
+TYPED_TEST(Project, TurnsAMomentumIntoAVelocity) {
+  std::string text = plane_with_origin + body("a", "4", "[0, -1]", "[2, 3]") + rod("O", "a", "1");
+  const Scene scene = this->projected(changed(text, "velocity", "momentum"));
+  EXPECT_TRUE(scene.bodies[0].momentum.empty());
+  this->expect_near(scene.bodies[0].velocity, {"1/2", "0"}, "velocity");
+}
+
+TYPED_TEST(Project, WithoutConstraintsChangesNothing) {
+  const Scene scene = this->projected("dimension = 2\n" + body("a", "2", "[0.1, \"1/3\"]", "[0.7, 2]"));
+  EXPECT_EQ(evaluate<TypeParam>(scene.bodies[0].position[0]), literal<TypeParam>("0.1"));
+  EXPECT_EQ(evaluate<TypeParam>(scene.bodies[0].position[1]), literal<TypeParam>("1/3"));
+  EXPECT_EQ(evaluate<TypeParam>(scene.bodies[0].velocity[0]), literal<TypeParam>("0.7"));
+  EXPECT_EQ(evaluate<TypeParam>(scene.bodies[0].velocity[1]), 2);
+}
+
+std::string rigid(const std::string& place, const std::string& directors, const std::string& omega) {
+  return "dimension = 3\n[[rigid_body]]\nname = \"top\"\n" + place +
+         "mass = 1\ncenter = [0, 0, 0]\nsecond_moment = [[2, 0, 0], [0, 2, 0], [0, 0, 2]]\ndirectors = " + directors +
+         "\nangular_velocity = " + omega + "\n";
+}
+
+/// With equal moments the metric is that of the matrix D of directors: the nearest rotation is the factor R of D = P R,
+/// P symmetric and positive definite. Here P = [[11, 1, 0], [1, 9, 0], [0, 0, 12]]/10.
+TYPED_TEST(Project, OfDirectorsIsTheirPolarFactor) {
+  const Scene scene = this->projected(rigid(
+      "fixed_at = [1, 2, 3]\n",
+      R"([["20/30", "23/30", "13/30"], ["-16/30", "11/30", "19/30"], ["12/30", "-24/30", "24/30"]])", "[0, 0, 0]"));
+  const SceneRigidBody& top = scene.rigid_bodies[0];
+  this->expect_near(top.directors[0], {"2/3", "2/3", "1/3"}, "d_1");
+  this->expect_near(top.directors[1], {"-2/3", "1/3", "2/3"}, "d_2");
+  this->expect_near(top.directors[2], {"1/3", "-2/3", "2/3"}, "d_3");
+  this->expect_near(top.angular_velocity, {"0", "0", "0"}, "angular velocity");
+  this->expect_near(top.position, {"1", "2", "3"}, "fixed point");
+  EXPECT_TRUE(top.velocity.empty());
+}
+
+/// Directors 5/4 times too long turn at omega: their rates are 5/4 omega x d.
+TYPED_TEST(Project, OfARigidBodyKeepsPositionAndRates) {
+  const Scene scene = this->projected(rigid("position = [1, 2, 3]\nvelocity = [4, 5, 6]\n",
+                                            "[[0, 1.25, 0], [-1.25, 0, 0], [0, 0, 1.25]]", "[1, 2, -4]"));
+  const SceneRigidBody& top = scene.rigid_bodies[0];
+  this->expect_near(top.position, {"1", "2", "3"}, "position");
+  this->expect_near(top.velocity, {"4", "5", "6"}, "velocity");
+  this->expect_near(top.directors[0], {"0", "1", "0"}, "d_1");
+  this->expect_near(top.directors[1], {"-1", "0", "0"}, "d_2");
+  this->expect_near(top.directors[2], {"0", "0", "1"}, "d_3");
+  this->expect_near(top.angular_velocity, {"5/4", "5/2", "-5"}, "angular velocity");
+}
+
+TYPED_TEST(Project, IsAcceptedAndKeepsWhatItDoesNotMove) {
+  std::string text = changed(every_key, "position = [\"3/5\", 0, -0.8]", "position = [0.61, 0.02, -0.8]");
+  text = changed(text, "velocity = [2, -1, 0]", "velocity = [2, -1, 0.1]");
+  const Scene before = read_scene(text, "test.toml");
+  EXPECT_THROW(assemble<TypeParam>(before), InputError);
+  const Scene after = project<TypeParam>(before);
+  const auto accepted = assemble<TypeParam>(after);
+  EXPECT_EQ(accepted.problem.nu(), 16);
+  EXPECT_EQ(after.title, before.title);
+  EXPECT_EQ(after.constants.size(), before.constants.size());
+  EXPECT_EQ(after.effects.size(), before.effects.size());
+  for (std::size_t i = 0; i < before.bodies.size(); ++i) {
+    EXPECT_EQ(after.bodies[i].name, before.bodies[i].name);
+    EXPECT_EQ(after.bodies[i].mass.has_value(), before.bodies[i].mass.has_value());
+    EXPECT_EQ(after.bodies[i].charge.has_value(), before.bodies[i].charge.has_value());
+  }
+  // The stone touches nothing: it stays where it is.
+  this->expect_near(after.rigid_bodies[1].position, {"5", "6", "7"}, "stone");
+  this->expect_near(after.rigid_bodies[1].angular_velocity, {"2", "3", "5"}, "stone");
+}
+
+TYPED_TEST(Project, OfAConsistentSceneIsTheSceneItself) {
+  for (const auto& [name, text] : built_in_scenes()) {
+    const Scene scene = read_scene(text, name);
+    const auto before = assemble<TypeParam>(scene), after = assemble<TypeParam>(project<TypeParam>(scene));
+    const TypeParam tolerance = 1'000 * epsilon<TypeParam>();
+    EXPECT_LE(max_norm(Vector<TypeParam>(after.q0 - before.q0)), tolerance * max_norm(before.q0)) << name;
+    EXPECT_LE(max_norm(Vector<TypeParam>(after.p0 - before.p0)), tolerance * (1 + max_norm(before.p0))) << name;
+  }
+}
+
+TYPED_TEST(Project, RefusesWhatCannotBeMadeConsistent) {
+  // From pins 1 apart no point is at 1 and at 5.
+  const std::string apart = plane_with_origin + "[[point]]\nname = \"A\"\nposition = [1, 0]\n" +
+                            body("a", "1", "[0.5, 0.8]") + rod("O", "a", "1") + rod("A", "a", "5");
+  // On the pin every direction is as near as any other.
+  const std::string centre = plane_with_origin + body("a", "1", "[0, 0]") + rod("O", "a", "1");
+  const std::string twice = plane_with_origin + body("a", "1", "[0, 1]") + rod("O", "a", "1") + rod("O", "a", "1");
+  for (const std::string& text : {apart, centre, twice}) {
+    try {
+      this->projected(text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("test.toml: no consistent position")) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
