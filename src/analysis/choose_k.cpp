@@ -57,13 +57,13 @@ template <Scalar S>
 ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind solver) {
   if (const auto degree = degree_of_U(scene.problem)) {
     const int k = std::max(s, (*degree * s + 1) / 2);
+    MethodName{k, s}.check();
     return {k, "U is a polynomial of degree " + std::to_string(*degree) +
                    (*degree <= 2 ? ": k = s" : ": k >= " + std::to_string(*degree) + "/2 s") +
                    " conserves energy exactly"};
   }
   constexpr int first_steps = 16;
   const auto enough = [&](int k) {
-    MethodName{k + s, s}.check();
     const Hbvm<S> method = make_hbvm<S>(k, s);
     Stepper<S> stepper(scene.problem, method, step, solver);
     State<S> state(scene.q0, scene.p0);
@@ -79,10 +79,14 @@ ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind sol
     return true;
   };
   // Doubling finds an upper bound, bisection the least: more nodes never do worse.
+  const int most = max_k - s;
   int low = s, high = s;
   while (!enough(high)) {
+    if (high == most)
+      throw InputError("method hbvm:auto," + std::to_string(s) + ": no k up to " + std::to_string(most) +
+                       " reaches round-off; U is not smooth where the motion leads, or the step is too large");
     low = high + 1;
-    high = 2 * high;
+    high = std::min(2 * high, most);
   }
   while (low < high) {
     const int middle = (low + high) / 2;

@@ -91,11 +91,22 @@ TYPED_TEST(ChooseK, ForAPolynomialConservesEnergyAndOneNodeLessDoesNot) {
   }
 }
 
-TYPED_TEST(ChooseK, OfALargePolynomialIsRefusedByTheMethod) {
-  // mu s/2 = 100 s for s = 20 is more than max_k
-  const ChosenK chosen = this->chosen(assembled<TypeParam>({spring("200")}), 20, "1/8");
-  EXPECT_EQ(chosen.k, 2'000);
-  EXPECT_THROW(MethodName({chosen.k, 20}).check(), InputError);
+/// mu s/2 = 100 s is more than max_k.
+TYPED_TEST(ChooseK, OfALargePolynomialIsRefused) {
+  EXPECT_THROW(this->chosen(assembled<TypeParam>({spring("200")}), 20, "1/8"), InputError);
+  EXPECT_EQ(this->chosen(assembled<TypeParam>({spring("200")}), 10, "1/8").k, 1'000);
+}
+
+/// Across r = 9/10, where |r - 9/10|^3 is not smooth, quadrature gains little from more nodes.
+TEST(ChooseK, WhereNoKIsEnoughSaysSo) {
+  const auto scene = assembled<double>({spring("3", "0.9")}, "[-1, \"1/100\"]");
+  try {
+    choose_k<double>(scene, 2, 0.25, SolverKind::fixed_point);
+    ADD_FAILURE() << "a k was found";
+  } catch (const InputError& error) {
+    for (const char* word : {"hbvm:auto,2", "998", "not smooth"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
 }
 
 /// The definition itself, step by step: at the chosen k all defects are round-off, at one less some are not.
