@@ -145,7 +145,10 @@ class Study {
     if (group != "k" && group != "s") top_.fail("'group' must be \"k\" or \"s\"");
     table_.key_columns = {"k", "s"};
     table_.columns = {"i"};
-    for (const std::string& column : top_.strings("columns")) table_.columns.push_back(column);
+    for (const std::string& column : top_.strings("columns")) {
+      HalvingRow().cell(column);  // refuses what is none
+      table_.columns.push_back(column);
+    }
     std::vector<Block> blocks;
     long runs = 0, done = 0;
     for (const toml::table* table : top_.tables("block")) {
@@ -176,6 +179,9 @@ class Study {
       table_.groups.push_back(std::move(rows));
     }
     const std::vector<std::string> round_off = top_.strings("round_off");
+    for (const std::string& column : round_off)
+      if (column != "e_lambda" && column != "e_hid" && column != "e_g" && column != "e_H")
+        top_.fail(top_.require("round_off"), "'round_off' has no column '" + column + "'");
     std::map<std::string, Expression> orders;
     if (const toml::node* const node = top_.take("orders")) {
       if (!node->is_table()) top_.fail(*node, "'orders' must be a table");

@@ -119,6 +119,7 @@ TEST_F(StudyCommand, RefusesABadStudy) {
   refused("compare_above", "compare_abov", {"study.toml:8", "'compare_abov'"});
   refused("group = \"s\"", "group = \"i\"", {"study.toml", "'group'"});
   refused("\"e_y\"", "\"e_z\"", {"'e_z'"});
+  refused("round_off = [\"e_H\"]", "round_off = [\"e_h\"]", {"study.toml:9", "'e_h'"});
   refused("hbvm:1,1", "hbvm:auto,1", {"study.toml:10", "states its k"});
   refused("hbvm:1,1", "hbvm:1,2", {"hbvm:1,2"});
   refused("last = 2", "last = 0", {"study.toml:10", "'first' and 'last'"});
