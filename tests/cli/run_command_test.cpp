@@ -202,6 +202,55 @@ TEST(RunAccount, IsPrintedOnlyIfAskedFor) {
     EXPECT_NE(text.find(word), std::string::npos) << word << " is not in\n" << text;
 }
 
+TEST(RunAuto, ReportsTheKOfAPolynomial) {
+  const ordered_json j =
+      json_of({"run", "quartic_oscillator", "--method", "hbvm:auto,2", "--step", "1/16", "--until", "1"});
+  EXPECT_EQ(j["method"], "hbvm:4,2");
+  EXPECT_EQ(j["chosen"]["k"], 4);
+  EXPECT_EQ(j["chosen"]["verified"], true);
+  EXPECT_NE(j["chosen"]["because"].get<std::string>().find("degree 4"), std::string::npos);
+  EXPECT_LT(number(j["e_H"]), 1e-14);
+}
+
+TEST(RunAuto, ReportsTheKThatReachesRoundOff) {
+  const Arguments run{"run", "kepler", "--step", "1/16", "--until", "1", "--precision", "quad", "--method"};
+  const ordered_json j = json_of(run + Arguments{"hbvm:auto,1"});
+  const int k = j["chosen"]["k"];
+  EXPECT_GT(k, 1);
+  EXPECT_EQ(j["method"], "hbvm:" + std::to_string(k) + ",1");
+  EXPECT_EQ(j["chosen"]["verified"], true);
+  const ordered_json stated = json_of(run + Arguments{j["method"]});
+  EXPECT_FALSE(stated.contains("chosen"));
+  EXPECT_EQ(stated["q"], j["q"]);
+  EXPECT_LT(number(j["e_H"]), 1e-31);
+  const std::string text = hbvm(run + Arguments{"hbvm:auto,1"}).out;
+  EXPECT_TRUE(text.starts_with("k = " + std::to_string(k) + ": U is not a polynomial")) << text;
+  EXPECT_NE(text.find("it holds as well"), std::string::npos) << text;
+}
+
+/// A stone on a narrow orbit about a centre.
+TEST(RunObservables, AreThoseTheSceneNamesAndTheMotionConserves) {
+  const Folder folder;
+  std::string scene = fall();
+  scene.replace(scene.find("velocity = [0, 0]"), 17, "velocity = [0, 0.5]");
+  const auto observed = [&](const std::string& names, const char* method) {
+    const std::string path = folder.write("scene.toml", "observables = [" + names + "]\n" + scene);
+    return json_of({"run", path, "--method", method, "--step", "1/16", "--until", "1/2"});
+  };
+  const ordered_json gauss = observed("\"energy\", \"angular_momentum\", \"linear_momentum\"", "hbvm:1,1");
+  // H = 1/8 - 1, L = 1/2; the centre takes the linear momentum.
+  EXPECT_EQ(keys_of(gauss["observables"]), (Texts{"energy", "L_z"}));
+  EXPECT_EQ(number(gauss["observables"]["energy"]["initial"]), -0.875);
+  EXPECT_EQ(gauss["observables"]["energy"]["drift"], gauss["e_H"]);
+  EXPECT_EQ(number(gauss["observables"]["L_z"]["initial"]), 0.5);
+  EXPECT_LT(number(gauss["observables"]["L_z"]["drift"]), 1e-14);
+  EXPECT_GT(number(gauss["e_H"]), 1e-6);
+  const ordered_json more = observed("\"angular_momentum\"", "hbvm:12,1");
+  EXPECT_EQ(keys_of(more["observables"]), (Texts{"L_z"}));
+  EXPECT_GT(number(more["observables"]["L_z"]["drift"]), 1e-6);
+  EXPECT_LT(number(more["e_H"]), 1e-14);
+}
+
 /// Done means 2 of the issue: the satellites at the paper's energy errors.
 ordered_json satellites(const char* method, const char* until) {
   return json_of({"run", "tethered_satellites", "--method", method, "--step", "0.1", "--until", until});
