@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.hpp"
 #include "hbvm/analysis/run.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 struct Options {
   std::string scene, method, step, until;
-  std::string precision = "double", solver = "fixed-point";
+  std::string precision = "double", solver = "auto";
   std::optional<std::string> out;
   long every = 1;
   bool json = false, account = false;
@@ -152,7 +152,9 @@ void add_run_command(CLI::App& app) {
   command->add_option("--step", o->step, "Step size: a number or an expression, as 2^(3/4)*pi/40")->required();
   command->add_option("--until", o->until, "Final time, a multiple of the step")->required();
   command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
-  command->add_option("--solver", o->solver, "fixed-point (newest values, warm start) or paper (iter)")
+  command
+      ->add_option("--solver", o->solver,
+                   "auto, newton (mixed precision), fixed-point (newest values, warm start) or paper (iter)")
       ->capture_default_str();
   command->add_option("--out", o->out, "Write the trajectory to this CSV file");
   command->add_option("--every", o->every, "Steps between two lines of the CSV file")->capture_default_str();

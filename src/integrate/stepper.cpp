@@ -29,12 +29,10 @@ template <Scalar S>
 long Stepper<S>::step(State<S>& state) {
   const long sweeps = solver_->solve(state.q, state.p);
   const StageUnknowns<S>& x = solver_->unknowns();
-  const StageEquations<S>& equations = solver_->equations();
   for (Index j = 0; j < problem_.m(); ++j) {
-    set(increment_, equations.displacement()(0, j));
+    set(increment_, solver_->position_change()[j]);
     add_compensated(state.q[j], state.q_carry[j], increment_, t_);
-    set_difference(increment_, x.psi(0, j), x.zeta(0, j));
-    set_product(increment_, increment_, equations.step());
+    set(increment_, solver_->momentum_change()[j]);
     add_compensated(state.p[j], state.p_carry[j], increment_, t_);
   }
   for (Index a = 0; a < problem_.nu(); ++a) {

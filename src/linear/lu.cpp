@@ -1,5 +1,6 @@
 #include "hbvm/linear/lu.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "hbvm/scalar/in_place.hpp"
@@ -7,48 +8,97 @@
 namespace hbvm {
 
 template <Scalar S>
-bool Lu<S>::factor() {
-  const Index n = lu_.rows();
+void Lu<S>::resize(Index n, Index half_bandwidth) {
+  n_ = n;
+  b_ = std::max<Index>(std::min(half_bandwidth, n - 1), 0);
+  upper_ = std::min(2 * b_, std::max<Index>(n - 1, 0));
+  const bool dense = 3 * b_ + 1 >= n;
+  if (dense) upper_ = std::max<Index>(n - 1, 0);
+  stride_ = dense ? n : 3 * b_;
+  offset_ = dense ? 0 : 2 * b_;
+  data_.resize(static_cast<std::size_t>(dense ? n * n : (3 * b_ + 1) * n));
   pivots_.resize(static_cast<std::size_t>(n));
+}
+
+template <Scalar S>
+void Lu<S>::set_zero() {
+  for (S& x : data_) hbvm::set_zero(x);
+}
+
+template <Scalar S>
+void Lu<S>::set(const Matrix<S>& a) {
+  resize(a.rows(), a.rows());
+  for (Index i = 0; i < a.size(); ++i) hbvm::set(data_[static_cast<std::size_t>(i)], a.data()[i]);
+}
+
+template <Scalar S>
+bool Lu<S>::factor() {
   S t;
-  for (Index k = 0; k < n; ++k) {
+  for (Index k = 0; k < n_; ++k) {
+    const Index last_row = std::min(n_ - 1, k + b_), last_column = std::min(n_ - 1, k + upper_);
+    S* const column = &entry(0, k);
     Index pivot = k;
-    S largest = magnitude(lu_(k, k));
-    for (Index i = k + 1; i < n; ++i) {
-      const S candidate = magnitude(lu_(i, k));
-      if (candidate > largest) {
-        largest = candidate;
-        pivot = i;
-      }
-    }
+    for (Index i = k + 1; i <= last_row; ++i)
+      if (exceeds(column[i], column[pivot])) pivot = i;
     pivots_[static_cast<std::size_t>(k)] = pivot;
-    if (!(largest > 0) || !is_finite(largest)) return false;
+    if (column[pivot] == 0 || !is_finite(column[pivot])) return false;
     if (pivot != k) {
       using std::swap;
-      for (Index j = 0; j < n; ++j) swap(lu_(k, j), lu_(pivot, j));
+      for (Index j = k; j <= last_column; ++j) swap(entry(k, j), entry(pivot, j));
     }
-    for (Index i = k + 1; i < n; ++i) set_quotient(lu_(i, k), lu_(i, k), lu_(k, k));
-    for (Index j = k + 1; j < n; ++j)
-      for (Index i = k + 1; i < n; ++i) subtract_product(lu_(i, j), lu_(i, k), lu_(k, j), t);
+    for (Index i = k + 1; i <= last_row; ++i) set_quotient(column[i], column[i], column[k]);
+    for (Index j = k + 1; j <= last_column; ++j) {
+      S* const target = &entry(0, j);
+      const S& factor = target[k];
+      if (factor == 0) continue;
+      for (Index i = k + 1; i <= last_row; ++i) subtract_product(target[i], column[i], factor, t);
+    }
   }
   return true;
 }
 
 template <Scalar S>
-void Lu<S>::solve(Vector<S>& x) {
-  const Index n = lu_.rows();
+void Lu<S>::solve(S* x) {
   S t;
-  // factor() swapped whole rows, the part of L already there included: permute first, then substitute.
-  for (Index k = 0; k < n; ++k) {
-    using std::swap;
-    swap(x[k], x[pivots_[static_cast<std::size_t>(k)]]);
+  for (Index k = 0; k < n_; ++k) {
+    const Index pivot = pivots_[static_cast<std::size_t>(k)];
+    if (pivot != k) {
+      using std::swap;
+      swap(x[k], x[pivot]);
+    }
+    const S* const column = &entry(0, k);
+    const Index last_row = std::min(n_ - 1, k + b_);
+    for (Index i = k + 1; i <= last_row; ++i) subtract_product(x[i], column[i], x[k], t);
   }
-  for (Index k = 0; k < n; ++k)
-    for (Index i = k + 1; i < n; ++i) subtract_product(x[i], lu_(i, k), x[k], t);
-  for (Index k = n - 1; k >= 0; --k) {
-    set_quotient(x[k], x[k], lu_(k, k));
-    for (Index i = 0; i < k; ++i) subtract_product(x[i], lu_(i, k), x[k], t);
+  for (Index k = n_ - 1; k >= 0; --k) {
+    const S* const column = &entry(0, k);
+    set_quotient(x[k], x[k], column[k]);
+    for (Index i = std::max<Index>(0, k - upper_); i < k; ++i) subtract_product(x[i], column[i], x[k], t);
   }
+}
+
+template <Scalar S>
+OperationCounts Lu<S>::factor_operations() const {
+  OperationCounts counts;
+  for (Index k = 0; k < n_; ++k) {
+    const Index rows = std::min(n_ - 1 - k, b_), columns = std::min(n_ - 1 - k, upper_);
+    counts.add(Op::reciprocal, rows);
+    counts.add(Op::multiply, rows * columns);
+    counts.add(Op::subtract, rows * columns);
+  }
+  return counts;
+}
+
+template <Scalar S>
+OperationCounts Lu<S>::solve_operations() const {
+  OperationCounts counts;
+  for (Index k = 0; k < n_; ++k) {
+    const Index products = std::min(n_ - 1 - k, b_) + std::min(k, upper_);
+    counts.add(Op::reciprocal, 1);
+    counts.add(Op::multiply, products);
+    counts.add(Op::subtract, products);
+  }
+  return counts;
 }
 
 #define HBVM_DEFINE(S) template class Lu<S>;

@@ -44,7 +44,8 @@ const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S
 
 template <Scalar S>
 void Point<S>::solve_gram(Vector<S>& x) {
-  gradient_.gram(gram_.matrix());
+  gradient_.gram(gram_matrix_);
+  gram_.set(gram_matrix_);
   if (!gram_.factor())
     throw IntegrationError("the constraints' gradients are linearly dependent: (regular) does not hold here");
   gram_.solve(x);

@@ -6,22 +6,28 @@
 namespace hbvm {
 
 template <Scalar S>
-PotentialEvaluator<S>::Execution::Execution(const Program<S>& code, const Matrix<S>& per_instance,
-                                            Matrix<S>& displacement, Index lanes)
-    : program(&code),
-      coefficients(displacement.rows(), per_instance.cols()),
-      registers(code.make_registers(displacement.rows())) {
-  for (Index j = 0; j < coefficients.cols(); ++j)
-    for (Index i = 0; i < coefficients.rows(); ++i) coefficients(i, j) = per_instance(i / lanes, j);
-  for (const Matrix<S>* columns : {&std::as_const(displacement), &std::as_const(coefficients)})
-    for (Index j = 0; j < columns->cols(); ++j) inputs.push_back(columns->data() + j * columns->rows());
-}
-
-template <Scalar S>
 PotentialEvaluator<S>::Work::Work(const EffectTerm<S>& term, Index dimension, Index lanes)
     : displacement(Matrix<S>::Zero(static_cast<Index>(term.displacements.size()) * lanes, dimension)),
       value(term.value, term.value_coefficients, displacement, lanes),
-      gradient(term.gradient, term.gradient_coefficients, displacement, lanes) {}
+      gradient(term.gradient, term.gradient_coefficients, displacement, lanes) {
+  if constexpr (std::same_as<S, double>) {
+    kernel = find_kernel(term.gradient, dimension);
+    for (std::size_t n = 0; kernel != nullptr && n < term.displacements.size(); ++n) {
+      if (const auto site = kernel_site(term.displacements[n]))
+        sites.push_back(*site);
+      else
+        kernel = nullptr;
+    }
+    if (kernel == nullptr) return;
+    const Matrix<double>& coefficients = term.gradient_coefficients;
+    kernel_coefficients.resize(static_cast<std::size_t>(coefficients.size()));
+    for (std::size_t n = 0; n < sites.size(); ++n) {
+      double* const first = kernel_coefficients.data() + n * static_cast<std::size_t>(coefficients.cols());
+      for (Index j = 0; j < coefficients.cols(); ++j) first[j] = coefficients(static_cast<Index>(n), j);
+      sites[n].coefficients = first;
+    }
+  }
+}
 
 namespace {
 
@@ -95,24 +101,37 @@ void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
     const EffectTerm<S>& term = potential_.terms[t];
     if (term.constant_force) continue;
     const double before = timed_ ? elapsed_seconds() : 0;
-    displace_all(t, q);
-    work_[t].gradient.run();
     ++counts_[t].calls;
     counts_[t].evaluations += static_cast<std::uint64_t>(lanes_);
-    for (std::size_t n = 0; n < term.displacements.size(); ++n) {
-      const Index first_lane = static_cast<Index>(n) * lanes_;
-      for (const auto& block : term.displacements[n].blocks) {
-        for (Index j = 0; j < potential_.dimension; ++j) {
-          S* const f = force.data() + (block.offset + j) * lanes_;
-          const S& g = work_[t].gradient.output(j, first_lane);
-          if (!term.gradient.is_constant(static_cast<std::size_t>(j)))
-            add_weighted(f, block.weight, &g, lanes_, t_);
-          else
-            for (Index i = 0; i < lanes_; ++i) add_weighted(f + i, block.weight, &g, 1, t_);
-        }
+    add_force(t, q, force);
+    if (timed_) counts_[t].seconds += elapsed_seconds() - before;
+  }
+}
+
+template <Scalar S>
+void PotentialEvaluator<S>::add_force(std::size_t t, Lanes<const S> q, Matrix<S>& force) {
+  const EffectTerm<S>& term = potential_.terms[t];
+  Work& work = work_[t];
+  if constexpr (std::same_as<S, double>) {
+    if (work.kernel != nullptr) {
+      work.kernel->add_force(work.sites.data(), work.sites.size(), q, force.data());
+      return;
+    }
+  }
+  displace_all(t, q);
+  work.gradient.run();
+  for (std::size_t n = 0; n < term.displacements.size(); ++n) {
+    const Index first_lane = static_cast<Index>(n) * lanes_;
+    for (const auto& block : term.displacements[n].blocks) {
+      for (Index j = 0; j < potential_.dimension; ++j) {
+        S* const f = force.data() + (block.offset + j) * lanes_;
+        const S& g = work.gradient.output(j, first_lane);
+        if (!term.gradient.is_constant(static_cast<std::size_t>(j)))
+          add_weighted(f, block.weight, &g, lanes_, t_);
+        else
+          for (Index i = 0; i < lanes_; ++i) add_weighted(f + i, block.weight, &g, 1, t_);
       }
     }
-    if (timed_) counts_[t].seconds += elapsed_seconds() - before;
   }
 }
 

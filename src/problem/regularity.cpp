@@ -104,9 +104,11 @@ double gram_condition(const Problem<S>& problem, const Vector<S>& q) {
   if (nu == 0) return 1;
   ConstraintGradient<S> gradient(problem, 1);
   gradient.update(lanes(q));
+  Matrix<S> gram;
+  gradient.gram(gram);
+  const double largest = largest_eigenvalue(gram);
   Lu<S> lu;
-  gradient.gram(lu.matrix());
-  const double largest = largest_eigenvalue(lu.matrix());
+  lu.set(gram);
   if (!lu.factor()) return std::numeric_limits<double>::infinity();
   // The smallest one may be lost in double, but not the largest one of the inverse.
   Matrix<S> inverse(nu, nu);

@@ -16,6 +16,7 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, c
   Point<S> point(problem);
   ConstraintGradient<S> gradient(problem, 1);
   Lu<S> gram;
+  Matrix<S> gram_matrix;
   Vector<S> q = target, next(problem.m()), mu(nu);
   Matrix<S> row(1, nu);
   S least = -1;
@@ -29,7 +30,8 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, c
       gradient.transposed_times(0, a, lanes(away), mu[a]);
       mu[a] += g[a];
     }
-    gradient.gram(gram.matrix());
+    gradient.gram(gram_matrix);
+    gram.set(gram_matrix);
     if (!gram.factor()) break;
     gram.solve(mu);
     for (Index a = 0; a < nu; ++a) row(0, a) = -mu[a];

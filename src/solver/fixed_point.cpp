@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "hbvm/basis/legendre.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -16,7 +15,9 @@ FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, cons
       x_(equations_.make_unknowns()),
       gamma_before_(x_.gamma),
       psi_before_(x_.psi),
-      continued_(method.s + 1, problem.m()) {
+      extrapolation_(x_.gamma.size()),
+      position_change_(problem.m()),
+      momentum_change_(problem.m()) {
   const Index C = 4 * (method.k + 3 * method.s + problem.m() + method.s * problem.nu());
   tolerance_ = S(static_cast<long>(C)) * epsilon<S>();
 }
@@ -29,37 +30,28 @@ long FixedPoint<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
   if (order_ == Order::paper) {
     prepare(Start::zero, p0);
     sweeps = iterate();
-  } else if (has_previous_) {
-    try {
-      prepare(Start::previous, p0);
-      sweeps = iterate();
-    } catch (const StageFailure& failure) {
-      prepare(Start::constant, p0);
-      sweeps = failure.sweeps() + iterate();
-    }
   } else {
-    prepare(Start::constant, p0);
-    sweeps = iterate();
+    if (!extrapolation_.empty()) {
+      try {
+        extrapolation_.predict(x_.gamma.data());
+        sweeps = iterate();
+      } catch (const StageFailure& failure) {
+        sweeps = failure.sweeps();
+        extrapolation_.clear();
+      }
+    }
+    if (extrapolation_.empty()) {
+      prepare(Start::constant, p0);
+      sweeps += iterate();
+    }
+    extrapolation_.add(x_.gamma.data());
   }
-  has_previous_ = true;
+  equations_.changes(x_, position_change_, momentum_change_);
   return sweeps;
 }
 
 template <Scalar S>
 void FixedPoint<S>::prepare(Start start, const Vector<S>& p0) {
-  const Hbvm<S>& method = equations_.method();
-  if (start == Start::previous) {
-    // v' = sum_j P_j (psi_j - zeta_j) gives v its coefficient of degree s: h xi_s (psi_{s-1} - zeta_{s-1}).
-    const S factor = equations_.step() * xi<S>(method.s);
-    for (Index j = 0; j < x_.gamma.cols(); ++j) {
-      for (Index i = 0; i < method.s; ++i) set(continued_(i, j), x_.gamma(i, j));
-      S& top = continued_(method.s, j);
-      set_difference(top, x_.psi(method.s - 1, j), x_.zeta(method.s - 1, j));
-      set_product(top, top, factor);
-    }
-    product(x_.gamma, method.extrapolation, continued_);
-    return;
-  }
   for (Matrix<S>* unknown : {&x_.gamma, &x_.psi, &x_.zeta, &x_.lambda})
     for (Index i = 0; i < unknown->size(); ++i) set_zero(unknown->data()[i]);
   if (start == Start::constant)
@@ -81,7 +73,7 @@ bool FixedPoint<S>::sweep() {
 template <Scalar S>
 long FixedPoint<S>::iterate() {
   const S h = equations_.step();
-  S least = 0, increment = 0, term;
+  S least = 0, increment = 0, last = 0, before_last = 0, term;
   long waiting = 0;
   for (long sweeps = 1;; ++sweeps) {
     if (!sweep())
@@ -98,11 +90,18 @@ long FixedPoint<S>::iterate() {
       set_product(term, term, h);
       raise_to(increment, magnitude(term));
     }
-    const bool below_round_off = increment <= size * epsilon<S>() / 8;
+    // Left to change, if the next increments fall by as much as this one did (in the paper's order, where two sweeps
+    // make one of the other, as this one and the one before it).
+    const bool papers = order_ == Order::paper;
+    const S& earlier = papers ? before_last : last;
+    const bool falls = sweeps > (papers ? 3 : 1) && 2 * increment < earlier;
+    const S left = falls ? S(increment * (increment / earlier)) : increment;
+    // In the paper's order psi lags by a sweep, so that a small first increment would not mean convergence.
+    if (left <= size * epsilon<S>() / 8 && sweeps > 1) return sweeps;
+    before_last = last;
+    last = increment;
     if (increment != 0) increment /= std::max(size, position_scale_);
     if (!is_finite(increment)) throw StageFailure("an iterate is not finite", to_scientific(increment, 3), sweeps);
-    // In the paper's order psi lags by a sweep, so that a small first increment would not mean convergence.
-    if (below_round_off && sweeps > 1) return sweeps;
     if (sweeps == 1 || increment < least) {
       least = increment;
       waiting = 0;

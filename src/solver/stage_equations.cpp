@@ -13,14 +13,17 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
       h_(step),
       potential_(problem.potential, method.k),
       gradient_(problem, method.s) {
-  const Index s = method.s, m = problem.m(), n = s * problem.nu();
+  const Index s = method.s, m = problem.m(), nu = problem.nu();
   velocity_.resize(s, m);
   h_velocity_.resize(s, m);
   u_.resize(s, m);
   w_.resize(s, m);
-  rhs_momentum_.resize(s, m);
-  system_.matrix().resize(n, n);
-  rhs_.resize(n);
+  stage_.resize(s, m);
+  std::vector<std::pair<Index, Index>> entries;
+  for (const auto& pair : gradient_.couplings()) entries.emplace_back(pair.a, pair.b);
+  order_ = order_for_band(nu, entries);
+  system_.resize(s * nu, s * (order_.half_bandwidth + 1) - 1);
+  rhs_.resize(s * nu);
   describe_parts();
 }
 
@@ -51,14 +54,14 @@ void StageEquations<S>::measure_time() {
 
 template <Scalar S>
 void StageEquations<S>::describe_parts() {
-  const Index s = method_.s, k = method_.k, m = problem_.m(), nu = problem_.nu(), n = s * nu;
-  parts_ = {{"velocities h M^-1 gamma"}, {"positions at c"},    {"positions at c_hat"},       {"coefficients psi_hat"},
-            {"constraint gradients"},    {"matrix of (lam)"},   {"right-hand side of (lam)"}, {"solution of (lam)"},
-            {"coefficients zeta"},       {"coefficients gamma"}};
+  const Index s = method_.s, k = method_.k, m = problem_.m();
+  parts_ = {{"velocities h M^-1 gamma"}, {"positions at c"},     {"positions at c_hat"},       {"coefficients psi_hat"},
+            {"constraint gradients"},    {"matrix of (lam)"},    {"right-hand side of (lam)"}, {"solution of (lam)"},
+            {"coefficients zeta"},       {"coefficients gamma"}, {"residual of (lam)"}};
   const auto stages = static_cast<std::uint64_t>(s);
   parts_[velocities].per_call = stages * problem_.mass.operations();
   parts_[velocities].per_call.add(Op::multiply, s * m);
-  for (const auto& [part, rows] : {std::pair(node_positions, s), std::pair(quadrature_positions, k)}) {
+  for (const auto& [part, rows] : {std::pair(constraint_nodes, s), std::pair(quadrature_nodes, k)}) {
     parts_[part].per_call.add_products(rows * s * m);
     parts_[part].per_call.add(Op::add, rows * m);
   }
@@ -74,21 +77,15 @@ void StageEquations<S>::describe_parts() {
   rhs.add_products(s * s * m + s * gradient_.stored());
   rhs.add(Op::add, s * m);
   rhs.add(Op::reciprocal, m);
-  OperationCounts& lu = parts_[solution].per_call;
-  for (Index i = 1; i < n; ++i) {
-    lu.add(Op::reciprocal, i);
-    lu.add(Op::multiply, i * i);
-    lu.add(Op::subtract, i * i);
-  }
-  lu.add(Op::multiply, n * (n - 1));
-  lu.add(Op::subtract, n * (n - 1));
-  lu.add(Op::reciprocal, n);
+  parts_[solution].per_call = system_.factor_operations() + system_.solve_operations();
   parts_[zetas].per_call.add_products(s * gradient_.stored() + s * s * m);
   OperationCounts& gamma = parts_[gammas].per_call;
   gamma.add(Op::subtract, s * m);
   gamma.add(Op::multiply, 2 * s * m);
   gamma.add_products((s - 1) * m);
   gamma.add(Op::add, m);
+  parts_[constraint_residual].per_call.add_products(s * s * m + s * gradient_.stored());
+  parts_[constraint_residual].per_call.add(Op::subtract, s * m);
 }
 
 template <Scalar S>
@@ -121,11 +118,12 @@ void StageEquations<S>::positions(const Matrix<S>& integrals, Matrix<S>& u) {
 template <Scalar S>
 void StageEquations<S>::forces(Matrix<S>& psi) {
   if (potential_.has_varying_force()) {
+    Matrix<S>& u = method_.k == method_.s ? u_ : u_hat_;
     {
-      const Call call(*this, quadrature_positions);
-      positions(method_.I_hat, u_hat_);
+      const Call call(*this, quadrature_nodes);
+      positions(method_.I_hat, u);
     }
-    potential_.varying_force(lanes(u_hat_), force_);
+    potential_.varying_force(lanes(u), force_);
   }
   const Call call(*this, projection);
   if (potential_.has_varying_force())
@@ -138,44 +136,53 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
 }
 
 template <Scalar S>
+void StageEquations<S>::move_constraints() {
+  // For k = s the nodes of the forces, just computed, are the constraints'.
+  if (method_.k != method_.s || !potential_.has_varying_force()) {
+    const Call call(*this, constraint_nodes);
+    positions(method_.I_s, u_);
+  }
+  const Call call(*this, gradients);
+  gradient_.update(lanes(u_));
+}
+
+template <Scalar S>
 bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta) {
   const Index nu = problem_.nu(), s = method_.s;
   if (nu == 0) return true;
-  {
-    const Call call(*this, node_positions);
-    positions(method_.I_s, u_);
-  }
-  {
-    const Call call(*this, gradients);
-    gradient_.update(lanes(u_));
-  }
+  move_constraints();
   set_up(psi);
   {
     const Call call(*this, solution);
     if (!system_.factor()) return false;
     system_.solve(rhs_);
   }
+  for (Index b = 0; b < nu; ++b)
+    for (Index i = 0; i < s; ++i) set(lambda(i, b), rhs_[order_.position[static_cast<std::size_t>(b)] * s + i]);
+  project_multipliers(lambda, zeta);
+  return true;
+}
+
+template <Scalar S>
+void StageEquations<S>::project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta) {
   const Call call(*this, zetas);
-  for (Index i = 0; i < s; ++i)
-    for (Index b = 0; b < nu; ++b) set(lambda(i, b), rhs_[i * nu + b]);
   for (Index i = 0; i < w_.size(); ++i) set_zero(w_.data()[i]);
   gradient_.add_times(lambda, lanes(w_));
   product(zeta, method_.projection, w_);
-  return true;
 }
 
 template <Scalar S>
 void StageEquations<S>::set_up(const Matrix<S>& psi) {
   const Index nu = problem_.nu(), s = method_.s;
+  const auto first = [&](Index a) { return order_.position[static_cast<std::size_t>(a)] * s; };
   // (lam) divided by h: sum_j a_ij grad g_i^T M^-1 grad g_j lambda_j = grad g_i^T M^-1 (p0/h + sum_j I_ij psi_j)
   {
     const Call call(*this, matrix);
-    Matrix<S>& a = system_.matrix();
-    for (Index i = 0; i < a.size(); ++i) set_zero(a.data()[i]);
+    system_.set_zero();
     for (const auto& pair : gradient_.couplings()) {
       for (Index j = 0; j < s; ++j) {
         for (Index i = 0; i < s; ++i) {
-          S& entry = a(i * nu + pair.a, j * nu + pair.b);
+          S& entry = system_.entry(first(pair.a) + i, first(pair.b) + j);
           gradient_.coupling(pair, i, j, entry);
           set_product(entry, entry, method_.A(i, j));
         }
@@ -183,14 +190,44 @@ void StageEquations<S>::set_up(const Matrix<S>& psi) {
     }
   }
   const Call call(*this, right_hand_side);
-  product(rhs_momentum_, method_.I_s, psi);
-  for (Index j = 0; j < rhs_momentum_.cols(); ++j) {
+  product(stage_, method_.I_s, psi);
+  for (Index j = 0; j < stage_.cols(); ++j) {
     set_quotient(t_, (*p0_)[j], h_);
-    for (Index i = 0; i < s; ++i) set_sum(rhs_momentum_(i, j), rhs_momentum_(i, j), t_);
+    for (Index i = 0; i < s; ++i) set_sum(stage_(i, j), stage_(i, j), t_);
   }
-  problem_.mass.velocity(lanes(rhs_momentum_), lanes(w_));
-  for (Index i = 0; i < s; ++i)
-    for (Index b = 0; b < nu; ++b) gradient_.transposed_times(i, b, lanes(w_), rhs_[i * nu + b]);
+  problem_.mass.velocity(lanes(stage_), lanes(w_));
+  for (Index b = 0; b < nu; ++b)
+    for (Index i = 0; i < s; ++i) gradient_.transposed_times(i, b, lanes(w_), rhs_[first(b) + i]);
+}
+
+template <Scalar S>
+void StageEquations<S>::changes(const StageUnknowns<S>& x, Vector<S>& q, Vector<S>& p) {
+  for (Index j = 0; j < p.size(); ++j) set(p[j], x.gamma(0, j));
+  problem_.mass.velocity(lanes(std::as_const(p)), lanes(q));
+  for (Index j = 0; j < p.size(); ++j) {
+    set_product(q[j], q[j], h_);
+    set_difference(p[j], x.psi(0, j), x.zeta(0, j));
+    set_product(p[j], p[j], h_);
+  }
+}
+
+template <Scalar S>
+void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& r) {
+  move(x.gamma);
+  forces(x.psi);
+  const bool constrained = problem_.nu() > 0;
+  if (constrained) {
+    move_constraints();
+    project_multipliers(x.lambda, x.zeta);
+  }
+  momenta(x.psi, x.zeta, r.momentum);
+  const Call call(*this, constraint_residual);
+  for (Index i = 0; i < r.momentum.size(); ++i)
+    set_difference(r.momentum.data()[i], x.gamma.data()[i], r.momentum.data()[i]);
+  if (!constrained) return;
+  product(w_, method_.P_s, velocity_);
+  for (Index b = 0; b < problem_.nu(); ++b)
+    for (Index i = 0; i < method_.s; ++i) gradient_.transposed_times(i, b, lanes(w_), r.constraint(i, b));
 }
 
 template <Scalar S>

@@ -90,7 +90,7 @@ TEST(AccountOf, TheEquationsHasEffectsThenParts) {
     equations.move(x.gamma);
     equations.forces(x.psi);
   }
-  const Account account = account_of(equations);
+  const Account account = account_of(equations.problem(), {equations.effect_counts(), equations.part_counts()});
   const std::size_t parts = equations.part_counts().size();
   ASSERT_EQ(account.lines.size(), 2 + parts);
   for (std::size_t i = 0; i < account.lines.size(); ++i) EXPECT_EQ(account.lines[i].effect, i < 2) << i;

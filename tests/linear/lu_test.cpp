@@ -14,7 +14,7 @@ class LuTest : public ::testing::Test {
   Lu<S> lu;
 
   bool factor(const Matrix<S>& a) {
-    lu.matrix() = a;
+    lu.set(a);
     return lu.factor();
   }
 
@@ -88,6 +88,49 @@ TYPED_TEST(LuTest, SolvesSeveralRightSidesWithOneFactorisation) {
 
 TYPED_TEST(LuTest, TakesMatricesOfAnotherSize) {
   for (const int n : {6, 2, 9, 1}) this->expect_solves(this->random.matrix(n, n));
+}
+
+/// A band is factored and solved to the last bit as the same matrix is without one.
+TYPED_TEST(LuTest, TakesBands) {
+  for (const Index n : {1, 2, 5, 9, 20}) {
+    for (const Index b : {0, 1, 2, 3, 7}) {
+      Matrix<TypeParam> a = this->random.matrix(n, n);
+      for (Index j = 0; j < n; ++j)
+        for (Index i = 0; i < n; ++i) {
+          if (std::abs(i - j) > b) a(i, j) = 0;
+          if (i == j && b > 0) a(i, j) = a(i, j) / 1000;  // so that rows are swapped
+        }
+      Lu<TypeParam> band;
+      band.resize(n, b);
+      band.set_zero();
+      for (Index j = 0; j < n; ++j)
+        for (Index i = std::max<Index>(0, j - b); i <= std::min(n - 1, j + b); ++i) band.entry(i, j) = a(i, j);
+      ASSERT_TRUE(this->factor(a));
+      ASSERT_TRUE(band.factor());
+      Vector<TypeParam> x = this->random.vector(n), y = x;
+      this->lu.solve(x);
+      band.solve(y);
+      EXPECT_EQ(x, y) << "n = " << n << ", b = " << b;
+    }
+  }
+}
+
+TYPED_TEST(LuTest, CostOfABandIsLinear) {
+  Lu<TypeParam>& system = this->lu;
+  const auto products = [&](Index n) {
+    system.resize(n, 2);
+    return system.factor_operations()[Op::multiply] + system.solve_operations()[Op::multiply];
+  };
+  EXPECT_EQ(products(1000) - products(999), 2u * 4u + 2u + 4u);
+  EXPECT_EQ(products(500) - products(499), products(1000) - products(999));
+}
+
+TYPED_TEST(LuTest, CostOfAFullMatrix) {
+  Lu<TypeParam>& system = this->lu;
+  system.resize(4, 3);
+  EXPECT_EQ(system.factor_operations()[Op::multiply], 9u + 4u + 1u);
+  EXPECT_EQ(system.factor_operations()[Op::reciprocal], 3u + 2u + 1u);
+  EXPECT_EQ(system.solve_operations()[Op::multiply], 12u);
 }
 
 TYPED_TEST(LuTest, RefusesSingularMatrices) {

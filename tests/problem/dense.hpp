@@ -49,7 +49,7 @@ Matrix<S> dense_mass(const MassMatrix<S>& mass) {
 template <Scalar S>
 Matrix<S> dense_inverse(const Matrix<S>& a) {
   Lu<S> lu;
-  lu.matrix() = a;
+  lu.set(a);
   if (!lu.factor()) return {};
   Matrix<S> inverse(a.rows(), a.cols());
   for (Index j = 0; j < a.cols(); ++j) {

@@ -21,7 +21,6 @@ class ProgramTest : public ::testing::Test {
 
   /// One instruction on the two inputs.
   Vector<S> run(Op op) {
-    using Bank = typename Code::Bank;
     const Code code({}, {{op, {Bank::input, 0}, {Bank::input, 1}, 0}}, {{Bank::temporary, 0}}, 1);
     Matrix<S> registers = code.make_registers(count);
     code.run(registers, inputs);
@@ -63,7 +62,6 @@ TYPED_TEST(ProgramTest, SignOfZeroIsZero) {
 
 TYPED_TEST(ProgramTest, ConstantsStandOnEitherSide) {
   using S = TypeParam;
-  using Bank = typename Program<S>::Bank;
   const S seven = 7;
   const Program<S> code({seven},
                         {{Op::subtract, {Bank::constant, 0}, {Bank::input, 0}, 0},
@@ -79,7 +77,6 @@ TYPED_TEST(ProgramTest, ConstantsStandOnEitherSide) {
 
 TYPED_TEST(ProgramTest, AResultMayReplaceItsOperand) {
   using S = TypeParam;
-  using Bank = typename Program<S>::Bank;
   const Program<S> code({},
                         {{Op::add, {Bank::input, 0}, {Bank::input, 1}, 0},
                          {Op::multiply, {Bank::temporary, 0}, {Bank::temporary, 0}, 0},
@@ -95,7 +92,6 @@ TYPED_TEST(ProgramTest, AResultMayReplaceItsOperand) {
 
 TYPED_TEST(ProgramTest, OutputsComeFromEveryBank) {
   using S = TypeParam;
-  using Bank = typename Program<S>::Bank;
   const Program<S> code({S(5)}, {{Op::negate, {Bank::input, 1}, {}, 0}},
                         {{Bank::input, 1}, {Bank::constant, 0}, {Bank::temporary, 0}}, 1);
   ASSERT_EQ(code.outputs(), 3u);
@@ -112,7 +108,6 @@ TYPED_TEST(ProgramTest, OutputsComeFromEveryBank) {
 }
 
 TYPED_TEST(ProgramTest, CountsItsInstructions) {
-  using Bank = typename Program<TypeParam>::Bank;
   const Program<TypeParam> code({},
                                 {{Op::add, {Bank::input, 0}, {Bank::input, 1}, 0},
                                  {Op::sqrt, {Bank::temporary, 0}, {}, 0},

@@ -54,14 +54,39 @@ TEST_P(StageMaps, AreThePapersFormulas) {
   }
 }
 
-TEST_P(StageMaps, DisplacementIsTheStepTimesTheVelocity) {
+TEST_P(StageMaps, ChangesOverTheStep) {
   const DenseModel model = ellipsoid_bead();
   const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
   StageEquations<Mpfr> equations(scene.problem, method, h);
-  const Matrix<Mpfr> gamma = generic(s, model.m(), 3);
-  equations.start(scene.q0, scene.p0);
-  equations.move(gamma);
-  expect_equal(equations.displacement(), gamma * model.W * h, "h M^-1 gamma");
+  StageUnknowns<Mpfr> x = equations.make_unknowns();
+  x.gamma = generic(s, model.m(), 3);
+  x.psi = generic(s, model.m(), 4);
+  x.zeta = generic(s, model.m(), 5);
+  Vector<Mpfr> q(model.m()), p(model.m());
+  equations.changes(x, q, p);
+  expect_equal(Matrix<Mpfr>(q.transpose()), Matrix<Mpfr>(x.gamma.row(0) * model.W * h), "h M^-1 gamma_0");
+  expect_equal(Matrix<Mpfr>(p.transpose()), Matrix<Mpfr>((x.psi - x.zeta).row(0) * h), "h (psi_0 - zeta_0)");
+}
+
+/// At unknowns that a sweep of the fixed-point iteration has made, the residual is what the next one would change.
+TEST_P(StageMaps, ResidualIsThatOfThePapersFormulas) {
+  for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
+    const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
+    StageEquations<Mpfr> equations(scene.problem, method, h);
+    const StageFormulas formulas(model, k, s, h);
+    StageUnknowns<Mpfr> x = equations.make_unknowns();
+    x.gamma = generic(s, model.m(), 6);
+    x.lambda = generic(s, model.nu(), 7);
+    StageResidual<Mpfr> r{x.gamma, x.lambda};
+    equations.start(scene.q0, scene.p0);
+    equations.residual(x, r);
+    expect_equal(x.psi, formulas.psi(scene.q0, x.gamma), "psi");
+    expect_equal(x.zeta, formulas.zeta(scene.q0, x.gamma, x.lambda), "zeta");
+    const Matrix<Mpfr> v = formulas.velocities(x.gamma);
+    expect_equal(formulas.velocities(Matrix<Mpfr>(x.gamma - r.momentum)), formulas.velocities(scene.p0, x.psi, x.zeta),
+                 "(dispro1)");
+    expect_equal(r.constraint, formulas.hidden(scene.q0, x.gamma, v), "hidden constraints at the nodes");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, StageMaps,

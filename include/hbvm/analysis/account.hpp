@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/solver/stage_equations.hpp"
+#include "hbvm/solver/stage_solver.hpp"
 
 namespace hbvm {
 
@@ -24,13 +24,13 @@ struct Account {
 };
 
 template <Scalar S>
-Account account_of(const StageEquations<S>& equations) {
+Account account_of(const Problem<S>& problem, const SolverCounts& counts) {
   Account account;
   std::size_t t = 0;
-  for (const EffectCount& count : equations.effect_counts())
-    account.lines.push_back({equations.problem().potential.terms[t++].kind, true, count.calls, count.evaluations,
+  for (const EffectCount& count : counts.effects)
+    account.lines.push_back({problem.potential.terms[t++].kind, true, count.calls, count.evaluations,
                              count.evaluations * count.per_evaluation, count.seconds});
-  for (const PartCount& part : equations.part_counts())
+  for (const PartCount& part : counts.parts)
     account.lines.push_back({part.name, false, part.calls, 0, part.calls * part.per_call, part.seconds});
   return account;
 }

@@ -28,7 +28,7 @@ Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKi
   State<S> state(scene.q0, scene.p0);
   Integration<S> integration = integrate(stepper, state, grid, observers);
   if (account) {
-    *account = account_of(stepper.solver().equations());
+    *account = account_of(scene.problem, stepper.solver().counts());
     account->steps = static_cast<std::uint64_t>(integration.steps);
     account->sweeps = static_cast<std::uint64_t>(integration.sweeps);
   }

@@ -38,13 +38,19 @@ class ConstraintGradient {
   /// The Gram matrix grad g^T M^-1 grad g of the first lane, nu x nu.
   void gram(Matrix<S>& result);
 
- private:
-  /// The stored columns of one constraint: coordinates_[k] is the coordinate of column first + k.
+  /// The stored columns of one constraint: coordinates[k] is the coordinate of column first + k.
   struct Pattern {
     Index first = 0;
     std::vector<Index> coordinates;
     Index column(Index coordinate) const;
   };
+  /// The coordinates where grad g_a, and M^-1 grad g_a, can be nonzero, and the values there in every lane.
+  const Pattern& pattern(Index a) const { return patterns_[static_cast<std::size_t>(a)]; }
+  const Pattern& weighted_pattern(Index a) const { return weighted_patterns_[static_cast<std::size_t>(a)]; }
+  const Matrix<S>& values() const { return values_; }
+  const Matrix<S>& weighted_values() const { return weighted_; }
+
+ private:
   static void add_times(const std::vector<Pattern>& patterns, const Matrix<S>& values, const Matrix<S>& lambda,
                         Lanes<S> out, S& t);
   void update(const DisplacementProduct<S>& form, const Pattern& pattern, Lanes<const S> q);

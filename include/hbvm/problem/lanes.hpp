@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
-#include "hbvm/problem/operation_counts.hpp"
+#include "hbvm/linear/operation_counts.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {

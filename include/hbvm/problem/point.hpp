@@ -37,7 +37,7 @@ class Point {
   ConstraintGradient<S> gradient_;
   Lu<S> gram_;
   Vector<S> U_, v_, g_, hidden_, tangential_, multiplier_;
-  Matrix<S> force_, row_;
+  Matrix<S> force_, row_, gram_matrix_;
 };
 
 #define HBVM_DECLARE(S) extern template class Point<S>;

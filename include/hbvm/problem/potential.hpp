@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/problem/effect/program.hpp"
+#include "hbvm/problem/effect/execution.hpp"
+#include "hbvm/problem/effect/kernel.hpp"
 #include "hbvm/problem/lanes.hpp"
 
 namespace hbvm {
@@ -17,10 +18,12 @@ struct EffectTerm {
   int degree = 0;                              ///< of U as a polynomial in q; Trace::not_polynomial if it is none
   Program<S> value;                            ///< one output, U, from the d displacements and the coefficients
   Program<S> gradient;                         ///< d outputs, dU/dx
+  Program<S> hessian;                          ///< d (d + 1)/2 outputs, the lower triangle of d2U/dx2 row by row
   bool constant_force = false;                 ///< dU/dx does not depend on x
   std::vector<Displacement<S>> displacements;  ///< one an instance
   Matrix<S> value_coefficients;                ///< instances x coefficients of `value`
   Matrix<S> gradient_coefficients;
+  Matrix<S> hessian_coefficients;
 };
 
 /// How often the force of an effect ran: calls, evaluations at a node (each for all bodies or pairs it acts on), and
@@ -61,23 +64,17 @@ class PotentialEvaluator {
   void measure_time() { timed_ = true; }
 
  private:
-  /// One of a term's two programs with its registers.
-  struct Execution {
-    const Program<S>* program;
-    Matrix<S> coefficients, registers;
-    std::vector<const S*> inputs;
-    Execution(const Program<S>& code, const Matrix<S>& per_instance, Matrix<S>& displacement, Index lanes);
-    void run() { program->run(registers, inputs); }
-    const S& output(Index i, Index lane) const {
-      return program->output(static_cast<std::size_t>(i), lane, registers, inputs);
-    }
-  };
   struct Work {
     Matrix<S> displacement;  ///< (instances * lanes) x d: all lanes of one instance, then the next
-    Execution value, gradient;
+    Execution<S> value, gradient;
+    const Kernel* kernel = nullptr;  ///< the gradient compiled, in double, if the library has it
+    std::vector<KernelSite> sites;   ///< what it acts on: one an instance
+    std::vector<double> kernel_coefficients;
     Work(const EffectTerm<S>& term, Index dimension, Index lanes);
   };
 
+  /// force += the gradient of term t.
+  void add_force(std::size_t term, Lanes<const S> q, Matrix<S>& force);
   void displace_all(std::size_t term, Lanes<const S> q);
 
   const Potential<S>& potential_;

@@ -63,6 +63,15 @@ void set_quotient(S& r, const S& a, const S& b) {
     r = a / b;
 }
 
+/// |a| > |b|.
+template <Scalar S>
+bool exceeds(const S& a, const S& b) {
+  if constexpr (std::same_as<S, Mpfr>)
+    return mpfr_cmpabs(raw(a), raw(b)) > 0;
+  else
+    return magnitude(a) > magnitude(b);
+}
+
 /// r += a b and r -= a b, each rounded twice; `t` is scratch.
 template <Scalar S>
 void add_product(S& r, const S& a, const S& b, [[maybe_unused]] S& t) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hbvm/solver/extrapolation.hpp"
 #include "hbvm/solver/stage_solver.hpp"
 
 namespace hbvm {
@@ -8,14 +9,14 @@ namespace hbvm {
 ///
 /// In the paper's order a sweep computes all new values from old ones, and the first starts from gamma = psi = 0.
 /// Otherwise a sweep uses each value as soon as it is known (psi from gamma, then lambda and zeta, then gamma), and
-/// starts from the previous step's polynomial v continued beyond its end; if that leads nowhere, once more from the
-/// constant v = p0.
+/// starts from the extrapolation of the last steps' gamma; if that leads nowhere, once more from the constant v = p0.
 ///
-/// It stops when the max-norm of the increment, scaled, is below C epsilon and has not fallen below its least value
-/// for two sweeps in a row: then it is round-off. The increment is that of gamma and h psi; the scale is the largest
-/// of |p0|, |gamma|, h |psi|, h |zeta| and |M q0|/h (positions are rounded, too, and h M^-1 gamma is added to them);
-/// C = 4 (k + 3 s + m + s nu), an upper bound of the lengths of the sums of one sweep, where a sum of n terms
-/// carries n roundings, and 4 for what they are passed through. It also stops where the increment is below
+/// It stops when the increment, scaled, times the factor by which it fell is below epsilon/8: that is what the next
+/// sweep would change. It also stops when the max-norm of the increment, scaled, is below C epsilon and has not fallen
+/// below its least value for two sweeps in a row: then it is round-off. The increment is that of gamma and h psi; the
+/// scale is the largest of |p0|, |gamma|, h |psi|, h |zeta| and |M q0|/h (positions are rounded, too, and h M^-1 gamma
+/// is added to them); C = 4 (k + 3 s + m + s nu), an upper bound of the lengths of the sums of one sweep, where a sum
+/// of n terms carries n roundings, and 4 for what they are passed through. It stops, too, where the increment is below
 /// epsilon/8 of the scale without the positions: a component that decays towards 0 could go on for ever.
 ///
 /// It fails if an increment is not finite, if (lam) is singular, and if the increments, above C epsilon, do not fall
@@ -30,11 +31,13 @@ class FixedPoint final : public StageSolver<S> {
 
   long solve(const Vector<S>& q0, const Vector<S>& p0) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
-  const StageEquations<S>& equations() const override { return equations_; }
+  const Vector<S>& position_change() const override { return position_change_; }
+  const Vector<S>& momentum_change() const override { return momentum_change_; }
+  SolverCounts counts() const override { return {equations_.effect_counts(), equations_.part_counts()}; }
   void measure_time() override { equations_.measure_time(); }
 
  private:
-  enum class Start { zero, constant, previous };
+  enum class Start { zero, constant };
   void prepare(Start start, const Vector<S>& p0);
   long iterate();
   [[nodiscard]] bool sweep();
@@ -43,10 +46,10 @@ class FixedPoint final : public StageSolver<S> {
   Order order_;
   StageUnknowns<S> x_;
   Matrix<S> gamma_before_, psi_before_;
-  Matrix<S> continued_;  ///< (s + 1) x m: the coefficients of the last step's v, degree s included
+  Extrapolation<S> extrapolation_;  ///< of gamma
+  Vector<S> position_change_, momentum_change_;
   S position_scale_;
   S tolerance_;
-  bool has_previous_ = false;
 };
 
 #define HBVM_DECLARE(S) extern template class FixedPoint<S>;

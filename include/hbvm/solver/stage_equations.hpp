@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hbvm/linear/lu.hpp"
+#include "hbvm/linear/ordering.hpp"
 #include "hbvm/method/hbvm.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"
 
@@ -15,6 +16,15 @@ struct StageUnknowns {
   Matrix<S> psi;     ///< s x m: psi_hat, coefficients of grad U, (psij)
   Matrix<S> zeta;    ///< s x m: coefficients of grad g lambda, (lim2)
   Matrix<S> lambda;  ///< s x nu: multipliers at the nodes c_i
+};
+
+/// What is left of the stage equations at some unknowns, 0 at a solution:
+///
+///     momentum   = gamma - e_1 p0 - h X_s (psi_hat - zeta)          s x m, (dispro1)
+///     constraint = grad g(u_i)^T M^-1 v_i, v_i = sum_j P_j(c_i) gamma_j   s x nu, what (lam) solves for
+template <Scalar S>
+struct StageResidual {
+  Matrix<S> momentum, constraint;
 };
 
 /// One part of the stage equations: how often it ran, what one call costs, and, if measured, the time it took.
@@ -39,12 +49,11 @@ class StageEquations {
 
   /// The state the step starts from; the vectors must live as long as the step.
   void start(const Vector<S>& q0, const Vector<S>& p0);
+  const Vector<S>& q0() const { return *q0_; }
   const Vector<S>& p0() const { return *p0_; }
 
   /// Moves all nodes to the polynomial u of (lim1) with these coefficients: keeps h M^-1 gamma.
   void move(const Matrix<S>& gamma);
-  /// h M^-1 gamma, s x m; its first row is q1 - q0, (q1p1new).
-  const Matrix<S>& displacement() const { return h_velocity_; }
   /// psi = P_hat^T Omega_hat grad U(u at c_hat).
   void forces(Matrix<S>& psi);
   /// lambda from the linear system (lam) at the current nodes, and zeta = P_s^T Omega (grad g lambda). Without
@@ -53,6 +62,18 @@ class StageEquations {
   [[nodiscard]] bool multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta);
   /// gamma = e_1 p0 + h X_s (psi - zeta), which is (dispro1) by (IsPs).
   void momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
+
+  /// q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), (q1p1new).
+  void changes(const StageUnknowns<S>& x, Vector<S>& q, Vector<S>& p);
+
+  /// The residual at x.gamma and x.lambda; sets x.psi and x.zeta, too. Moves the nodes.
+  void residual(StageUnknowns<S>& x, StageResidual<S>& r);
+
+  /// The last nodes: positions u(c_i h) and u(c_hat_i h), and velocities M^-1 v_i after residual().
+  const Matrix<S>& node_positions() const { return u_; }
+  const Matrix<S>& quadrature_positions() const { return method_.k == method_.s ? u_ : u_hat_; }
+  const Matrix<S>& node_velocities() const { return w_; }
+  const ConstraintGradient<S>& constraint_gradient() const { return gradient_; }
 
   /// What was done since construction: by effect, and by part (the forces' own work is in the effects').
   const std::vector<EffectCount>& effect_counts() const { return potential_.counts(); }
@@ -63,21 +84,25 @@ class StageEquations {
  private:
   enum Part {
     velocities,
-    node_positions,
-    quadrature_positions,
+    constraint_nodes,
+    quadrature_nodes,
     projection,
     gradients,
     matrix,
     right_hand_side,
     solution,
     zetas,
-    gammas
+    gammas,
+    constraint_residual
   };
   /// Counts a call of a part for as long as it lives.
   class Call;
   void describe_parts();
 
   void positions(const Matrix<S>& integrals, Matrix<S>& u);
+  /// Positions at c (unless they are those at c_hat) and the constraints' gradients there.
+  void move_constraints();
+  void project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta);
   /// Matrix and right-hand side of (lam) at the current nodes.
   void set_up(const Matrix<S>& psi);
 
@@ -86,12 +111,13 @@ class StageEquations {
   S h_;
   PotentialEvaluator<S> potential_;
   ConstraintGradient<S> gradient_;
+  Ordering order_;  // of the constraints in (lam)
   Lu<S> system_;
   const Vector<S>* q0_ = nullptr;
   const Vector<S>* p0_ = nullptr;
   Matrix<S> velocity_, h_velocity_;  // s x m
   Matrix<S> u_hat_, force_;          // k x m
-  Matrix<S> u_, w_, rhs_momentum_;   // s x m
+  Matrix<S> u_, w_, stage_;          // s x m
   Vector<S> rhs_;                    // s nu
   S t_;
   std::vector<PartCount> parts_;

@@ -22,6 +22,31 @@ class StageFailure : public Error {
   long sweeps_;
 };
 
+/// By effect and by part of the stage equations, in whatever precision they were evaluated.
+struct SolverCounts {
+  std::vector<EffectCount> effects;
+  std::vector<PartCount> parts;
+};
+
+/// sum += other; a constant force counts once, whatever the number of solvers.
+template <Scalar S>
+void add_counts(SolverCounts& sum, const SolverCounts& other, const Problem<S>& problem) {
+  if (sum.parts.empty()) {
+    sum = other;
+    return;
+  }
+  for (std::size_t t = 0; t < sum.effects.size(); ++t) {
+    if (problem.potential.terms[t].constant_force) continue;
+    sum.effects[t].calls += other.effects[t].calls;
+    sum.effects[t].evaluations += other.effects[t].evaluations;
+    sum.effects[t].seconds += other.effects[t].seconds;
+  }
+  for (std::size_t i = 0; i < sum.parts.size(); ++i) {
+    sum.parts[i].calls += other.parts[i].calls;
+    sum.parts[i].seconds += other.parts[i].seconds;
+  }
+}
+
 /// Solves the stage equations of one step after the other.
 template <Scalar S>
 class StageSolver {
@@ -33,15 +58,22 @@ class StageSolver {
   /// \throws StageFailure
   virtual long solve(const Vector<S>& q0, const Vector<S>& p0) = 0;
 
-  /// The solution, and the equations at it.
+  /// The solution: its gamma and lambda are converged; its psi and zeta are those of the last sweep.
   virtual const StageUnknowns<S>& unknowns() const = 0;
-  virtual const StageEquations<S>& equations() const = 0;
+  /// q1 - q0 and p1 - p0 of (q1p1new): h M^-1 gamma_0 and h (psi_0 - zeta_0).
+  virtual const Vector<S>& position_change() const = 0;
+  virtual const Vector<S>& momentum_change() const = 0;
+
+  /// What was done since construction.
+  virtual SolverCounts counts() const = 0;
   /// Also measure the time that effects and parts of the equations take.
   virtual void measure_time() = 0;
 };
 
 /// The solvers by the name a user gives them.
 enum class SolverKind {
+  automatic,    ///< in double the fixed point, in more digits Newton, and the other where that fails or is slow
+  newton,       ///< mixed-precision Newton
   fixed_point,  ///< newest values at once, started from the previous step's polynomial
   paper         ///< (iter) to the letter, started from 0
 };

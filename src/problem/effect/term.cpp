@@ -26,13 +26,16 @@ long floor_of(const S& x) {
   return x < limit ? static_cast<long>(S(floor(x))) : limit;
 }
 
+/// In the order in which make_term numbers them.
 template <Scalar S>
-std::vector<S> parameters_of(const typename EffectUse<S>::Instance& instance) {
+std::vector<S> parameters_of(const EffectUse<S>& use, const typename EffectUse<S>::Instance& instance) {
   std::vector<S> p;
   for (Index i = 0; i < instance.mass_matrix.rows(); ++i)
     for (Index j = 0; j < instance.mass_matrix.cols(); ++j) p.push_back(instance.mass_matrix(i, j));
   p.insert(p.end(), std::begin(instance.masses), std::end(instance.masses));
   p.insert(p.end(), std::begin(instance.charges), std::end(instance.charges));
+  for (const auto& [key, value] : use.numbers) p.push_back(value);
+  for (const auto& [key, values] : use.vectors) p.insert(p.end(), values.begin(), values.end());
   return p;
 }
 
@@ -42,7 +45,7 @@ Matrix<S> coefficients_of(const Program<S>& program, const EffectUse<S>& use) {
   Matrix<S> result(static_cast<Index>(use.instances.size()), static_cast<Index>(program.outputs()));
   Matrix<S> registers = program.make_registers(1);
   for (std::size_t n = 0; n < use.instances.size(); ++n) {
-    const std::vector<S> parameters = parameters_of<S>(use.instances[n]);
+    const std::vector<S> parameters = parameters_of(use, use.instances[n]);
     std::vector<const S*> inputs;
     for (const S& p : parameters) inputs.push_back(&p);
     program.run(registers, inputs);
@@ -59,28 +62,39 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
   Trace<S> trace;
   const auto d = static_cast<std::size_t>(use.dimension);
   Interaction<Traced<S>> formal;
-  const auto constant = [&](const S& value) { return Traced<S>(trace, trace.constant(value)); };
   for (std::size_t j = 0; j < d; ++j) formal.x.emplace_back(trace, trace.input(j));
-  for (const auto& [key, value] : use.numbers) {
-    formal.numbers.emplace(key, constant(value));
-    if (const auto n = whole(value)) formal.whole_numbers.emplace(key, *n);
-    formal.floors.emplace(key, floor_of(value));
-  }
-  for (const auto& [key, values] : use.vectors)
-    for (const S& value : values) formal.vectors[key].push_back(constant(value));
   std::size_t index = 0;
   const auto parameter = [&] { return Traced<S>(trace, trace.parameter(index++)); };
   for (std::size_t i = 0; i < d * d; ++i) formal.mass_matrix.push_back(parameter());
   for (int i = 0; i < 2; ++i) formal.masses.push_back(parameter());
   for (int i = 0; i < 2; ++i) formal.charges.push_back(parameter());
+  // The keys' values are parameters, too: the code depends on them only where the formula asks for whole numbers, and
+  // on the zeros of vectors, so that one compiled kernel serves all values.
+  for (const auto& [key, value] : use.numbers) {
+    formal.numbers.emplace(key, parameter());
+    if (const auto n = whole(value)) formal.whole_numbers.emplace(key, *n);
+    formal.floors.emplace(key, floor_of(value));
+  }
+  for (const auto& [key, values] : use.vectors) {
+    for (const S& value : values) {
+      const Traced<S> entry = parameter();
+      formal.vectors[key].push_back(value == 0 ? Traced<S>(trace, trace.constant(value)) : entry);
+    }
+  }
 
   std::optional<typename Trace<S>::Id> U;
   with_effect(use.kind, [&]<class Effect>() { U = Effect::U(formal).id(); });
   if (!U) throw Error("no effect of kind '" + use.kind + "'");  // the scene reader has checked
 
   const auto gradient_ids = trace.gradient(*U, d);
+  std::vector<typename Trace<S>::Id> hessian_ids;
+  for (std::size_t i = 0; i < d; ++i) {
+    const auto row = trace.gradient(gradient_ids[i], d);
+    hessian_ids.insert(hessian_ids.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  }
   auto value = trace.compile({*U}, d, index);
   auto gradient = trace.compile(gradient_ids, d, index);
+  auto hessian = trace.compile(hessian_ids, d, index);
   EffectTerm<S> term;
   term.kind = use.kind;
   term.degree = trace.degree(*U);
@@ -89,8 +103,10 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
   for (const auto& instance : use.instances) term.displacements.push_back(instance.x);
   term.value_coefficients = coefficients_of(value.coefficients, use);
   term.gradient_coefficients = coefficients_of(gradient.coefficients, use);
+  term.hessian_coefficients = coefficients_of(hessian.coefficients, use);
   term.value = std::move(value.program);
   term.gradient = std::move(gradient.program);
+  term.hessian = std::move(hessian.program);
   return term;
 }
 

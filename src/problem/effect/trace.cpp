@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace hbvm {
@@ -177,10 +178,6 @@ std::vector<typename Trace<S>::Id> Trace<S>::gradient(Id output, std::size_t inp
 template <Scalar S>
 typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, std::size_t inputs,
                                               std::size_t parameters) const {
-  using Bank = typename Program<S>::Bank;
-  using Operand = typename Program<S>::Operand;
-  using Instruction = typename Program<S>::Instruction;
-
   // The use of node x by a varying operation (or as an output): what does not vary there is a coefficient.
   std::vector<bool> needed(nodes_.size(), false), coefficient(nodes_.size(), false);
   const auto need = [&](Id x) {
@@ -197,6 +194,18 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
   Compiled result;
   std::vector<std::optional<Operand>> place(nodes_.size());
 
+  // The order of the code: what does not wait for a transcendental function comes before it, so that in double a
+  // division, say, overlaps the call.
+  std::vector<int> calls(nodes_.size(), 0);
+  for (Id i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].kind != Kind::operation) continue;
+    calls[i] = calls[nodes_[i].a] + (nodes_[i].op > Op::sqrt ? 1 : 0);
+    if (nodes_[i].op <= Op::multiply) calls[i] = std::max(calls[i], calls[nodes_[i].b]);
+  }
+  std::vector<Id> order(nodes_.size());
+  std::iota(order.begin(), order.end(), Id{0});
+  std::stable_sort(order.begin(), order.end(), [&](Id x, Id y) { return calls[x] < calls[y]; });
+
   // First the coefficients, from the parameters alone.
   std::vector<bool> inside = coefficient;
   for (Id i = nodes_.size(); i-- > 0;) {
@@ -210,7 +219,7 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
     std::vector<Operand> ends;
     // Registers are reused as soon as their last reader has run.
     std::vector<Id> last_use(nodes_.size(), 0);
-    for (Id i = 0; i < nodes_.size(); ++i) {
+    for (const Id i : order) {
       if (!wanted[i] || nodes_[i].kind != Kind::operation || nodes_[i].varies != varying) continue;
       last_use[nodes_[i].a] = i;
       if (nodes_[i].op <= Op::multiply) last_use[nodes_[i].b] = i;
@@ -225,7 +234,7 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
       }
       return *place[x];
     };
-    for (Id i = 0; i < nodes_.size(); ++i) {
+    for (const Id i : order) {
       const Node& node = nodes_[i];
       if (!wanted[i] || node.kind != Kind::operation || node.varies != varying) continue;
       const bool two = node.op <= Op::multiply;

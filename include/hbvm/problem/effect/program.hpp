@@ -4,26 +4,27 @@
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
-#include "hbvm/problem/operation_counts.hpp"
+#include "hbvm/linear/operation_counts.hpp"
 
 namespace hbvm {
+
+/// Where an operand stands: among the inputs, the constants or the temporaries.
+enum class Bank : std::uint8_t { input, constant, temporary };
+struct Operand {
+  Bank bank = Bank::constant;
+  std::uint32_t index = 0;
+};
+struct Instruction {
+  Op op;
+  Operand a, b;
+  std::uint32_t result;  // temporary
+};
 
 /// Straight-line code over registers that hold one number per lane (a node of the quadrature, of a body or pair).
 /// It has no branches and allocates nothing when it runs.
 template <Scalar S>
 class Program {
  public:
-  enum class Bank : std::uint8_t { input, constant, temporary };
-  struct Operand {
-    Bank bank = Bank::constant;
-    std::uint32_t index = 0;
-  };
-  struct Instruction {
-    Op op;
-    Operand a, b;
-    std::uint32_t result;  // temporary
-  };
-
   Program() = default;
   Program(std::vector<S> constants, std::vector<Instruction> instructions, std::vector<Operand> outputs,
           std::uint32_t temporaries)
@@ -31,6 +32,11 @@ class Program {
         instructions_(std::move(instructions)),
         outputs_(std::move(outputs)),
         temporaries_(temporaries) {}
+
+  const std::vector<S>& constants() const { return constants_; }
+  const std::vector<Instruction>& instructions() const { return instructions_; }
+  const std::vector<Operand>& output_operands() const { return outputs_; }
+  std::uint32_t temporaries() const { return temporaries_; }
 
   std::size_t outputs() const { return outputs_.size(); }
   /// True if output i does not depend on the inputs.

@@ -1,4 +1,4 @@
-#include "hbvm/problem/operation_counts.hpp"
+#include "hbvm/linear/operation_counts.hpp"
 
 #include <gtest/gtest.h>
 

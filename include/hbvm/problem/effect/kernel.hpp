@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hbvm/problem/effect/program.hpp"
+#include "hbvm/problem/lanes.hpp"
+
+namespace hbvm {
+
+/// A body, a body and a fixed point, or a pair, with displacement x = q_a + shift or x = q_a - q_b.
+struct KernelSite {
+  Index a;
+  Index b = -1;  ///< -1: none
+  std::array<double, 3> shift{};
+  const double* coefficients = nullptr;
+};
+
+/// A program in double that was compiled with the library: interpreting costs about as much as the arithmetic there,
+/// in more digits it is lost in it. The kernels are printed by effect_kernels from the same traces that are interpreted
+/// elsewhere, and do the same operations in the same order.
+struct Kernel {
+  std::string_view code;  ///< text of the program it was made from
+  /// force += dU/dx of every site in every lane.
+  void (*add_force)(const KernelSite* sites, std::size_t count, Lanes<const double> q, double* force);
+};
+
+/// The program as C++ statements that read x[0 .. dimension) and the coefficients c[...], and write g[...].
+std::string cpp_text(const Program<double>& program, Index dimension);
+
+/// The kernel of this program; none if it was not compiled, as for a rare exponent.
+const Kernel* find_kernel(const Program<double>& program, Index dimension);
+
+/// The site of a displacement; none for the centre of a rigid body, which has more blocks.
+std::optional<KernelSite> kernel_site(const Displacement<double>& x);
+
+}  // namespace hbvm

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+
+#include "hbvm/solver/stage_solver.hpp"
+
+namespace hbvm {
+
+/// Chooses between two solvers, step by step: the preferred one, and the other from the step on in which that fails or
+/// needs more than `slow` sweeps; back again if the other fails.
+template <Scalar S>
+class Automatic final : public StageSolver<S> {
+ public:
+  static constexpr long slow = 25;
+
+  /// In double the fixed point is preferred, whose sweeps are cheaper; in more digits Newton.
+  Automatic(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+
+  long solve(const Vector<S>& q0, const Vector<S>& p0) override;
+  const StageUnknowns<S>& unknowns() const override { return current().unknowns(); }
+  const Vector<S>& position_change() const override { return current().position_change(); }
+  const Vector<S>& momentum_change() const override { return current().momentum_change(); }
+  SolverCounts counts() const override;
+  void measure_time() override;
+
+ private:
+  const StageSolver<S>& current() const { return *solvers_[static_cast<std::size_t>(used_)]; }
+  StageSolver<S>& make(int which);
+
+  const Problem<S>& problem_;
+  const Hbvm<S>& method_;
+  S h_;
+  std::unique_ptr<StageSolver<S>> solvers_[2];
+  int used_ = 0;  ///< 0: fixed point, 1: Newton
+  long last_sweeps_ = 0;
+  bool timed_ = false;
+};
+
+#define HBVM_DECLARE(S) extern template class Automatic<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

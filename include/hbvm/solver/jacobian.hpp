@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "hbvm/linear/lu.hpp"
+#include "hbvm/linear/ordering.hpp"
+#include "hbvm/problem/curvature.hpp"
+#include "hbvm/solver/stage_equations.hpp"
+
+namespace hbvm {
+
+/// The derivative of the StageResidual by gamma and h lambda in double, factored: s (m + nu) unknowns whatever k is.
+///
+/// With W = M^-1, H_n the second derivative of U at the node c_hat_n, L_n = sum_a lambda_a grad^2 g_a and
+/// D_n = (grad^2 g_a W v_n)_a at the node c_n,
+///
+///     d momentum_i   / d gamma_j       = delta_ij - h^2 sum_n (X P_hat^T Omega_hat)_in H_n I_hat_nj W
+///                                                 + h^2 sum_n (X P^T Omega)_in L_n I_nj W
+///     d momentum_i   / d (h lambda_n)  = (X P^T Omega)_in grad g_n
+///     d constraint_n / d gamma_j       = P_nj grad g_n^T W + h I_nj D_n^T W
+///
+/// Unknowns are ordered by the graph of the bodies: for a chain of bodies the matrix is banded, and costs in proportion
+/// to their number. Otherwise it is dense, and Eigen's.
+class Jacobian {
+ public:
+  /// The problem and the method must outlive it.
+  Jacobian(const Problem<double>& problem, const Hbvm<double>& method, double step);
+
+  /// Evaluates and factors at the last nodes of `at`, where the multipliers were `lambda`.
+  /// \return false if it is singular or not finite
+  [[nodiscard]] bool factor(const StageEquations<double>& at, const Matrix<double>& lambda);
+
+  /// Takes the residual to J^-1 residual: its momentum becomes a change of gamma, its constraint one of h lambda.
+  void solve(StageResidual<double>& r);
+
+  Index unknowns() const { return n_; }
+  bool banded() const { return banded_; }
+  std::uint64_t factorisations() const { return factorisations_; }
+
+ private:
+  void assemble(const StageEquations<double>& at, const Matrix<double>& lambda);
+  double& entry(Index i, Index j) { return banded_ ? band_.entry(i, j) : dense_(i, j); }
+  Index of_coordinate(Index j) const { return order_.position[static_cast<std::size_t>(j)] * method_.s; }
+  Index of_multiplier(Index a) const { return order_.position[static_cast<std::size_t>(problem_.m() + a)] * method_.s; }
+
+  const Problem<double>& problem_;
+  const Hbvm<double>& method_;
+  double h_;
+  Curvature curvature_;
+  std::vector<std::vector<std::pair<Index, double>>> W_;  ///< nonzeros of M^-1, row by row
+  Matrix<double> X_hat_, X_projection_;                   ///< X P_hat^T Omega_hat and X P^T Omega
+  Ordering order_;
+  Index n_ = 0;
+  bool banded_ = false;
+  Lu<double> band_;
+  Matrix<double> dense_;
+  Eigen::PartialPivLU<Matrix<double>> dense_lu_;
+  Vector<double> x_, y_;
+  Matrix<double> block_, curved_;
+  std::uint64_t factorisations_ = 0;
+};
+
+}  // namespace hbvm

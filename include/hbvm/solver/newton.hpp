@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hbvm/problem/in_double.hpp"
+#include "hbvm/solver/newton_in_double.hpp"
+
+namespace hbvm {
+
+/// Newton's iteration in mixed precision: the residual in the working precision, the Jacobian and its factors in
+/// double.
+///
+/// The stage equations are first solved in double, and their Jacobian is factored there, at the solution. With it each
+/// sweep then wins about 15 digits, so that the residual of a sweep needs only the digits that its correction can use:
+/// in Mpfr it is evaluated with problem, method and state rounded to a few more digits than are to be won.
+///
+/// The last residual is one of the working precision. It stops when the correction, times the rate at which corrections
+/// fall, is below epsilon/8 of the scale; and fails if they do not fall.
+template <Scalar S>
+class Newton final : public StageSolver<S> {
+ public:
+  Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+
+  long solve(const Vector<S>& q0, const Vector<S>& p0) override;
+  const StageUnknowns<S>& unknowns() const override { return x_; }
+  const Vector<S>& position_change() const override { return position_change_; }
+  const Vector<S>& momentum_change() const override { return momentum_change_; }
+  SolverCounts counts() const override;
+  void measure_time() override;
+
+ private:
+  /// The stage equations in fewer digits.
+  struct Level {
+    Problem<S> problem;
+    Hbvm<S> method;
+    StageEquations<S> equations;
+    StageUnknowns<S> x;
+    StageResidual<S> r;
+    Vector<S> q0, p0;
+    /// To be made within the scope of its digits.
+    Level(const Problem<S>& full_problem, const Hbvm<S>& full_method, const S& step);
+  };
+  struct Rung {
+    unsigned digits;
+    int bits;
+    std::unique_ptr<Level> level;
+  };
+
+  long refine(const Vector<S>& q0, const Vector<S>& p0);
+  /// Residual of x_ with at least so many bits if there are as many: scaled by 2^-exponent into correction_.
+  /// \return whether it was evaluated in the working precision
+  bool residual(long bits, long& exponent);
+  void take_residual(const StageResidual<S>& r, long& exponent);
+  void make_rungs();
+
+  const Problem<S>& problem_;
+  const Hbvm<S>& method_;
+  S h_;
+  long bits_ = significand_bits<S>();
+  std::optional<Problem<double>> rounded_problem_;
+  std::optional<Hbvm<double>> rounded_method_;
+  std::optional<NewtonInDouble> rounded_;
+  Vector<double> rounded_q0_, rounded_p0_;
+  std::optional<StageEquations<S>> equations_;  ///< in double those of rounded_ serve
+  StageUnknowns<S> x_;
+  StageResidual<S> r_;
+  std::vector<Rung> rungs_;
+  StageResidual<double> correction_;
+  Matrix<double> momentum_;
+  Vector<double> change_;
+  Vector<S> position_change_, momentum_change_;
+  double tolerance_bits_;  ///< log2 of the round-off of a sweep over that of one operation
+  double rate_ = -40;      ///< log2 of the rate at which corrections fell last
+  S t_;
+};
+
+#define HBVM_DECLARE(S) extern template class Newton<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

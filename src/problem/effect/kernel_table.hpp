@@ -1,0 +1,12 @@
+#pragma once
+
+#include <span>
+
+#include "hbvm/problem/effect/kernel.hpp"
+
+namespace hbvm {
+
+/// All kernels; defined in the source that effect_kernels prints.
+std::span<const Kernel> kernel_table();
+
+}  // namespace hbvm

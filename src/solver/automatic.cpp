@@ -1,0 +1,61 @@
+#include "hbvm/solver/automatic.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+Automatic<S>::Automatic(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
+    : problem_(problem), method_(method), h_(step), used_(std::same_as<S, double> ? 0 : 1) {
+  make(used_);
+}
+
+template <Scalar S>
+StageSolver<S>& Automatic<S>::make(int which) {
+  std::unique_ptr<StageSolver<S>>& solver = solvers_[static_cast<std::size_t>(which)];
+  if (!solver) {
+    solver = make_solver(which == 0 ? SolverKind::fixed_point : SolverKind::newton, problem_, method_, h_);
+    if (timed_) solver->measure_time();
+  }
+  return *solver;
+}
+
+template <Scalar S>
+long Automatic<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
+  long sweeps = 0;
+  if (used_ == 0 && last_sweeps_ > slow) used_ = 1;
+  last_sweeps_ = 0;
+  try {
+    sweeps = make(used_).solve(q0, p0);
+  } catch (const StageFailure& failure) {
+    const int other = 1 - used_;
+    try {
+      sweeps = failure.sweeps() + make(other).solve(q0, p0);
+    } catch (const StageFailure& second) {
+      throw StageFailure(failure.what() + std::string(" (fixed point and Newton: ") + second.what() + ")",
+                         second.increment(), failure.sweeps() + second.sweeps());
+    }
+    used_ = other;
+    return sweeps;
+  }
+  last_sweeps_ = sweeps;
+  return sweeps;
+}
+
+template <Scalar S>
+SolverCounts Automatic<S>::counts() const {
+  SolverCounts sum;
+  for (const auto& solver : solvers_)
+    if (solver) add_counts(sum, solver->counts(), problem_);
+  return sum;
+}
+
+template <Scalar S>
+void Automatic<S>::measure_time() {
+  timed_ = true;
+  for (const auto& solver : solvers_)
+    if (solver) solver->measure_time();
+}
+
+#define HBVM_DEFINE(S) template class Automatic<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,151 @@
+#include "hbvm/problem/effect/kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/scene/scene.hpp"
+
+namespace hbvm {
+namespace {
+
+using Instance = EffectUse<double>::Instance;
+
+/// U(x) in every lane of a term, by its interpreted gradient program alone.
+Matrix<double> interpreted(const EffectTerm<double>& term, Index dimension, const Matrix<double>& q) {
+  Matrix<double> force = Matrix<double>::Zero(q.rows(), q.cols());
+  for (std::size_t n = 0; n < term.displacements.size(); ++n) {
+    Matrix<double> x(q.rows(), dimension);
+    displace(term.displacements[n], dimension, lanes(q), x.data(), x.rows());
+    Matrix<double> coefficients(q.rows(), term.gradient_coefficients.cols());
+    for (Index i = 0; i < q.rows(); ++i) coefficients.row(i) = term.gradient_coefficients.row(static_cast<Index>(n));
+    std::vector<const double*> inputs;
+    for (Index j = 0; j < dimension; ++j) inputs.push_back(x.data() + j * x.rows());
+    for (Index j = 0; j < coefficients.cols(); ++j) inputs.push_back(coefficients.data() + j * coefficients.rows());
+    Matrix<double> registers = term.gradient.make_registers(q.rows());
+    term.gradient.run(registers, inputs);
+    for (const auto& block : term.displacements[n].blocks)
+      for (Index j = 0; j < dimension; ++j)
+        for (Index i = 0; i < q.rows(); ++i)
+          force(i, block.offset + j) +=
+              block.weight * term.gradient.output(static_cast<std::size_t>(j), i, registers, inputs);
+  }
+  return force;
+}
+
+Instance body(Index offset, Index dimension, std::vector<double> center) {
+  Instance instance;
+  instance.x.blocks = {{offset, 1}};
+  if (!center.empty()) {
+    instance.x.shift.resize(dimension);
+    for (Index j = 0; j < dimension; ++j) instance.x.shift[j] = -center[static_cast<std::size_t>(j)];
+  }
+  instance.mass_matrix = Matrix<double>::Identity(dimension, dimension);
+  instance.masses[0] = 1.5;
+  instance.masses[1] = 0.75;
+  instance.charges[0] = -2;
+  instance.charges[1] = 3;
+  return instance;
+}
+
+Instance pair(Index a, Index b, Index dimension) {
+  Instance instance = body(a, dimension, {});
+  instance.x.blocks.push_back({b, -1});
+  return instance;
+}
+
+Matrix<double> positions(Index lanes, Index m) {
+  Matrix<double> q(lanes, m);
+  for (Index i = 0; i < lanes; ++i)
+    for (Index j = 0; j < m; ++j) q(i, j) = std::sin(1.7 * double(j * j) + 0.3 * double(i)) + 0.4 * double(j);
+  return q;
+}
+
+EffectUse<double> spring(double exponent, double rest_length, Index dimension) {
+  return {"spring",
+          dimension,
+          {{"stiffness", 1.3}, {"rest_length", rest_length}, {"exponent", exponent}},
+          {},
+          {pair(dimension, 0, dimension), pair(0, 2 * dimension, dimension)}};
+}
+
+/// The compiled kernel does the interpreter's operations in its order: equal to the last bit.
+TEST(Kernel, IsTheProgram) {
+  for (const Index d : {2, 3}) {
+    std::vector<EffectUse<double>> uses{
+        {"central_gravity", d, {{"strength", 2.0}}, {}, {body(0, d, {}), body(d, d, {0.25, -3, 1})}},
+        {"mutual_gravity", d, {{"strength", 0.1}}, {}, {pair(0, d, d), pair(2 * d, d, d)}},
+        {"coulomb", d, {{"strength", 7.0}}, {}, {pair(0, d, d), pair(0, 2 * d, d)}},
+        {"lennard_jones", d, {{"depth", 0.3}, {"diameter", 1.1}}, {}, {pair(0, d, d)}},
+        {"radial_cosine", d, {{"strength", 1.0}}, {}, {body(d, d, {}), body(0, d, {1, 1, 1})}},
+        {"trap", d, {{"stiffness", 2.5}, {"exponent", 2.0}}, {}, {body(0, d, {0.5, 0.5, 0.5})}},
+        {"trap", d, {{"stiffness", 2.5}, {"exponent", 4.0}}, {}, {body(2 * d, d, {})}},
+    };
+    for (const double exponent : {2.0, 2.75, 3.0, 4.0})
+      for (const double rest_length : {0.0, 0.9}) uses.push_back(spring(exponent, rest_length, d));
+    for (const double first : {0.0, 0.6}) {
+      std::vector<double> axis(static_cast<std::size_t>(d), first);
+      axis.back() = 0.8;
+      uses.push_back({"oblateness",
+                      d,
+                      {{"strength", 1.2}, {"radius", 0.7}, {"J2", 0.01}},
+                      {{"axis", axis}},
+                      {body(0, d, {}), body(d, d, {1, 2, 3})}});
+    }
+    for (const EffectUse<double>& use : uses) {
+      const Potential<double> potential{d, 3 * d, {make_term(use)}};
+      ASSERT_NE(find_kernel(potential.terms[0].gradient, d), nullptr) << use.kind << " in " << d;
+      for (const Index count : {1, 2, 5, 8}) {
+        PotentialEvaluator<double> evaluator(potential, count);
+        const Matrix<double> q = positions(count, 3 * d);
+        Matrix<double> force;
+        evaluator.varying_force(lanes(q), force);
+        EXPECT_EQ(force, interpreted(potential.terms[0], d, q)) << use.kind << " in " << d << ", lanes " << count;
+      }
+    }
+  }
+}
+
+TEST(Kernel, ARareExponentIsInterpreted) {
+  const Potential<double> potential{2, 6, {make_term(spring(7, 0.5, 2))}};
+  EXPECT_EQ(find_kernel(potential.terms[0].gradient, 2), nullptr);
+  PotentialEvaluator<double> evaluator(potential, 3);
+  const Matrix<double> q = positions(3, 6);
+  Matrix<double> force;
+  evaluator.varying_force(lanes(q), force);
+  EXPECT_EQ(force, interpreted(potential.terms[0], 2, q));
+}
+
+/// A centre of a rigid body, of four blocks, has no site.
+TEST(Kernel, SitesAreBodiesAndPairs) {
+  Displacement<double> x;
+  EXPECT_FALSE(kernel_site(x));
+  x.blocks = {{3, 1}};
+  EXPECT_EQ(kernel_site(x)->a, 3);
+  EXPECT_EQ(kernel_site(x)->b, -1);
+  x.shift = Vector<double>::Constant(2, 0.5);
+  EXPECT_EQ(kernel_site(x)->shift, (std::array{0.5, 0.5, 0.0}));
+  x.blocks.push_back({6, -1});
+  EXPECT_FALSE(kernel_site(x));
+  x.shift.resize(0);
+  EXPECT_EQ(kernel_site(x)->b, 6);
+  x.blocks[1].weight = 0.5;
+  EXPECT_FALSE(kernel_site(x));
+  x.blocks[1].weight = -1;
+  x.blocks.push_back({9, 1});
+  EXPECT_FALSE(kernel_site(x));
+}
+
+TEST(Kernel, EveryShippedSceneUsesThem) {
+  for (const auto& [name, text] : built_in_scenes()) {
+    const auto scene = assemble<double>(load_scene(name));
+    const Potential<double>& potential = scene.problem.potential;
+    for (const EffectTerm<double>& term : potential.terms)
+      if (!term.constant_force) {
+        EXPECT_NE(find_kernel(term.gradient, potential.dimension), nullptr) << name << ": " << term.kind;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
