@@ -1,17 +1,16 @@
-#include <fmt/format.h>
-
-#include "hbvm/scene/project.hpp"
+#include "hbvm/scene/scene.hpp"
 
 namespace hbvm {
 namespace {
 
 std::string quoted(const std::string& text) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
     const auto code = static_cast<unsigned char>(c);
     if (code < ' ' || code == 0x7f)
-      result += fmt::format("\\u{:04X}", code);
+      result += {'\\', 'u', '0', '0', digits[code / 16], digits[code % 16]};
     else
       result += c;
   }

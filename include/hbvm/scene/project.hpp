@@ -11,9 +11,6 @@ namespace hbvm {
 template <Scalar S>
 Scene project(const Scene& scene);
 
-/// A scene as TOML that read_scene takes back.
-std::string write_scene(const Scene& scene);
-
 #define HBVM_DECLARE(S) extern template Scene project<S>(const Scene&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

@@ -93,6 +93,9 @@ struct Scene {
 /// \throws InputError with name, line and what is wrong
 Scene read_scene(const std::string& toml, const std::string& name);
 
+/// A scene as TOML that read_scene takes back.
+std::string write_scene(const Scene& scene);
+
 /// The scene of a file, or a built-in one by its name.
 /// \throws InputError
 Scene load_scene(const std::string& path_or_name);
