@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "toml_flaw.hpp"
+
 namespace hbvm {
 
 TomlSource::TomlSource(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
@@ -19,26 +21,12 @@ void TomlSource::fail(std::size_t line, const std::string& what) const {
   throw InputError(message);
 }
 
-void TomlSource::check_key_depth() const {
-  // The parser recurses into dotted keys without a limit of its own.
-  constexpr int limit = 64;
-  constexpr std::string_view ends = "=\n,[]{}#";  // of a key
-  int dots = 0;
-  std::size_t line = 1;
-  for (const char c : text_) {
-    if (c == '\n') ++line;
-    if (ends.find(c) != std::string_view::npos) dots = 0;
-    if (c == '.') ++dots;
-    if (dots > limit) fail(line, "a dotted key has more than " + std::to_string(limit) + " parts");
-  }
-}
-
 toml::table TomlSource::parse() const {
-  check_key_depth();
   if (const auto mark = text_.find("\xEF\xBB\xBF"); mark != std::string::npos)
     fail(static_cast<std::size_t>(std::upper_bound(line_starts_.begin(), line_starts_.end(), mark) -
                                   line_starts_.begin()),
          "a byte order mark (U+FEFF) stands inside the file");
+  if (const auto flaw = find_flaw(text_)) fail(flaw->line, flaw->what);
   try {
     return toml::parse(text_, name_);
   } catch (const toml::parse_error& error) {
@@ -88,8 +76,7 @@ void TomlTable::missing(const std::vector<std::string>& keys) const {
   for (const auto& [present, value] : table_) {
     if (known_.contains(present.str())) continue;
     const std::string guess = nearest(present.str(), keys);
-    if (!guess.empty())
-      fail(value, "unknown key '" + std::string(present.str()) + "': did you mean '" + guess + "'?");
+    if (!guess.empty()) fail(value, "unknown key '" + std::string(present.str()) + "': did you mean '" + guess + "'?");
   }
   fail("the key '" + keys.front() + "' is missing");
 }

@@ -24,8 +24,6 @@ class TomlSource {
   std::string number_at(const toml::source_position& begin) const;
 
  private:
-  void check_key_depth() const;
-
   std::string text_, name_;
   std::vector<std::size_t> line_starts_;
 };

@@ -295,7 +295,7 @@ TEST(MalformedScenesDeathTest, HugeNestingOfDottedKeys) {
 }
 
 TEST(MalformedScenesDeathTest, HugeNestingOfDottedQuotedKeys) {
-  for (const char* part : {"\"\xC3\xA9\".", "'!'."})
+  for (const char* part : {"\"\xC3\xA9\".", "'!'.", "\"=\".", "'#,'.", "\"\\\"\"."})
     EXPECT_EXIT(std::exit(refusal(repeated(part, 100'000) + "b = 1\n").empty() ? 1 : 0), ::testing::ExitedWithCode(0),
                 "");
 }
@@ -303,6 +303,34 @@ TEST(MalformedScenesDeathTest, HugeNestingOfDottedQuotedKeys) {
 TEST(MalformedScenesDeathTest, HugeNestingOfDottedTableNames) {
   EXPECT_EXIT(std::exit(refusal("[" + repeated("a.", 100'000) + "b]\n").empty() ? 1 : 0), ::testing::ExitedWithCode(0),
               "");
+}
+
+TEST(MalformedScenes, DotsInAStringAreNoDottedKey) {
+  for (const char* quote : {"\"", "'", "\"\"\"", "'''"})
+    EXPECT_EQ(refusal(changed(every_key, "\"made up\"", quote + repeated(".", 100) + quote)), "") << quote;
+}
+
+/// toml++ asks whether they are blanks, and for these reaches a point it declares unreachable.
+TEST(MalformedScenes, CharactersBeyondAsciiStandInStringsAndCommentsOnly) {
+  for (const char* text :
+       {"\xCE\xBC = 1\ndimension = 2\n", "\xC3\xA9", "[\xC3\xA9]", "a = \xCE\xBC", "a.\xC3\xA9 = 1",
+        "a = [ \xE2\x80\x9C ]", "a.\"\xC3\xA9\" = 1", "a = \"\"\"\\\n  \xC3\xA9\"\"\"", "a = \"\"\"\\\xC3\xA9\"\"\""}) {
+    const std::string message = refusal("\n" + std::string(text));
+    EXPECT_NE(message.find("beyond ASCII"), std::string::npos) << text << ": " << message;
+  }
+  for (const char* title : {"\"\xCE\xBC\"", "'\\\xCE\xBC'", "\"\"\"\xC3\xA9\n\xC3\xA9\"\"\"", "'''\xC3\xA9'''",
+                            "\"\"\"\"\xC3\xA9\"\"\"\"\"", "\"\\\"\xC3\xA9\"", "\"\" # \xC3\xA9"})
+    EXPECT_EQ(refusal(changed(every_key, "\"Every key\"", title)), "") << title;
+}
+
+/// Inside a word the parser takes quotes and brackets for characters like others.
+TEST(MalformedScenes, StringsDoNotGoOnAWord) {
+  for (const char* text : {"a = 2\"\xC3\xA9\"", "a = [2=\"\xC3\xA9\"]", "a = 2=\"\xC3\xA9\"", "a = 2[\"\xC3\xA9\"]",
+                           "a = \"b\"\"\xC3\xA9\"", "a = []\"\xC3\xA9\""}) {
+    const std::string message = refusal("\n" + std::string(text));
+    EXPECT_TRUE(message.starts_with("test.toml:2: ")) << text << ": " << message;
+    EXPECT_NE(message.find("does not fit here"), std::string::npos) << text << ": " << message;
+  }
 }
 
 void read_and_assemble(const std::string& text) {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hbvm {
+
+struct TomlFlaw {
+  std::size_t line;
+  std::string what;
+};
+
+/// What a TOML text must not hold because the parser, toml++ 3.3, would recurse into it without a limit or has no
+/// defined behaviour: dotted keys of many parts, and characters beyond ASCII where only names, numbers and punctuation
+/// stand or after a backslash that joins lines.
+std::optional<TomlFlaw> find_flaw(std::string_view text);
+
+}  // namespace hbvm
