@@ -3,16 +3,21 @@
 namespace hbvm {
 namespace {
 
+/// A string in quotes. What may not stand in one as it is, or is refused in a file, is written as its number.
 std::string quoted(const std::string& text) {
-  constexpr std::string_view digits = "0123456789ABCDEF";
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF", digits = "0123456789ABCDEF";
   std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    const auto code = static_cast<unsigned char>(c);
-    if (code < ' ' || code == 0x7f)
-      result += {'\\', 'u', '0', '0', digits[code / 16], digits[code % 16]};
-    else
-      result += c;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (std::string_view(text).substr(i).starts_with(byte_order_mark)) {
+      result += "\\uFEFF";
+      i += byte_order_mark.size() - 1;
+    } else if (c < ' ' || c == 0x7F) {
+      result += {'\\', 'u', '0', '0', digits[c / 16], digits[c % 16]};
+    } else {
+      if (c == '"' || c == '\\') result += '\\';
+      result += text[i];
+    }
   }
   return result + "\"";
 }
