@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hbvm/analysis/choose_k.hpp"
 #include "hbvm/problem/momenta.hpp"
 #include "hbvm/problem/point.hpp"
@@ -47,16 +49,20 @@ std::string describe_in(const Scene& scene) {
   const S H = point.energy(q, p), U = point.energy(q, Vector<S>::Zero(problem.m()));
   line("energy H", to_text(H));
   line("  kinetic, potential", to_text(S(H - U)) + ", " + to_text(U));
-  const std::vector<MomentumComponent> conserved = conserved_momenta(problem, q);
-  const auto momentum_line = [&](const MomentumComponent& component) {
-    bool kept = false;
-    for (const auto& c : conserved) kept = kept || (c.angular == component.angular && c.axis == component.axis);
-    line(component.name(),
-         to_text(momentum(problem, component, q, p)) +
-             (kept ? component.angular ? "  conserved by the motion, and by k = s" : "  conserved" : ""));
+  std::vector<MomentumComponent<S>> components = coordinate_momenta(problem);
+  const std::vector<MomentumComponent<S>> conserved = conserved_momenta(problem, q);
+  const auto same_name_in = [](const std::vector<MomentumComponent<S>>& list, const MomentumComponent<S>& component) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& c) { return c.name() == component.name(); });
   };
-  for (int axis = 0; axis < scene.dimension; ++axis) momentum_line({false, axis});
-  for (int axis = scene.dimension == 2 ? 2 : 0; axis < 3; ++axis) momentum_line({true, axis});
+  for (const auto& component : conserved)
+    if (!same_name_in(components, component)) components.push_back(component);
+  for (const auto& component : components) {
+    const bool kept = same_name_in(conserved, component);
+    line(component.name(), to_text(momentum(problem, component, q, p).value) +
+                               (!kept                   ? ""
+                                : component.is_linear() ? "  conserved"
+                                                        : "  conserved by the motion, and by k = s"));
+  }
   return text;
 }
 

@@ -35,11 +35,11 @@ std::vector<std::string> texts(const Vector<S>& v) {
 
 /// The conserved components of the momenta that the scene names.
 template <Scalar S>
-std::vector<MomentumComponent> observed_momenta(const Scene& text, const Assembled<S>& scene) {
+std::vector<MomentumComponent<S>> observed_momenta(const Scene& text, const Assembled<S>& scene) {
   const bool linear = text.observes("linear_momentum"), angular = text.observes("angular_momentum");
   if (!linear && !angular) return {};
-  std::vector<MomentumComponent> components = conserved_momenta(scene.problem, scene.q0);
-  std::erase_if(components, [&](const MomentumComponent& c) { return c.angular ? !angular : !linear; });
+  std::vector<MomentumComponent<S>> components = conserved_momenta(scene.problem, scene.q0);
+  std::erase_if(components, [&](const MomentumComponent<S>& c) { return c.is_linear() ? !linear : !angular; });
   return components;
 }
 

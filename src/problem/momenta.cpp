@@ -1,5 +1,7 @@
 #include "hbvm/problem/momenta.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "hbvm/problem/constraint_gradient.hpp"
@@ -7,19 +9,20 @@
 namespace hbvm {
 namespace {
 
-/// How the symmetry moves coordinates q: the axis itself for what translates, axis x q_block for a rotation.
+/// How the symmetry moves coordinates q: linear + angular x q_block, without `linear` for what does not translate.
 template <Scalar S>
-Vector<S> generator(const Problem<S>& problem, const MomentumComponent& component, const Vector<S>& q) {
+Vector<S> generator(const Problem<S>& problem, const MomentumComponent<S>& component, const Vector<S>& q) {
   Vector<S> xi = Vector<S>::Zero(problem.m());
-  const Index d = problem.dimension;
+  const Vector<S>& w = component.angular;
+  const bool plane = w.size() == 1;
   for (const SpaceBlock& block : problem.blocks) {
-    if (!component.angular) {
-      if (block.translates) xi[block.offset + component.axis] = 1;
-      continue;
+    for (Index i = 0; block.translates && i < component.linear.size(); ++i) xi[block.offset + i] = component.linear[i];
+    for (Index axis = 0; axis < w.size(); ++axis) {
+      if (w[axis] == 0) continue;
+      const Index i = plane ? 0 : (axis + 1) % 3, j = plane ? 1 : (axis + 2) % 3;
+      xi[block.offset + i] -= w[axis] * q[block.offset + j];
+      xi[block.offset + j] += w[axis] * q[block.offset + i];
     }
-    const Index i = d == 2 ? 0 : (component.axis + 1) % 3, j = d == 2 ? 1 : (component.axis + 2) % 3;
-    xi[block.offset + i] = -q[block.offset + j];
-    xi[block.offset + j] = q[block.offset + i];
   }
   return xi;
 }
@@ -38,82 +41,225 @@ class Sequence {
 };
 
 template <Scalar S>
-struct Pairing {
-  S sum = 0, size = 0;
-};
-
-template <Scalar S>
-Pairing<S> pair(const Vector<S>& a, const Vector<S>& b) {
-  Pairing<S> r;
+MomentumValue<S> pair(const Vector<S>& a, const Vector<S>& b) {
+  MomentumValue<S> r;
   for (Index i = 0; i < a.size(); ++i) {
-    r.sum += a[i] * b[i];
-    r.size += magnitude(S(a[i] * b[i]));
+    const S term = a[i] * b[i];
+    r.value += term;
+    r.size += magnitude(term);
   }
   return r;
+}
+
+/// The largest entry of rows first and below, and columns first and to the right.
+template <Scalar S>
+std::pair<Index, Index> largest_entry(const Matrix<S>& a, Index first) {
+  std::pair<Index, Index> at(first, first);
+  for (Index j = first; j < a.cols(); ++j)
+    for (Index i = first; i < a.rows(); ++i)
+      if (magnitude(a(i, j)) > magnitude(a(at.first, at.second))) at = {i, j};
+  return at;
+}
+
+/// Subtracts multiples of row `pivot` from all others so that column `column` is 0 there.
+template <Scalar S>
+void clear_column(Matrix<S>& a, Index pivot, Index column) {
+  for (Index i = 0; i < a.rows(); ++i) {
+    if (i == pivot || a(i, column) == 0) continue;
+    const S factor = a(i, column) / a(pivot, column);
+    for (Index j = 0; j < a.cols(); ++j) a(i, j) -= factor * a(pivot, j);
+    a(i, column) = 0;
+  }
+}
+
+/// The rows of the result span the null space of a, by elimination with complete pivoting; entries of rows left over
+/// count as 0 up to the tolerance.
+template <Scalar S>
+Matrix<S> null_space(Matrix<S> a, const S& tolerance) {
+  std::vector<Index> place(static_cast<std::size_t>(a.cols()));  // of each column before the exchanges
+  for (Index j = 0; j < a.cols(); ++j) place[static_cast<std::size_t>(j)] = j;
+  Index rank = 0;
+  for (; rank < std::min(a.rows(), a.cols()); ++rank) {
+    const auto [i, j] = largest_entry(a, rank);
+    if (!(magnitude(a(i, j)) > tolerance)) break;
+    a.row(i).swap(a.row(rank));
+    a.col(j).swap(a.col(rank));
+    std::swap(place[static_cast<std::size_t>(j)], place[static_cast<std::size_t>(rank)]);
+    clear_column(a, rank, rank);
+  }
+  Matrix<S> result = Matrix<S>::Zero(a.cols() - rank, a.cols());
+  for (Index n = 0; n < result.rows(); ++n) {
+    result(n, place[static_cast<std::size_t>(rank + n)]) = 1;
+    for (Index i = 0; i < rank; ++i) result(n, place[static_cast<std::size_t>(i)]) = -a(i, rank + n) / a(i, i);
+  }
+  return result;
+}
+
+/// The fraction with a small denominator that x is but for round-off, or x.
+template <Scalar S>
+S near_fraction(const S& x, const S& tolerance) {
+  using std::floor;
+  for (int denominator = 1; denominator <= 20; ++denominator) {
+    const S multiple = x * denominator, whole = floor(S(multiple + S(1) / 2));
+    if (magnitude(S(multiple - whole)) <= tolerance) return whole / denominator;
+  }
+  return x;
+}
+
+/// The reduced echelon form, its fractions freed of round-off.
+template <Scalar S>
+void reduce(Matrix<S>& a, const S& tolerance) {
+  Index row = 0;
+  for (Index column = 0; column < a.cols() && row < a.rows(); ++column) {
+    Index pivot = row;
+    for (Index i = row; i < a.rows(); ++i)
+      if (magnitude(a(i, column)) > magnitude(a(pivot, column))) pivot = i;
+    if (!(magnitude(a(pivot, column)) > tolerance)) continue;
+    a.row(pivot).swap(a.row(row));
+    const S lead = a(row, column);
+    for (Index j = 0; j < a.cols(); ++j) a(row, j) = a(row, j) / lead;
+    clear_column(a, row, column);
+    ++row;
+  }
+  for (Index i = 0; i < a.size(); ++i) a.data()[i] = near_fraction(a.data()[i], tolerance);
 }
 
 }  // namespace
 
 template <Scalar S>
-S momentum(const Problem<S>& problem, const MomentumComponent& component, const Vector<S>& q, const Vector<S>& p) {
-  return pair<S>(generator(problem, component, q), p).sum;
+std::string MomentumComponent<S>::name() const {
+  std::string text;
+  const auto add = [&](const Vector<S>& coefficients, const char* what, Index first_axis) {
+    for (Index i = 0; i < coefficients.size(); ++i) {
+      const double c = approximately(coefficients[i]);
+      if (c == 0) continue;
+      text += text.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
+      if (c != 1 && c != -1) text += fmt::format("{:.6g} ", c < 0 ? -c : c);
+      text += std::string(what) + "xyz"[first_axis + i];
+    }
+  };
+  add(angular, "L_", angular.size() == 1 ? 2 : 0);
+  add(linear, "P_", 0);
+  return text;
 }
 
 template <Scalar S>
-std::vector<MomentumComponent> conserved_momenta(const Problem<S>& problem, const Vector<S>& q) {
-  const Index m = problem.m(), d = problem.dimension;
-  std::vector<MomentumComponent> candidates;
+std::vector<MomentumComponent<S>> coordinate_momenta(const Problem<S>& problem) {
+  const Index d = problem.dimension, rotations = d == 2 ? 1 : 3;
   const bool translates = std::any_of(problem.blocks.begin(), problem.blocks.end(),
                                       [](const SpaceBlock& block) { return block.translates; });
-  for (int axis = 0; translates && axis < d; ++axis) candidates.push_back({false, axis});
-  for (int axis = d == 2 ? 2 : 0; axis < 3; ++axis) candidates.push_back({true, axis});
+  std::vector<MomentumComponent<S>> components;
+  const MomentumComponent<S> none{Vector<S>::Zero(rotations), Vector<S>::Zero(d)};
+  for (Index i = 0; translates && i < d; ++i) {
+    components.push_back(none);
+    components.back().linear[i] = 1;
+  }
+  for (Index i = 0; i < rotations; ++i) {
+    components.push_back(none);
+    components.back().angular[i] = 1;
+  }
+  return components;
+}
 
+template <Scalar S>
+MomentumValue<S> momentum(const Problem<S>& problem, const MomentumComponent<S>& component, const Vector<S>& q,
+                          const Vector<S>& p) {
+  return pair<S>(generator(problem, component, q), p);
+}
+
+namespace {
+
+/// One row for each condition: by how much each component's symmetry changes U, a constraint or the kinetic energy at
+/// points near q, over the size of that change's terms.
+template <Scalar S>
+Matrix<S> conditions(const Problem<S>& problem, const std::vector<MomentumComponent<S>>& components,
+                     const Vector<S>& q) {
+  constexpr int points = 8;  // more than components
+  const Index m = problem.m(), nu = problem.nu(), columns = static_cast<Index>(components.size());
+  Matrix<S> rows = Matrix<S>::Zero(points * (nu + 2), columns);
   ConstraintGradient<S> gradient(problem, 1);
   PotentialEvaluator<S> potential(problem.potential, 1);
   Matrix<S> force(1, m);
   Sequence<S> sequence;
-  // Displacements are differences, and forces may amplify their round-off.
-  const S tolerance = S(static_cast<long>(100'000 * m)) * epsilon<S>();
   S scale = max_norm(q);
   if (scale == 0) scale = 1;
-  for (int trial = 0; trial < 3; ++trial) {
-    Vector<S> x = q, p(m);
+  Index row = 0;
+  for (int point = 0; point < points; ++point) {
+    Vector<S> x = q, p(m), v(m);
     for (Index i = 0; i < m; ++i) {
       x[i] += scale * sequence.next() / 64;
       p[i] = sequence.next();
     }
+    problem.mass.velocity(lanes(p), lanes(v));
     gradient.update(lanes(x));
     Vector<S> f = potential.constant_force();
     if (potential.has_varying_force()) {
       potential.varying_force(lanes(x), force);
       f += force.row(0).transpose();
     }
-    Vector<S> v(m);
-    problem.mass.velocity(lanes(p), lanes(v));
-    std::erase_if(candidates, [&](const MomentumComponent& component) {
-      const Vector<S> xi = generator(problem, component, x);
-      const Pairing<S> work = pair(f, xi);
-      if (magnitude(work.sum) > tolerance * (work.size + max_norm(f) * max_norm(xi))) return true;
-      for (Index a = 0; a < problem.nu(); ++a) {
-        S change;
-        gradient.transposed_times(0, a, lanes(xi), change);
-        Matrix<S> unit = Matrix<S>::Zero(1, problem.nu());
-        unit(0, a) = 1;
-        Vector<S> g = Vector<S>::Zero(m);
-        gradient.add_times(unit, lanes(g));
-        if (magnitude(change) > tolerance * max_norm(g) * max_norm(xi)) return true;
-      }
-      if (!component.angular) return false;
-      const Pairing<S> kinetic = pair<S>(generator(problem, component, p), v);
-      return magnitude(kinetic.sum) > tolerance * kinetic.size;
-    });
+    std::vector<Vector<S>> moves;
+    S reach = 0;
+    for (const auto& component : components) {
+      moves.push_back(generator(problem, component, x));
+      raise_to(reach, max_norm(moves.back()));
+    }
+    const auto condition = [&](const Vector<S>& slope) {
+      const S size = max_norm(slope) * reach;
+      for (Index j = 0; j < columns && size > 0; ++j)
+        rows(row, j) = pair(slope, moves[static_cast<std::size_t>(j)]).value / size;
+      ++row;
+    };
+    condition(f);
+    for (Index a = 0; a < nu; ++a) {
+      Matrix<S> unit = Matrix<S>::Zero(1, nu);
+      unit(0, a) = 1;
+      Vector<S> slope = Vector<S>::Zero(m);
+      gradient.add_times(unit, lanes(slope));
+      condition(slope);
+    }
+    // Momenta turn with space, and do not translate.
+    const S size = max_norm(p) * max_norm(v);
+    for (Index j = 0; j < columns; ++j) {
+      const MomentumComponent<S>& component = components[static_cast<std::size_t>(j)];
+      if (component.is_linear()) continue;
+      rows(row, j) = pair<S>(generator(problem, component, p), v).value / size;
+    }
+    ++row;
   }
-  return candidates;
+  return rows;
 }
 
-#define HBVM_DEFINE(S)                                                                                     \
-  template S momentum<S>(const Problem<S>&, const MomentumComponent&, const Vector<S>&, const Vector<S>&); \
-  template std::vector<MomentumComponent> conserved_momenta<S>(const Problem<S>&, const Vector<S>&);
+}  // namespace
+
+template <Scalar S>
+std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem, const Vector<S>& q) {
+  std::vector<MomentumComponent<S>> components = coordinate_momenta(problem);
+  // Rotations lead, so that an angular momentum about another point reads L_z + ... P.
+  std::stable_partition(components.begin(), components.end(), [](const auto& c) { return !c.is_linear(); });
+  // Displacements are differences, and forces may amplify their round-off.
+  const S tolerance = S(static_cast<long>(100'000 * problem.m())) * epsilon<S>();
+  Matrix<S> basis = null_space(conditions(problem, components, q), tolerance);
+  reduce(basis, tolerance);
+  std::vector<MomentumComponent<S>> result;
+  for (Index n = 0; n < basis.rows(); ++n) {
+    MomentumComponent<S> sum{Vector<S>::Zero(components[0].angular.size()), Vector<S>::Zero(problem.dimension)};
+    for (Index j = 0; j < basis.cols(); ++j) {
+      const MomentumComponent<S>& component = components[static_cast<std::size_t>(j)];
+      sum.angular += basis(n, j) * component.angular;
+      sum.linear += basis(n, j) * component.linear;
+    }
+    result.push_back(std::move(sum));
+  }
+  std::stable_partition(result.begin(), result.end(), [](const auto& c) { return c.is_linear(); });
+  return result;
+}
+
+#define HBVM_DEFINE(S)                                                                                    \
+  template struct MomentumComponent<S>;                                                                   \
+  template std::vector<MomentumComponent<S>> coordinate_momenta<S>(const Problem<S>&);                    \
+  template MomentumValue<S> momentum<S>(const Problem<S>&, const MomentumComponent<S>&, const Vector<S>&, \
+                                        const Vector<S>&);                                                \
+  template std::vector<MomentumComponent<S>> conserved_momenta<S>(const Problem<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

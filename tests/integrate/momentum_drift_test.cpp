@@ -33,7 +33,8 @@ TYPED_TEST(MomentumDriftTest, IsTheGreatestChangeSinceTheStart) {
   problem.dimension = 2;
   problem.mass.add_scalar(2, S(1));
   problem.blocks = {{0, true}};
-  MomentumDrift<S> drift(problem, {{false, 1}, {true, 2}});
+  const auto axes = coordinate_momenta(problem);
+  MomentumDrift<S> drift(problem, {axes[1], axes[2]});
   Snapshot<S> snapshot;
   snapshot.q = Vector<S>::Unit(2, 0);
   snapshot.p = Vector<S>::Zero(2);

@@ -31,36 +31,54 @@ class Momenta : public ::testing::Test {
     return problem;
   }
 
-  static std::string conserved(const std::string& text) {
-    const auto scene = assemble<S>(read_scene(text, "test.toml"));
-    std::string names;
-    for (const auto& component : conserved_momenta(scene.problem, scene.q0))
-      names += (names.empty() ? "" : " ") + component.name();
-    return names;
+  static std::vector<S> along_axes(const Problem<S>& problem, const Vector<S>& q, const Vector<S>& p) {
+    std::vector<S> values;
+    for (const auto& component : coordinate_momenta(problem))
+      values.push_back(momentum(problem, component, q, p).value);
+    return values;
   }
+
+  static std::string names(const std::vector<MomentumComponent<S>>& components) {
+    std::string text;
+    for (const auto& component : components) text += (text.empty() ? "" : ", ") + component.name();
+    return text;
+  }
+  static std::string conserved(const Scene& text) {
+    const auto scene = assemble<S>(text);
+    return names(conserved_momenta(scene.problem, scene.q0));
+  }
+  static std::string conserved(const std::string& text) { return conserved(read_scene(text, "test.toml")); }
 };
 TYPED_TEST_SUITE(Momenta, AllScalars, ScalarNames);
 
 TYPED_TEST(Momenta, OfTwoBodiesInThePlane) {
   const auto problem = this->free_bodies(2, 2);
-  const auto q = this->vector({1, 2, 3, 5}), p = this->vector({7, 11, 13, 17});
-  EXPECT_EQ(momentum(problem, {false, 0}, q, p), 7 + 13);
-  EXPECT_EQ(momentum(problem, {false, 1}, q, p), 11 + 17);
-  EXPECT_EQ(momentum(problem, {true, 2}, q, p), (1 * 11 - 2 * 7) + (3 * 17 - 5 * 13));
+  const auto P_and_L = this->along_axes(problem, this->vector({1, 2, 3, 5}), this->vector({7, 11, 13, 17}));
+  EXPECT_EQ(P_and_L, (std::vector<TypeParam>{7 + 13, 11 + 17, (1 * 11 - 2 * 7) + (3 * 17 - 5 * 13)}));
 }
 
 TYPED_TEST(Momenta, OfABodyInSpaceIsTheCrossProduct) {
   const auto problem = this->free_bodies(3, 1);
-  const auto q = this->vector({1, 2, 3}), p = this->vector({4, 5, 7});
-  EXPECT_EQ(momentum(problem, {true, 0}, q, p), 2 * 7 - 3 * 5);
-  EXPECT_EQ(momentum(problem, {true, 1}, q, p), 3 * 4 - 1 * 7);
-  EXPECT_EQ(momentum(problem, {true, 2}, q, p), 1 * 5 - 2 * 4);
+  const auto P_and_L = this->along_axes(problem, this->vector({1, 2, 3}), this->vector({4, 5, 7}));
+  EXPECT_EQ(P_and_L, (std::vector<TypeParam>{4, 5, 7, 2 * 7 - 3 * 5, 3 * 4 - 1 * 7, 1 * 5 - 2 * 4}));
+}
+
+TYPED_TEST(Momenta, AboutAnyAxisIsTheSumOfThoseAlongTheCoordinateAxes) {
+  const auto problem = this->free_bodies(3, 1);
+  const MomentumComponent<TypeParam> sum{this->vector({2, 2, 2}), this->vector({-1, -1, -1})};
+  EXPECT_EQ(sum.name(), "2 L_x + 2 L_y + 2 L_z - P_x - P_y - P_z");
+  EXPECT_EQ(momentum(problem, sum, this->vector({1, 2, 3}), this->vector({4, 5, 7})).value,
+            2 * ((2 * 7 - 3 * 5) + (3 * 4 - 1 * 7) + (1 * 5 - 2 * 4)) - (4 + 5 + 7));
 }
 
 TYPED_TEST(Momenta, AreNamedByAxis) {
-  EXPECT_EQ((MomentumComponent{false, 0}.name()), "P_x");
-  EXPECT_EQ((MomentumComponent{false, 2}.name()), "P_z");
-  EXPECT_EQ((MomentumComponent{true, 1}.name()), "L_y");
+  EXPECT_EQ(this->names(coordinate_momenta(this->free_bodies(2, 1))), "P_x, P_y, L_z");
+  EXPECT_EQ(this->names(coordinate_momenta(this->free_bodies(3, 1))), "P_x, P_y, P_z, L_x, L_y, L_z");
+}
+
+TYPED_TEST(Momenta, OfAFixedRigidBodyIsAngularOnly) {
+  const auto scene = assemble<TypeParam>(load_scene("heavy_top"));
+  EXPECT_EQ(this->names(coordinate_momenta(scene.problem)), "L_x, L_y, L_z");
 }
 
 /// The same body as four points of mass 1, 2, 3 and 4 of a turned, moving body frame.
@@ -98,12 +116,14 @@ angular_velocity = [1, 2, -3]
     for (int j = 0; j < 3; ++j) L[j] += x[(j + 1) % 3] * p[(j + 2) % 3] - x[(j + 2) % 3] * p[(j + 1) % 3];
   }
   const auto scene = assemble<S>(read_scene(text, "test.toml"));
+  const auto P_and_L = this->along_axes(scene.problem, scene.q0, scene.p0);
+  ASSERT_EQ(P_and_L.size(), 6u);
   for (int axis = 0; axis < 3; ++axis) {
     const S tolerance = 1'000 * epsilon<S>();
-    EXPECT_LE(magnitude(S(momentum(scene.problem, {false, axis}, scene.q0, scene.p0) - P[axis])), tolerance) << axis;
-    EXPECT_LE(magnitude(S(momentum(scene.problem, {true, axis}, scene.q0, scene.p0) - L[axis])), tolerance) << axis;
+    EXPECT_LE(magnitude(S(P_and_L[axis] - P[axis])), tolerance) << axis;
+    EXPECT_LE(magnitude(S(P_and_L[axis + 3] - L[axis])), tolerance) << axis;
   }
-  EXPECT_EQ(this->conserved(text), "P_x P_y P_z L_x L_y L_z");
+  EXPECT_EQ(this->conserved(text), "P_x, P_y, P_z, L_x, L_y, L_z");
 }
 
 const std::string plane_pair = R"(dimension = 2
@@ -126,20 +146,20 @@ std::string constraint(const std::string& kind, const std::string& keys) {
 TYPED_TEST(Momenta, ConservedInThePlane) {
   const std::string gravity = effect("uniform_gravity", "acceleration = [0, -1]"),
                     mutual = effect("mutual_gravity", "strength = 1"), trap = "stiffness = 1\nexponent = 2\ncenter = ";
-  EXPECT_EQ(this->conserved(plane_pair), "P_x P_y L_z");
-  EXPECT_EQ(this->conserved(plane_pair + mutual), "P_x P_y L_z");
+  EXPECT_EQ(this->conserved(plane_pair), "P_x, P_y, L_z");
+  EXPECT_EQ(this->conserved(plane_pair + mutual), "P_x, P_y, L_z");
   EXPECT_EQ(this->conserved(plane_pair + gravity + mutual), "P_x");
   EXPECT_EQ(this->conserved(plane_pair + mutual + effect("trap", trap + "\"O\"")), "L_z");
-  EXPECT_EQ(this->conserved(plane_pair + mutual + effect("trap", trap + "\"A\"")), "");
+  EXPECT_EQ(this->conserved(plane_pair + mutual + effect("trap", trap + "\"A\"")), "L_z + 3 P_x");
   EXPECT_EQ(this->conserved(plane_pair + effect("trap", trap + "\"O\"\non = [\"a\"]")), "L_z");
   EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"a\", \"b\"]\nlength = \"sqrt(5)/2\"")),
-            "P_x P_y L_z");
+            "P_x, P_y, L_z");
   EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"a\", \"O\"]\nlength = 1")), "L_z");
-  EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"b\", \"A\"]\nlength = 2.5")), "");
+  EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"b\", \"A\"]\nlength = 2.5")), "L_z + 3 P_x");
   EXPECT_EQ(this->conserved(plane_pair + constraint("plane", "body = \"a\"\nnormal = [0, 2]\noffset = 0")), "P_x");
   EXPECT_EQ(this->conserved(plane_pair +
                             constraint("angle", "first = [\"a\", \"b\"]\nsecond = [\"b\", \"a\"]\nvalue = -1.25")),
-            "P_x P_y L_z");
+            "P_x, P_y, L_z");
 }
 
 TYPED_TEST(Momenta, ConservedInSpace) {
@@ -148,18 +168,18 @@ TYPED_TEST(Momenta, ConservedInSpace) {
   };
   const std::string gravity = effect("uniform_gravity", "acceleration = [0, 0, -1]"),
                     pull = "strength = 1\ncenter = ", sphere = quadric("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]", "-1");
-  EXPECT_EQ(this->conserved(space_body), "P_x P_y P_z L_x L_y L_z");
-  EXPECT_EQ(this->conserved(space_body + gravity), "P_x P_y L_z");
-  EXPECT_EQ(this->conserved(space_body + effect("central_gravity", pull + "\"O\"")), "L_x L_y L_z");
-  EXPECT_EQ(this->conserved(space_body + effect("central_gravity", pull + "\"A\"")), "L_z");
+  EXPECT_EQ(this->conserved(space_body), "P_x, P_y, P_z, L_x, L_y, L_z");
+  EXPECT_EQ(this->conserved(space_body + gravity), "P_x, P_y, L_z");
+  EXPECT_EQ(this->conserved(space_body + effect("central_gravity", pull + "\"O\"")), "L_x, L_y, L_z");
+  EXPECT_EQ(this->conserved(space_body + effect("central_gravity", pull + "\"A\"")), "L_x + 3 P_y, L_y - 3 P_x, L_z");
   EXPECT_EQ(
       this->conserved(space_body + effect("central_gravity", pull + "\"A\"") + effect("radial_cosine", pull + "\"O\"")),
       "L_z");
-  EXPECT_EQ(this->conserved(space_body + sphere), "L_x L_y L_z");
+  EXPECT_EQ(this->conserved(space_body + sphere), "L_x, L_y, L_z");
   EXPECT_EQ(this->conserved(space_body + sphere + gravity), "L_z");
   EXPECT_EQ(this->conserved(space_body + quadric("[[2, 0, 0], [0, 1, 0], [0, 0, 1]]", "-13/9")), "L_x");
   EXPECT_EQ(this->conserved(space_body + quadric("[[2, 0, 0], [0, 1, 0], [0, 0, 3]]", "-21/9")), "");
-  EXPECT_EQ(this->conserved(space_body + quadric("[[1, 0, 0], [0, 1, 0], [0, 0, 0]]", "-5/9")), "P_z L_z");
+  EXPECT_EQ(this->conserved(space_body + quadric("[[1, 0, 0], [0, 1, 0], [0, 0, 0]]", "-5/9")), "P_z, L_z");
   EXPECT_EQ(this->conserved(space_body + effect("oblateness", pull + "\"O\"\nradius = 1\nJ2 = 1\naxis = [0, 1, 0]")),
             "L_y");
 }
@@ -170,9 +190,9 @@ TYPED_TEST(Momenta, ConservedWithAMassMatrix) {
     return "dimension = " + std::string(zeros == "[0, 0]" ? "2" : "3") + "\nbody = [{ name = \"a\", mass = " + mass +
            ", position = " + zeros + ", velocity = " + zeros + " }]\n";
   };
-  EXPECT_EQ(this->conserved(body("[[3, 0], [0, 3]]", "[0, 0]")), "P_x P_y L_z");
-  EXPECT_EQ(this->conserved(body("[[3, 1], [1, 3]]", "[0, 0]")), "P_x P_y");
-  EXPECT_EQ(this->conserved(body("[[3, 0, 0], [0, 2, 0], [0, 0, 3]]", "[0, 0, 0]")), "P_x P_y P_z L_y");
+  EXPECT_EQ(this->conserved(body("[[3, 0], [0, 3]]", "[0, 0]")), "P_x, P_y, L_z");
+  EXPECT_EQ(this->conserved(body("[[3, 1], [1, 3]]", "[0, 0]")), "P_x, P_y");
+  EXPECT_EQ(this->conserved(body("[[3, 0, 0], [0, 2, 0], [0, 0, 3]]", "[0, 0, 0]")), "P_x, P_y, P_z, L_y");
 }
 
 TYPED_TEST(Momenta, ConservedByRigidBodies) {
@@ -186,9 +206,30 @@ second_moment = [[1, 0, 0], [0, 2, "1/3"], [0, "1/3", 3]]
 directors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
 angular_velocity = [1, 2, 3]
 )";
-  EXPECT_EQ(this->conserved(top), "L_x L_y L_z");
+  EXPECT_EQ(this->conserved(top), "L_x, L_y, L_z");
   EXPECT_EQ(this->conserved(top + effect("uniform_gravity", "acceleration = [0, -2, 0]")), "L_y");
-  EXPECT_EQ(this->conserved(top + effect("uniform_gravity", "acceleration = [0, -2, 1]")), "");
+  EXPECT_EQ(this->conserved(top + effect("uniform_gravity", "acceleration = [0, -2, 1]")), "L_y - 0.5 L_z");
+}
+
+TYPED_TEST(Momenta, ConservedByScenesAboutCoordinateAxes) {
+  EXPECT_EQ(this->conserved(load_scene("kepler")), "L_z");
+  EXPECT_EQ(this->conserved(load_scene("heavy_top")), "L_z");
+  EXPECT_EQ(this->conserved(load_scene("fekete_points")), "L_x, L_y, L_z");
+  EXPECT_EQ(this->conserved(load_scene("free_rigid_body")), "P_x, P_y, P_z, L_x, L_y, L_z");
+  EXPECT_EQ(this->conserved(load_scene("charged_tetrahedron")), "P_x, P_y, P_z, L_x, L_y, L_z");
+  EXPECT_EQ(this->conserved(load_scene("bead_on_ellipsoid")), "");
+}
+
+TYPED_TEST(Momenta, ConservedByScenesAboutObliqueAxes) {
+  EXPECT_EQ(this->conserved(load_scene("satellites_with_oblateness")), "L_x + 1.5 L_y + 3 L_z");
+  EXPECT_EQ(this->conserved(load_scene("spring_and_plane")), "P_x - P_z, P_y - 0.5 P_z, L_x + 0.5 L_y + L_z");
+}
+
+/// (q - c) x p = L_z + c_y P_x - c_x P_y.
+TYPED_TEST(Momenta, ConservedAboutAnotherPoint) {
+  Scene scene = load_scene("kepler");
+  scene.points[0].position = {Expression::parse("1"), Expression::parse("-2.25")};
+  EXPECT_EQ(this->conserved(scene), "L_z - 2.25 P_x - P_y");
 }
 
 }  // namespace

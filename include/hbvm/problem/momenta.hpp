@@ -7,26 +7,45 @@
 
 namespace hbvm {
 
-/// A component of linear or angular momentum (about the origin): P_x, L_z …
+/// A component of momentum, linear.P + angular.L: P = sum p over what translates with space, L = sum q x p, about the
+/// origin, over all blocks of coordinates. With both parts it is an angular momentum about another point (or a
+/// screw's).
+template <Scalar S>
 struct MomentumComponent {
-  bool angular = false;
-  int axis = 0;  ///< of P: 0, 1, 2; of L: the axis of rotation (2 in the plane)
-  std::string name() const { return std::string(angular ? "L_" : "P_") + "xyz"[axis]; }
+  Vector<S> angular;  ///< three entries; in the plane one, about z
+  Vector<S> linear;   ///< one a dimension
+
+  bool is_linear() const { return max_norm(angular) == 0; }
+  /// "P_x", "L_x + 1.5 L_y + 3 L_z".
+  std::string name() const;
 };
 
-/// Its value: P = sum p over what translates with space, L = sum q x p over all blocks of coordinates.
+/// P_x, P_y … (if something translates) and L_x … or L_z alone.
 template <Scalar S>
-S momentum(const Problem<S>& problem, const MomentumComponent& component, const Vector<S>& q, const Vector<S>& p);
+std::vector<MomentumComponent<S>> coordinate_momenta(const Problem<S>& problem);
 
-/// The components that the problem conserves because of a symmetry: translation along an axis, or rotation about one
-/// through the origin, changes neither U nor g nor the kinetic energy. Decided by the derivatives along the symmetry at
-/// several points near q, which vanish but for round-off only if it is one.
+/// Its value, and the sum of the magnitudes of its terms, which its round-off is proportional to.
 template <Scalar S>
-std::vector<MomentumComponent> conserved_momenta(const Problem<S>& problem, const Vector<S>& q);
+struct MomentumValue {
+  S value = 0, size = 0;
+};
+template <Scalar S>
+MomentumValue<S> momentum(const Problem<S>& problem, const MomentumComponent<S>& component, const Vector<S>& q,
+                          const Vector<S>& p);
 
-#define HBVM_DECLARE(S)                                                                                           \
-  extern template S momentum<S>(const Problem<S>&, const MomentumComponent&, const Vector<S>&, const Vector<S>&); \
-  extern template std::vector<MomentumComponent> conserved_momenta<S>(const Problem<S>&, const Vector<S>&);
+/// A basis of the components that the problem conserves because of a symmetry: the translation, rotation or screw along
+/// it changes neither U nor g nor the kinetic energy. They are those whose derivatives vanish, but for round-off, at
+/// several points near q. Linear ones come first; each is led by the coefficient 1, and a component along an axis that
+/// is conserved stands alone.
+template <Scalar S>
+std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem, const Vector<S>& q);
+
+#define HBVM_DECLARE(S)                                                                                          \
+  extern template struct MomentumComponent<S>;                                                                   \
+  extern template std::vector<MomentumComponent<S>> coordinate_momenta<S>(const Problem<S>&);                    \
+  extern template MomentumValue<S> momentum<S>(const Problem<S>&, const MomentumComponent<S>&, const Vector<S>&, \
+                                               const Vector<S>&);                                                \
+  extern template std::vector<MomentumComponent<S>> conserved_momenta<S>(const Problem<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
