@@ -8,15 +8,19 @@
 
 namespace hbvm {
 
-/// What a study found.
-struct StudyOutcome {
-  std::string title;
+/// How a study's results compare with what it states.
+struct Agreement {
   long agreed = 0, stated = 0;           ///< figures of expected.csv that were met, and in all
   std::string what;                      ///< "printed figures" or "stated bounds"
   long further_agreed = 0, further = 0;  ///< beyond double: round-off columns and rates that double cannot show
   std::vector<std::string> complaints;   ///< one line for each that was not met
-  std::vector<std::string> files;        ///< tables and pictures written
-  std::string table;                     ///< in Markdown
+};
+
+/// What a study found.
+struct StudyOutcome : Agreement {
+  std::string title;
+  std::vector<std::string> files;  ///< tables and pictures written
+  std::string table;               ///< in Markdown
 };
 
 /// Runs the experiment that the folder's study.toml describes, in one precision. Tables (CSV, Markdown, LaTeX) go to

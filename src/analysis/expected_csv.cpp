@@ -1,0 +1,45 @@
+#include "expected_csv.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError("cannot read " + path.string());
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  if (!line.empty() && line.back() == ',') cells.emplace_back();
+  return cells;
+}
+
+ExpectedCsv::ExpectedCsv(const std::filesystem::path& path) {
+  std::istringstream text(read_file(path));
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("# ") && columns.empty())
+      columns = split(line.substr(2));
+    else if (!line.empty() && !line.starts_with('#'))
+      rows.push_back(split(line));
+    if (!rows.empty() && rows.back().size() != columns.size())
+      throw InputError(path.string() + ": '" + line + "' has " + std::to_string(rows.back().size()) +
+                       " cells instead of " + std::to_string(columns.size()));
+  }
+}
+
+std::string ExpectedCsv::cell(const std::vector<std::string>& row, const std::string& column) const {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i] == column) return row[i];
+  return {};
+}
+
+}  // namespace hbvm

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hbvm {
+
+/// The cells of a line of comma-separated values.
+std::vector<std::string> split(const std::string& line);
+
+/// \throws InputError
+std::string read_file(const std::filesystem::path& path);
+
+/// A study's expected.csv: column names in the first line, after "# ".
+struct ExpectedCsv {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+  /// \throws InputError
+  explicit ExpectedCsv(const std::filesystem::path& path);
+
+  /// The cell of a row, empty if the column does not exist.
+  std::string cell(const std::vector<std::string>& row, const std::string& column) const;
+};
+
+}  // namespace hbvm

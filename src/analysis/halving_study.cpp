@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "expected_csv.hpp"
+#include "experiment.hpp"
+#include "hbvm/analysis/step_halving.hpp"
+#include "hbvm/scalar/literal.hpp"
+
+namespace hbvm {
+namespace {
+
+double value(const std::string& text) { return literal<double>(text); }
+
+struct Block {
+  HalvingRequest request;
+  std::vector<HalvingRow> rows;
+};
+
+/// Every printed figure above round-off, to all printed digits; beyond double also that what was round-off in double
+/// is round-off here, and that the rates double could not show (***) are there.
+Agreement check(const Experiment& experiment, const std::vector<Block>& blocks, double above_round_off,
+                const std::vector<std::string>& round_off, const std::map<std::string, Expression>& orders) {
+  Agreement agreement;
+  const ExpectedCsv expected(experiment.folder / "expected.csv");
+  agreement.what = "printed figures";
+  for (const auto& printed : expected.rows) {
+    const std::string k = expected.cell(printed, "k"), s = expected.cell(printed, "s"), i = expected.cell(printed, "i");
+    const std::string place = "k = " + k + ", s = " + s + ", i = " + i + ": ";
+    const HalvingRow* found = nullptr;
+    for (const Block& block : blocks)
+      for (const HalvingRow& row : block.rows)
+        if (std::to_string(block.request.method.k) == k && std::to_string(block.request.method.s) == s &&
+            std::to_string(row.i) == i)
+          found = &row;
+    for (std::size_t c = 0; c < expected.columns.size(); ++c) {
+      const std::string& column = expected.columns[c];
+      const std::string& figure = printed[c];
+      if (column.starts_with("e_") && !figure.empty() && value(figure) > above_round_off) {
+        ++agreement.stated;
+        const std::string computed = found ? found->cell(column) : "nothing";
+        if (computed == figure)
+          ++agreement.agreed;
+        else
+          agreement.complaints.push_back(place + column + " is " + computed + ", printed " + figure);
+      }
+      if (experiment.precision.kind() == Precision::Kind::binary64 || !found) continue;
+      if (figure == "***" && orders.contains(column)) {
+        ++agreement.further;
+        const Constants method{{"k", Expression::parse(k)}, {"s", Expression::parse(s)}};
+        const double order = evaluate<double>(orders.at(column), method);
+        const std::string computed = found->cell(column);
+        if (computed != "***" && std::abs(value(computed) - order) <= value("1/10"))
+          ++agreement.further_agreed;
+        else
+          agreement.complaints.push_back(place + column + " is " + computed + " instead of " +
+                                         fmt::format("{}", order));
+      }
+    }
+    if (experiment.precision.kind() == Precision::Kind::binary64 || !found) continue;
+    for (const std::string& column : round_off) {
+      ++agreement.further;
+      const double ulps = column == "e_g"     ? found->ulps_g
+                          : column == "e_H"   ? found->ulps_H
+                          : column == "e_hid" ? found->ulps_hid
+                                              : found->ulps_lambda;
+      // A few roundings each step; the multiplier divides momenta by the step, and so do their roundings.
+      if (ulps <= static_cast<double>(64 * (1 + found->steps)))
+        ++agreement.further_agreed;
+      else
+        agreement.complaints.push_back(place + column + " is " + found->cell(column) + ", not round-off");
+    }
+  }
+  return agreement;
+}
+
+}  // namespace
+
+/// The paper's tables.
+Findings halving_study(const Experiment& experiment, TomlTable& top) {
+  Findings findings;
+  Table& table = findings.table;
+  const Expression step = top.number("step"), until = top.number("until");
+  const std::string group = top.string("group");
+  if (group != "k" && group != "s") top.fail("'group' must be \"k\" or \"s\"");
+  table.key_columns = {"k", "s"};
+  table.columns = {"i"};
+  for (const std::string& column : top.strings("columns")) {
+    HalvingRow().cell(column);  // refuses what is none
+    table.columns.push_back(column);
+  }
+  std::vector<Block> blocks;
+  long runs = 0, done = 0;
+  for (const toml::table* entry : top.tables("block")) {
+    TomlTable reader(top.source(), *entry, "block");
+    HalvingRequest request{&experiment.scene,
+                           stated_method(reader),
+                           SolverKind::fixed_point,
+                           step,
+                           until,
+                           static_cast<int>(reader.integer("first")),
+                           static_cast<int>(reader.integer("last"))};
+    if (request.first < 0 || request.last < request.first || request.last > 40)
+      reader.fail("'first' and 'last' must be 0 <= first <= last <= 40");
+    reader.finish();
+    runs += request.last - request.first + 2;
+    blocks.push_back({request, {}});
+  }
+  for (Block& block : blocks) {
+    block.rows = step_halving(block.request, experiment.precision, [&] { experiment.progress(++done, runs); });
+    const auto [k, s] = block.request.method;
+    Table::Group rows{group + " = " + std::to_string(group == "k" ? k : s), {std::to_string(k), std::to_string(s)}, {}};
+    for (const HalvingRow& row : block.rows) {
+      std::vector<std::string> cells;
+      for (const std::string& column : table.columns) cells.push_back(row.cell(column));
+      rows.rows.push_back(std::move(cells));
+    }
+    table.groups.push_back(std::move(rows));
+  }
+  const std::vector<std::string> round_off = top.strings("round_off");
+  for (const std::string& column : round_off)
+    if (column != "e_lambda" && column != "e_hid" && column != "e_g" && column != "e_H")
+      top.fail(top.require("round_off"), "'round_off' has no column '" + column + "'");
+  std::map<std::string, Expression> orders;
+  if (const toml::node* const node = top.take("orders")) {
+    if (!node->is_table()) top.fail(*node, "'orders' must be a table");
+    for (const auto& [column, order] : *node->as_table())
+      orders.emplace(column.str(), top.to_number(order, "an order"));
+  }
+  const Expression above_round_off = top.number("compare_above");
+  if (experiment.check)
+    findings.agreement = check(experiment, blocks, value(above_round_off.text()), round_off, orders);
+  return findings;
+}
+
+}  // namespace hbvm
