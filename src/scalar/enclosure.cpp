@@ -33,8 +33,12 @@ class Encloser {
  public:
   /// An argument between bounds that hold 0 counts as 0 if they have become narrow, or with `last` set; what then has
   /// no value is an error. Narrow is below 2^-2N, for a result of N bits and from 4 N working bits on.
-  Encloser(const Constants& constants, long bits, int target_bits, bool last)
-      : constants_(constants), bits_(bits), narrow_exponent_(bits >= 4L * target_bits ? -2L * target_bits : min_exponent),
+  /// \param work bits of results that may still be computed
+  Encloser(const Constants& constants, long bits, int target_bits, bool last, long& work)
+      : constants_(constants),
+        work_(work),
+        bits_(bits),
+        narrow_exponent_(bits >= 4L * target_bits ? -2L * target_bits : min_exponent),
         last_(last) {}
 
   bool counts_as_zero(const Interval& a) const {
@@ -49,6 +53,8 @@ class Encloser {
 
   Interval value(const Node& node) {
     if (++depth_ > max_depth) throw ExpressionError("the expression and its constants are nested too deeply");
+    work_ -= bits_ * share_of_work(node.kind) / 16;
+    if (work_ < 0) throw ExpressionError("takes too many operations in too many digits");
     Interval result = operation(node);
     --depth_;
     const bool low_far = is_too_large(result.low), high_far = is_too_large(result.high);
@@ -58,6 +64,25 @@ class Encloser {
       throw ExpressionError("a value beyond 2^131072 comes up");
     }
     return result;
+  }
+
+  /// Of the time of a sine, in sixteenths.
+  static long share_of_work(Kind kind) {
+    switch (kind) {
+      case Kind::sin:
+      case Kind::cos:
+      case Kind::exp:
+      case Kind::log:
+        return 16;
+      case Kind::power:
+        return 64;
+      case Kind::multiply:
+      case Kind::divide:
+      case Kind::sqrt:
+        return 1;
+      default:
+        return 0;
+    }
   }
 
   static bool is_too_large(const BigFloat& x) { return !mpfr_number_p(raw(x)) || !is_below(x, max_exponent); }
@@ -241,6 +266,7 @@ class Encloser {
   }
 
   const Constants& constants_;
+  long& work_;
   long bits_;
   long narrow_exponent_;
   bool last_;
@@ -272,11 +298,13 @@ bool is_narrow(const Interval& a, int bits) {
 BigFloat Expression::evaluate_to_bits(int bits, const Constants& constants) const {
   // Enough to see every digit of the largest value, and N more of the smallest part of it.
   const long most_bits = 4L * bits + 2 * max_exponent;
+  // For thousands of operations in a few times the digits asked for, or some in as many as the largest value has.
+  long work = 10'000L * bits + (1L << 21);
   try {
     for (long guard = 32;; guard *= 2) {
       const long working = bits + guard;
       const bool last = working >= most_bits;
-      Encloser encloser(constants, working, bits, last);
+      Encloser encloser(constants, working, bits, last, work);
       try {
         const Interval bounds = encloser.value(*this);
         if (const auto value = common_rounding(bounds, bits)) return *value;

@@ -219,5 +219,24 @@ TEST_P(RandomExpressions, AreRoundedCorrectly) {
 
 INSTANTIATE_TEST_SUITE_P(Digits, RandomExpressions, ::testing::Values(50, 500));
 
+/// exp(90000) has 130 000 bits before the point, and its sine needs them all.
+TEST(Work, IsLimited) {
+  std::string sum = "sin(exp(90000))";
+  EXPECT_NO_THROW(Expression::parse(sum).evaluate_to_bits(53));
+  for (int i = 1; i < 150; ++i) sum += "+sin(exp(90000))";
+  EXPECT_THROW(Expression::parse(sum).evaluate_to_bits(53), ExpressionError);
+  Constants chain{{"c0", Expression::parse("1")}};
+  for (int i = 1; i < 60; ++i)
+    chain.emplace("c" + std::to_string(i), Expression::parse("sin(exp(90000))+c" + std::to_string(i - 1)));
+  EXPECT_THROW(Expression::parse("c59").evaluate_to_bits(53, chain), ExpressionError);
+}
+
+TEST(Work, SufficesForAllOperationsOfAnExpression) {
+  std::string sum = "sin(1)";
+  for (int i = 2; i < 200; ++i) sum += "+exp(sin(" + std::to_string(i) + "))";
+  EXPECT_NO_THROW(Expression::parse(sum).evaluate_to_bits(53));
+  EXPECT_NO_THROW(Expression::parse(sum).evaluate_to_bits(2'000));
+}
+
 }  // namespace
 }  // namespace hbvm

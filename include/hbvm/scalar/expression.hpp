@@ -34,7 +34,7 @@ class Expression {
   /// growing working precision until both round to the same number. What still cannot be told from 0 at four
   /// times `bits` is 0, provided it is less than 2^(-2 bits) there; else digits are added as long as they can help.
   /// \throws ExpressionError for an unknown or circular name, a division by 0, a root or logarithm outside its
-  ///         domain, and magnitudes beyond 2^131072
+  ///         domain, magnitudes beyond 2^131072, and if it would take too long
   BigFloat evaluate_to_bits(int bits, const Constants& constants = {}) const;
 
   /// Names used that are neither functions nor pi.
