@@ -14,7 +14,7 @@ namespace hbvm {
 /// What the kinds of a study are run with. Each kind takes its own keys of study.toml.
 struct Experiment {
   std::filesystem::path folder;
-  Scene scene;
+  Scene scene;  ///< empty for a study of all scenes
   Precision precision;
   bool check;                                ///< compare with expected.csv
   std::function<void(long, long)> progress;  ///< (runs done, runs in all)
@@ -28,6 +28,7 @@ struct Findings {
 
 Findings halving_study(const Experiment& experiment, TomlTable& top);
 Findings long_run_study(const Experiment& experiment, TomlTable& top);
+Findings conservation_study(const Experiment& experiment, TomlTable& top);
 
 /// The method that a table of study.toml names.
 inline MethodName stated_method(TomlTable& reader) {

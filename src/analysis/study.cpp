@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "expected_csv.hpp"
 #include "experiment.hpp"
@@ -48,19 +49,23 @@ StudyOutcome run_study(const std::string& folder, const Precision& precision, bo
   StudyOutcome outcome;
   outcome.title = top.string("title");
   const std::string kind = top.string("kind");
-  const Experiment experiment{folder, find_scene(folder, top.string("scene")), precision, check, progress};
+  const std::map<std::string, Findings (*)(const Experiment&, TomlTable&)> kinds{
+      {"step_halving", halving_study}, {"long_run", long_run_study}, {"conservation", conservation_study}};
+  if (!kinds.contains(kind)) top.fail("unknown kind '" + kind + "': use step_halving, long_run or conservation");
+  const bool all_scenes = kind == "conservation";
+  const Experiment experiment{folder, all_scenes ? Scene{} : find_scene(folder, top.string("scene")), precision, check,
+                              progress};
   const std::vector<const toml::table*> figures = top.tables("figure");
   const fs::path results = make_results_folder(folder, precision);
 
-  if (kind != "step_halving" && kind != "long_run")
-    top.fail("unknown kind '" + kind + "': use step_halving or long_run");
-  Findings findings = kind == "step_halving" ? halving_study(experiment, top) : long_run_study(experiment, top);
+  Findings findings = kinds.at(kind)(experiment, top);
   static_cast<Agreement&>(outcome) = std::move(findings.agreement);
   Table& table = findings.table;
   table.caption = outcome.title;
-  table.provenance = {std::string("hbvm ") + version(),
-                      "command hbvm study " + fs::path(folder).filename().string() + " --precision " + precision.name(),
-                      "scene " + experiment.scene.name + ": " + experiment.scene.title};
+  table.provenance = {
+      std::string("hbvm ") + version(),
+      "command hbvm study " + fs::path(folder).filename().string() + " --precision " + precision.name(),
+      all_scenes ? "scenes: all built-in ones" : "scene " + experiment.scene.name + ": " + experiment.scene.title};
   outcome.table = to_markdown(table);
   for (const auto& [name, text] : {std::pair("table.csv", to_csv(table)), std::pair("table.md", outcome.table),
                                    std::pair("table.tex", to_latex(table))}) {

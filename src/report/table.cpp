@@ -24,6 +24,20 @@ std::string latex_name(const std::string& name) {
   return "$" + base + "_{" + index + "}$";
 }
 
+/// Text as LaTeX shows it.
+std::string latex_text(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '_')
+      result += "\\_";
+    else if (c == '<' || c == '>')
+      result += std::string("$") + c + "$";
+    else
+      result += c;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string to_csv(const Table& table) {
@@ -62,7 +76,7 @@ std::string to_latex(const Table& table) {
   for (const auto& group : table.groups) {
     if (!group.heading.empty()) text += "\\multicolumn{" + span + "}{|c|}{$" + group.heading + "$}\\\\\n\\hline\n";
     text += joined(names, " & ") + "\\\\\n\\hline\n";
-    for (const auto& row : group.rows) text += joined(row, " & ") + "\\\\\n";
+    for (const auto& row : group.rows) text += latex_text(joined(row, " & ")) + "\\\\\n";
     text += "\\hline\n\\hline\n";
   }
   return text + "\\end{tabular}}\n\\end{table}\n";

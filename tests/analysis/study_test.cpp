@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "hbvm/error.hpp"
+#include "hbvm/scene/scene.hpp"
 
 namespace hbvm {
 namespace {
@@ -75,6 +76,23 @@ TEST_F(StudyTest, SatellitesKeepTheirBounds) {
   const StudyOutcome outcome = run(copy_of("tethered_satellites"), "double");
   EXPECT_EQ(outcome.stated, 13);
   EXPECT_TRUE(outcome.complaints.empty()) << outcome.complaints.front();
+}
+
+TEST_F(StudyTest, ScenesConserveWhatIsStated) {
+  for (const char* precision : {"double", "quad"}) {
+    fs::remove_all(root_ / "conservation");
+    const StudyOutcome outcome = run(copy_of("conservation"), precision);
+    EXPECT_EQ(outcome.stated, 2 * static_cast<long>(built_in_scenes().size())) << precision;
+    EXPECT_EQ(outcome.agreed, outcome.stated) << precision << ": " << outcome.complaints.front();
+  }
+}
+
+TEST_F(StudyTest, AChangedVerdictIsReported) {
+  const fs::path folder = copy_of("conservation");
+  replace(folder / "expected.csv", "kepler,k = s,L,H", "kepler,k = s,H L,");
+  const StudyOutcome outcome = run(folder, "double");
+  ASSERT_EQ(outcome.complaints.size(), 1u);
+  EXPECT_EQ(outcome.complaints[0], "kepler, k = s: kept 'L', lost 'H' instead of 'H L' and ''");
 }
 
 TEST_F(StudyTest, AChangedFigureIsReported) {

@@ -36,8 +36,14 @@ TEST(Table, LatexHasThePapersLayout) {
   EXPECT_EQ(text.find("% hbvm 1.2.3"), 0u);
 }
 
+TEST(Table, LatexShowsTextAsItIs) {
+  EXPECT_NE(to_latex({"", {}, {}, {"scene"}, {{"", {}, {{"heavy_top, k > s"}}}}}).find("\nheavy\\_top, k $>$ s\\\\\n"),
+            std::string::npos);
+}
+
 TEST(Figure, ScriptQuotesItsTexts) {
-  const Figure figure{"f", "c", {Panel{"the bob's path", "x", "y", "", {{"a file.csv", 2, 3, 0, "q"}}, {{{"1", "2"}, "m"}}, {}, true}}};
+  const Figure figure{
+      "f", "c", {Panel{"the bob's path", "x", "y", "", {{"a file.csv", 2, 3, 0, "q"}}, {{{"1", "2"}, "m"}}, {}, true}}};
   const std::string script = gnuplot_script(figure, "out.svg");
   EXPECT_NE(script.find("set title 'the bob''s path'"), std::string::npos);
   EXPECT_NE(script.find("'a file.csv' using 2:3 with lines"), std::string::npos);

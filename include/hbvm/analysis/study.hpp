@@ -11,7 +11,7 @@ namespace hbvm {
 /// How a study's results compare with what it states.
 struct Agreement {
   long agreed = 0, stated = 0;           ///< figures of expected.csv that were met, and in all
-  std::string what;                      ///< "printed figures" or "stated bounds"
+  std::string what;                      ///< "printed figures", "stated bounds" or "stated verdicts"
   long further_agreed = 0, further = 0;  ///< beyond double: round-off columns and rates that double cannot show
   std::vector<std::string> complaints;   ///< one line for each that was not met
 };

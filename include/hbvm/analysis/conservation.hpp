@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "hbvm/method/method_name.hpp"
+#include "hbvm/scalar/precision.hpp"
+#include "hbvm/scene/scene.hpp"
+
+namespace hbvm {
+
+/// How a quantity that the motion conserves fared over a run.
+struct ConservedQuantity {
+  enum class Kind { energy, constraints, linear_momentum, angular_momentum };
+  Kind kind;
+  std::string name;   ///< of a momentum
+  std::string drift;  ///< greatest change over the mesh (of the constraints: greatest value), three digits
+  double ulps = 0;    ///< the same over epsilon times the size of the terms it is the sum of
+};
+
+struct Conservation {
+  MethodName method;
+  long steps = 0;
+  std::vector<ConservedQuantity> quantities;  ///< energy, constraints if any, then each momentum
+
+  /// The ulps that round-off explains: a few roundings each step, of either sign.
+  double round_off() const { return 16 * (1 + std::sqrt(static_cast<double>(steps))); }
+};
+
+enum class Nodes {
+  s,    ///< k = s
+  more  ///< the k of hbvm:auto,S; where that is s, 2 s
+};
+
+struct ConservationRequest {
+  const Scene* scene = nullptr;
+  int s = 0;
+  Nodes nodes = Nodes::s;
+  Expression step, until;
+};
+
+/// \throws InputError, IntegrationError
+Conservation conservation(const ConservationRequest& request, const Precision& precision);
+
+}  // namespace hbvm

@@ -1,0 +1,67 @@
+#include "hbvm/analysis/conservation.hpp"
+
+#include "hbvm/analysis/choose_k.hpp"
+#include "hbvm/analysis/simulate.hpp"
+#include "hbvm/integrate/momentum_drift.hpp"
+#include "hbvm/scalar/text.hpp"
+#include "hbvm/scalar/with_scalar.hpp"
+
+namespace hbvm {
+namespace {
+
+/// |T| + |U|.
+template <Scalar S>
+S energy_size(const Problem<S>& problem, const Vector<S>& q, const Vector<S>& p) {
+  Point<S> point(problem);
+  const S at_rest = point.energy(q, Vector<S>::Zero(problem.m()));
+  return magnitude(S(point.energy(q, p) - at_rest)) + magnitude(at_rest);
+}
+
+template <Scalar S>
+S constraint_size(const Problem<S>& problem, const Vector<S>& q) {
+  S size = 0;
+  for (const Constraint<S>& constraint : problem.constraints)
+    raise_to(size, value(constraint, problem.dimension, q).size);
+  return size;
+}
+
+template <Scalar S>
+Conservation conservation_in(const ConservationRequest& request) {
+  const TimeGrid<S> grid(request.step, request.until, request.scene->constants);
+  const Assembled<S> scene = assemble<S>(*request.scene);
+  const Problem<S>& problem = scene.problem;
+  Conservation result;
+  result.method = {request.s, request.s};
+  if (request.nodes == Nodes::more) {
+    const int k = choose_k(scene, request.s, grid.step(), SolverKind::fixed_point).k;
+    result.method.k = k > request.s ? k : 2 * request.s;
+  }
+  const Hbvm<S> method = make_hbvm<S>(result.method.k, result.method.s);
+  MomentumDrift<S> momenta(problem, conserved_momenta(problem, scene.q0));
+  const Simulated<S> run = simulate(scene, method, SolverKind::fixed_point, grid, {&momenta});
+  result.steps = grid.steps();
+
+  using Kind = ConservedQuantity::Kind;
+  const auto add = [&](Kind kind, const std::string& name, const S& drift, const S& size) {
+    const double ulps = drift == 0 ? 0 : approximately(S(drift / (size * epsilon<S>())));
+    result.quantities.push_back({kind, name, to_scientific(drift, 3), ulps});
+  };
+  const Snapshot<S>& end = run.integration.end;
+  add(Kind::energy, "H", run.e_H,
+      std::max(energy_size(problem, scene.q0, scene.p0), energy_size(problem, end.q, end.p)));
+  if (problem.nu() > 0) add(Kind::constraints, "g", run.e_g, constraint_size(problem, end.q));
+  for (std::size_t i = 0; i < momenta.components().size(); ++i) {
+    const MomentumComponent<S>& component = momenta.components()[i];
+    add(component.is_linear() ? Kind::linear_momentum : Kind::angular_momentum, component.name(), momenta.drift(i),
+        momenta.size(i));
+  }
+  return result;
+}
+
+}  // namespace
+
+Conservation conservation(const ConservationRequest& request, const Precision& precision) {
+  return with_scalar(precision, [&]<Scalar S>() { return conservation_in<S>(request); });
+}
+
+}  // namespace hbvm

@@ -1,0 +1,87 @@
+#include "expected_csv.hpp"
+#include "experiment.hpp"
+#include "hbvm/analysis/conservation.hpp"
+
+namespace hbvm {
+namespace {
+
+using Kind = ConservedQuantity::Kind;
+
+struct Row {
+  std::string scene, nodes;
+  std::string kept, lost;  ///< among H, g, P and L
+};
+
+/// Scene and nodes, the drifts of H, g, P and L (the greatest component's), the momenta, and which of the four are
+/// kept.
+std::vector<std::string> cells(const Conservation& found, Row& row) {
+  std::vector<std::string> result{row.scene, row.nodes, std::to_string(found.method.k)};
+  const auto append = [](std::string& text, const std::string& word) { text += (text.empty() ? "" : " ") + word; };
+  std::string momenta;
+  for (const auto& [kind, letter] : {std::pair(Kind::energy, "H"), std::pair(Kind::constraints, "g"),
+                                     std::pair(Kind::linear_momentum, "P"), std::pair(Kind::angular_momentum, "L")}) {
+    const ConservedQuantity* worst = nullptr;
+    for (const ConservedQuantity& quantity : found.quantities) {
+      if (quantity.kind != kind) continue;
+      if (!worst || quantity.ulps > worst->ulps) worst = &quantity;
+      if (kind == Kind::linear_momentum || kind == Kind::angular_momentum)
+        momenta += (momenta.empty() ? "" : "; ") + quantity.name;
+    }
+    result.push_back(worst ? worst->drift : "---");
+    if (worst) append(worst->ulps <= found.round_off() ? row.kept : row.lost, letter);
+  }
+  const auto or_none = [](const std::string& text) { return text.empty() ? "---" : text; };
+  for (const std::string& text : {momenta, row.kept, row.lost}) result.push_back(or_none(text));
+  return result;
+}
+
+Agreement check(const Experiment& experiment, const std::vector<Row>& rows) {
+  Agreement agreement;
+  agreement.what = "stated verdicts";
+  const ExpectedCsv expected(experiment.folder / "expected.csv");
+  const bool in_double = experiment.precision.kind() == Precision::Kind::binary64;
+  for (const auto& stated : expected.rows) {
+    const std::string only = expected.cell(stated, "only");
+    if (!only.empty() && (only == "double") != in_double) continue;
+    ++agreement.stated;
+    const std::string scene = expected.cell(stated, "scene"), nodes = expected.cell(stated, "nodes");
+    const std::string kept = expected.cell(stated, "kept"), lost = expected.cell(stated, "lost");
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.scene == scene && r.nodes == nodes; });
+    if (row != rows.end() && row->kept == kept && row->lost == lost)
+      ++agreement.agreed;
+    else
+      agreement.complaints.push_back(scene + ", " + nodes + ": kept '" + (row == rows.end() ? "" : row->kept) +
+                                     "', lost '" + (row == rows.end() ? "" : row->lost) + "' instead of '" + kept +
+                                     "' and '" + lost + "'");
+  }
+  return agreement;
+}
+
+}  // namespace
+
+/// Every built-in scene with k = s and with more nodes.
+Findings conservation_study(const Experiment& experiment, TomlTable& top) {
+  const Expression step = top.number("step"), until = top.number("until");
+  const int s = static_cast<int>(top.integer("s"));
+  MethodName{s, s}.check();
+  Findings findings;
+  findings.table.columns = {"scene", "nodes", "k", "e_H", "e_g", "e_P", "e_L", "momenta", "kept", "lost"};
+  findings.table.groups.emplace_back();
+  const auto& scenes = built_in_scenes();
+  std::vector<Row> rows;
+  for (const auto& [name, text] : scenes) {
+    const Scene scene = read_scene(text, name);
+    for (const auto& [nodes, label] : {std::pair(Nodes::s, "k = s"), std::pair(Nodes::more, "k > s")}) {
+      const Conservation found = conservation({&scene, s, nodes, step, until}, experiment.precision);
+      Row row{name, label, {}, {}};
+      findings.table.groups.back().rows.push_back(cells(found, row));
+      rows.push_back(std::move(row));
+      experiment.progress(static_cast<long>(rows.size()), static_cast<long>(2 * scenes.size()));
+    }
+  }
+  if (experiment.check) findings.agreement = check(experiment, rows);
+  return findings;
+}
+
+}  // namespace hbvm
