@@ -106,7 +106,7 @@ S near_fraction(const S& x, const S& tolerance) {
   return x;
 }
 
-/// The reduced echelon form, its fractions freed of round-off.
+/// The reduced echelon form; what is 0 up to the tolerance is 0.
 template <Scalar S>
 void reduce(Matrix<S>& a, const S& tolerance) {
   Index row = 0;
@@ -121,7 +121,8 @@ void reduce(Matrix<S>& a, const S& tolerance) {
     clear_column(a, row, column);
     ++row;
   }
-  for (Index i = 0; i < a.size(); ++i) a.data()[i] = near_fraction(a.data()[i], tolerance);
+  for (Index i = 0; i < a.size(); ++i)
+    if (magnitude(a.data()[i]) <= tolerance) set_zero(a.data()[i]);
 }
 
 }  // namespace
@@ -169,8 +170,15 @@ MomentumValue<S> momentum(const Problem<S>& problem, const MomentumComponent<S>&
 
 namespace {
 
+/// The size of positions, which that of rotations is to translations.
+template <Scalar S>
+S extent(const Vector<S>& q) {
+  const S size = max_norm(q);
+  return size == 0 ? S(1) : size;
+}
+
 /// One row for each condition: by how much each component's symmetry changes U, a constraint or the kinetic energy at
-/// points near q, over the size of that change's terms.
+/// points near q, over the size of that change's terms. Rotations count per extent of q.
 template <Scalar S>
 Matrix<S> conditions(const Problem<S>& problem, const std::vector<MomentumComponent<S>>& components,
                      const Vector<S>& q) {
@@ -181,8 +189,7 @@ Matrix<S> conditions(const Problem<S>& problem, const std::vector<MomentumCompon
   PotentialEvaluator<S> potential(problem.potential, 1);
   Matrix<S> force(1, m);
   Sequence<S> sequence;
-  S scale = max_norm(q);
-  if (scale == 0) scale = 1;
+  const S scale = extent(q);
   Index row = 0;
   for (int point = 0; point < points; ++point) {
     Vector<S> x = q, p(m), v(m);
@@ -197,16 +204,13 @@ Matrix<S> conditions(const Problem<S>& problem, const std::vector<MomentumCompon
       potential.varying_force(lanes(x), force);
       f += force.row(0).transpose();
     }
-    std::vector<Vector<S>> moves;
-    S reach = 0;
-    for (const auto& component : components) {
-      moves.push_back(generator(problem, component, x));
-      raise_to(reach, max_norm(moves.back()));
-    }
     const auto condition = [&](const Vector<S>& slope) {
-      const S size = max_norm(slope) * reach;
-      for (Index j = 0; j < columns && size > 0; ++j)
-        rows(row, j) = pair(slope, moves[static_cast<std::size_t>(j)]).value / size;
+      const S size = max_norm(slope);
+      for (Index j = 0; j < columns && size > 0; ++j) {
+        const MomentumComponent<S>& component = components[static_cast<std::size_t>(j)];
+        const S change = pair(slope, generator(problem, component, x)).value / size;
+        rows(row, j) = component.is_linear() ? change : S(change / scale);
+      }
       ++row;
     };
     condition(f);
@@ -221,8 +225,7 @@ Matrix<S> conditions(const Problem<S>& problem, const std::vector<MomentumCompon
     const S size = max_norm(p) * max_norm(v);
     for (Index j = 0; j < columns; ++j) {
       const MomentumComponent<S>& component = components[static_cast<std::size_t>(j)];
-      if (component.is_linear()) continue;
-      rows(row, j) = pair<S>(generator(problem, component, p), v).value / size;
+      if (!component.is_linear()) rows(row, j) = pair<S>(generator(problem, component, p), v).value / size;
     }
     ++row;
   }
@@ -243,10 +246,14 @@ std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem, c
   std::vector<MomentumComponent<S>> result;
   for (Index n = 0; n < basis.rows(); ++n) {
     MomentumComponent<S> sum{Vector<S>::Zero(components[0].angular.size()), Vector<S>::Zero(problem.dimension)};
+    bool led_by_rotation = false;
     for (Index j = 0; j < basis.cols(); ++j) {
       const MomentumComponent<S>& component = components[static_cast<std::size_t>(j)];
-      sum.angular += basis(n, j) * component.angular;
-      sum.linear += basis(n, j) * component.linear;
+      led_by_rotation = led_by_rotation || (basis(n, j) != 0 && !component.is_linear());
+      const bool scaled = led_by_rotation && component.is_linear();
+      const S weight = near_fraction(scaled ? S(basis(n, j) * extent(q)) : basis(n, j), tolerance);
+      sum.angular += weight * component.angular;
+      sum.linear += weight * component.linear;
     }
     result.push_back(std::move(sum));
   }

@@ -232,5 +232,15 @@ TYPED_TEST(Momenta, ConservedAboutAnotherPoint) {
   EXPECT_EQ(this->conserved(scene), "L_z - 2.25 P_x - P_y");
 }
 
+TYPED_TEST(Momenta, ConservedInLargeAndSmallUnits) {
+  for (const char* unit : {"1.5e11", "3e-10"}) {
+    Scene scene = load_scene("kepler");
+    scene.bodies[0].position[0] = Expression::parse(unit);
+    EXPECT_EQ(this->conserved(scene), "L_z") << unit;
+    scene.effects.clear();
+    EXPECT_EQ(this->conserved(scene), "P_x, P_y, L_z") << unit;
+  }
+}
+
 }  // namespace
 }  // namespace hbvm
