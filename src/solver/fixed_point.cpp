@@ -91,10 +91,11 @@ long FixedPoint<S>::iterate() {
       raise_to(increment, magnitude(term));
     }
     // Left to change, if the next increments fall by as much as this one did (in the paper's order, where two sweeps
-    // make one of the other, as this one and the one before it).
+    // make one of the other, as this one and the one before it). The first increment is no measure: psi had no value of
+    // this step before.
     const bool papers = order_ == Order::paper;
     const S& earlier = papers ? before_last : last;
-    const bool falls = sweeps > (papers ? 3 : 1) && 2 * increment < earlier;
+    const bool falls = sweeps > (papers ? 3 : 2) && 2 * increment < earlier;
     const S left = falls ? S(increment * (increment / earlier)) : increment;
     // In the paper's order psi lags by a sweep, so that a small first increment would not mean convergence.
     if (left <= size * epsilon<S>() / 8 && sweeps > 1) return sweeps;

@@ -109,6 +109,18 @@ TEST(Solvers, GiveTheSameDigits) {
     }
 }
 
+/// After some steps the start has half of the digits: one sweep then changes psi, but not gamma, by much.
+TEST(Solvers, GiveTheSameDigitsFromAGoodStart) {
+  const PrecisionScope digits(34);
+  const Scene kepler = load_scene("kepler");
+  const auto papers = run(kepler, SolverKind::paper, 2, 2, "1/100", "2");
+  for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::newton}) {
+    const auto mine = run(kepler, kind, 2, 2, "1/100", "2");
+    EXPECT_LE(max_norm(Vector<Mpfr>(mine.end.q - papers.end.q)), 10'000 * epsilon<Mpfr>()) << name_of(kind);
+    EXPECT_LE(max_norm(Vector<Mpfr>(mine.end.p - papers.end.p)), 10'000 * epsilon<Mpfr>()) << name_of(kind);
+  }
+}
+
 TEST(Solvers, NewestValuesAndAWarmStartNeedFewerSweeps) {
   const PrecisionScope digits(50);
   const Scene bead = load_scene(scene_path("ellipsoid_bead"));
