@@ -1,9 +1,9 @@
 #include "hbvm/analysis/study.hpp"
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <fstream>
-
-#include <gtest/gtest.h>
 
 #include "hbvm/error.hpp"
 #include "hbvm/scene/scene.hpp"
