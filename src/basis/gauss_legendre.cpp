@@ -1,5 +1,6 @@
 #include "hbvm/basis/gauss_legendre.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -52,14 +53,11 @@ class LegendreRoots {
     evaluate();
     const std::size_t terms = expand();
     solve(terms);
-    // c = ((1 - x) - delta)/2 and 1 - (x + delta)^2 = (1 - x^2) - delta (2 x + delta)
+    // c = ((1 - x) - delta)/2
     mpfr_ui_sub(raw(c), 1, raw(x_), MPFR_RNDN);
     mpfr_sub(raw(c), raw(c), raw(delta_), MPFR_RNDN);
     mpfr_div_2ui(raw(c), raw(c), 1, MPFR_RNDN);
-    mpfr_mul_2ui(raw(t_), raw(x_), 1, MPFR_RNDN);
-    mpfr_add(raw(t_), raw(t_), raw(delta_), MPFR_RNDN);
-    mpfr_mul(raw(t_), raw(t_), raw(delta_), MPFR_RNDN);
-    mpfr_sub(raw(t_), raw(one_minus_x2_), raw(t_), MPFR_RNDN);
+    square_complement();
     weight(b);
   }
 
@@ -92,10 +90,13 @@ class LegendreRoots {
   /// Taylor coefficients a_j of P_n at x: a_0 = P_n, (1 - x^2) a_1 = n (P_{n-1} - x P_n), and from
   /// (1 - x^2) P'' - 2 x P' + n (n+1) P = 0
   ///   (j+1)(j+2)(1 - x^2) a_{j+2} = 2 (j+1)^2 x a_{j+1} + (j (j+1) - n (n+1)) a_j.
-  /// Stops where a_j delta^j no longer matters; returns the number of coefficients.
+  /// Each is computed to the digits that a_j delta^j needs beside a_1 delta; stops where that needs none, and returns
+  /// the number of coefficients.
   std::size_t expand() {
-    mpfr_set(raw(coefficient(0)), raw(p_), MPFR_RNDN);
-    BigFloat& first = coefficient(1);
+    mpfr_set_prec(raw(t_), bits_);
+    mpfr_set_prec(raw(u_), bits_);
+    mpfr_set(raw(coefficient(0, bits_)), raw(p_), MPFR_RNDN);
+    BigFloat& first = coefficient(1, bits_);
     mpfr_mul(raw(t_), raw(x_), raw(p_), MPFR_RNDN);
     mpfr_sub(raw(t_), raw(previous_), raw(t_), MPFR_RNDN);
     mpfr_mul_ui(raw(t_), raw(t_), static_cast<unsigned long>(n_), MPFR_RNDN);
@@ -104,43 +105,92 @@ class LegendreRoots {
     mpfr_neg(raw(delta_), raw(delta_), MPFR_RNDN);
     if (mpfr_zero_p(raw(delta_))) return 2;
     const long delta_exponent = mpfr_get_exp(raw(delta_)) + 1;
-    const long smallest = mpfr_get_exp(raw(first)) - bits_;
+    const long largest = mpfr_get_exp(raw(first));
     const long nn = static_cast<long>(n_) * (n_ + 1);
     for (std::size_t j = 0;; ++j) {
       const long i = static_cast<long>(j);
-      BigFloat& next = coefficient(j + 2);
-      mpfr_mul(raw(t_), raw(coefficient(j + 1)), raw(x_), MPFR_RNDN);
+      // Compared with the slope a_1, the term j + 1 of the series' derivative is what decides.
+      const BigFloat& last = series_[j + 1];
+      const long term = mpfr_zero_p(raw(last)) ? -bits_ : mpfr_get_exp(raw(last)) - largest + i * delta_exponent;
+      const long bits = bits_ + std::min(0L, term) + static_cast<long>(std::bit_width(j + 2));
+      if ((j > 0 && bits <= 0) || i + 2 > n_) return j + 2;
+      const long needed = std::clamp(bits + guard, 64L, bits_);
+      BigFloat& next = coefficient(j + 2, needed);
+      mpfr_set_prec(raw(t_), needed);
+      mpfr_set_prec(raw(u_), needed);
+      mpfr_mul(raw(t_), raw(series_[j + 1]), raw(x_), MPFR_RNDN);
       mpfr_mul_si(raw(t_), raw(t_), 2 * (i + 1) * (i + 1), MPFR_RNDN);
-      mpfr_mul_si(raw(u_), raw(coefficient(j)), i * (i + 1) - nn, MPFR_RNDN);
+      mpfr_mul_si(raw(u_), raw(series_[j]), i * (i + 1) - nn, MPFR_RNDN);
       mpfr_add(raw(t_), raw(t_), raw(u_), MPFR_RNDN);
       mpfr_div_si(raw(t_), raw(t_), (i + 1) * (i + 2), MPFR_RNDN);
       mpfr_div(raw(next), raw(t_), raw(one_minus_x2_), MPFR_RNDN);
-      // Compared with the slope a_1, the term j + 2 of the series' derivative is what decides.
-      if (mpfr_zero_p(raw(next)) ||
-          mpfr_get_exp(raw(next)) + (i + 1) * delta_exponent + static_cast<long>(std::bit_width(j + 2)) < smallest)
-        return j + 3;
     }
   }
 
-  /// Newton's method for the root delta_ of the series, which leaves its derivative there in slope_.
-  void solve(std::size_t terms) {
-    long last = 0;
-    for (int sweep = 0; sweep < 64; ++sweep) {
-      mpfr_set(raw(t_), raw(coefficient(terms - 1)), MPFR_RNDN);
-      mpfr_set_zero(raw(slope_), 1);
-      for (std::size_t j = terms - 1; j-- > 0;) {
-        mpfr_mul(raw(slope_), raw(slope_), raw(delta_), MPFR_RNDN);
-        mpfr_add(raw(slope_), raw(slope_), raw(t_), MPFR_RNDN);
-        mpfr_mul(raw(t_), raw(t_), raw(delta_), MPFR_RNDN);
-        mpfr_add(raw(t_), raw(t_), raw(coefficient(j)), MPFR_RNDN);
+  /// P_n and P_n' at x + delta, into t_ and slope_, to so many bits of the slope.
+  void sum(std::size_t terms, long bits) {
+    mpfr_set_prec(raw(t_), 64);
+    mpfr_set_prec(raw(slope_), 64);
+    mpfr_set_zero(raw(t_), 1);
+    mpfr_set_zero(raw(slope_), 1);
+    for (std::size_t j = terms; j-- > 0;) {
+      const long needed = std::min<long>(mpfr_get_prec(raw(series_[j])) + (j == 0 ? guard : 0), bits);
+      // From term to term more digits count.
+      if (needed > mpfr_get_prec(raw(t_))) {
+        mpfr_prec_round(raw(t_), needed, MPFR_RNDN);
+        mpfr_prec_round(raw(slope_), needed, MPFR_RNDN);
+        mpfr_set_prec(raw(u_), needed);
+        mpfr_set(raw(u_), raw(delta_), MPFR_RNDN);
+      } else if (j + 1 == terms) {
+        mpfr_set_prec(raw(u_), 64);
+        mpfr_set(raw(u_), raw(delta_), MPFR_RNDN);
       }
+      mpfr_mul(raw(slope_), raw(slope_), raw(u_), MPFR_RNDN);
+      mpfr_add(raw(slope_), raw(slope_), raw(t_), MPFR_RNDN);
+      mpfr_mul(raw(t_), raw(t_), raw(u_), MPFR_RNDN);
+      mpfr_add(raw(t_), raw(t_), raw(series_[j]), MPFR_RNDN);
+    }
+  }
+
+  /// Newton's method for the root delta_ of the series, which leaves its derivative there in slope_. Each sweep doubles
+  /// the digits and takes no more than it wins.
+  void solve(std::size_t terms) {
+    if (mpfr_zero_p(raw(delta_))) {
+      mpfr_set_prec(raw(slope_), bits_);
+      mpfr_set(raw(slope_), raw(series_[1]), MPFR_RNDN);
+      return;
+    }
+    // A sweep takes 2^-e to 2^-2e but for a few bits; the first delta, -a_0/a_1, has some 40.
+    constexpr long known = 24, lost = 8;
+    std::vector<long> wanted{bits_};
+    while (wanted.back() > 2 * known - lost) wanted.push_back(wanted.back() / 2 + lost);
+    for (std::size_t sweep = wanted.size(); sweep-- > 0;) {
+      sum(terms, std::min(wanted[sweep] + guard, bits_));
       mpfr_div(raw(t_), raw(t_), raw(slope_), MPFR_RNDN);
-      if (mpfr_zero_p(raw(t_))) return;
-      const long step = mpfr_get_exp(raw(t_));
-      if (sweep > 0 && step >= last) return;  // round-off
-      last = step;
       mpfr_sub(raw(delta_), raw(delta_), raw(t_), MPFR_RNDN);
     }
+    // The slope at the new delta, t_ = P/P' away: P' - t P'' with (1 - x^2) P'' = 2 x P' - n (n+1) P; what is left out
+    // is of the order of t^2, below round-off.
+    mpfr_set_prec(raw(u_), bits_);
+    mpfr_mul_ui(raw(u_), raw(t_), static_cast<unsigned long>(n_) * static_cast<unsigned long>(n_ + 1), MPFR_RNDN);
+    mpfr_set_prec(raw(p_), bits_);
+    mpfr_add(raw(p_), raw(x_), raw(delta_), MPFR_RNDN);
+    mpfr_mul_2ui(raw(p_), raw(p_), 1, MPFR_RNDN);
+    mpfr_sub(raw(u_), raw(p_), raw(u_), MPFR_RNDN);
+    mpfr_mul(raw(u_), raw(u_), raw(t_), MPFR_RNDN);
+    mpfr_set_prec(raw(t_), bits_);
+    square_complement();
+    mpfr_div(raw(u_), raw(u_), raw(t_), MPFR_RNDN);
+    mpfr_ui_sub(raw(u_), 1, raw(u_), MPFR_RNDN);
+    mpfr_mul(raw(slope_), raw(slope_), raw(u_), MPFR_RNDN);
+  }
+
+  /// t_ = 1 - (x + delta)^2 = (1 - x^2) - delta (2 x + delta).
+  void square_complement() {
+    mpfr_mul_2ui(raw(t_), raw(x_), 1, MPFR_RNDN);
+    mpfr_add(raw(t_), raw(t_), raw(delta_), MPFR_RNDN);
+    mpfr_mul(raw(t_), raw(t_), raw(delta_), MPFR_RNDN);
+    mpfr_sub(raw(t_), raw(one_minus_x2_), raw(t_), MPFR_RNDN);
   }
 
   /// b = 1 / ((1 - x^2) P_n'(x)^2), the weight for [0, 1], from t_ = 1 - x^2 and slope_.
@@ -150,10 +200,14 @@ class LegendreRoots {
     mpfr_ui_div(raw(b), 1, raw(t_), MPFR_RNDN);
   }
 
-  BigFloat& coefficient(std::size_t j) {
+  BigFloat& coefficient(std::size_t j, long bits) {
     while (series_.size() <= j) series_.emplace_back(bits_);
+    mpfr_set_prec(raw(series_[j]), bits);
     return series_[j];
   }
+
+  /// Bits beyond those wanted, for the roundings of a sum.
+  static constexpr long guard = 32;
 
   int n_;
   long bits_;

@@ -1,6 +1,7 @@
 #include "hbvm/linear/product.hpp"
 
 #include "hbvm/scalar/in_place.hpp"
+#include "linear/mpfr_dot.hpp"
 
 namespace hbvm {
 
@@ -8,12 +9,21 @@ template <Scalar S>
 void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
   const Index rows = a.rows(), inner = a.cols(), columns = b.cols();
   if (c.rows() != rows || c.cols() != columns) c.resize(rows, columns);
+  if (inner == 0) {
+    for (Index i = 0; i < c.size(); ++i) set_zero(c.data()[i]);
+    return;
+  }
   S t;
   for (Index j = 0; j < columns; ++j) {
     S* const out = c.data() + j * rows;
     const S* const x = b.data() + j * inner;
-    for (Index i = 0; i < rows; ++i) set_zero(out[i]);
-    for (Index l = 0; l < inner; ++l) {
+    if constexpr (std::same_as<S, Mpfr>) {
+      Index i = 0;
+      while (i < rows && dot(raw(out[i]), a.data() + i, rows, x, 1, inner)) ++i;
+      if (i == rows) continue;
+    }
+    for (Index i = 0; i < rows; ++i) set_product(out[i], a.data()[i], x[0]);
+    for (Index l = 1; l < inner; ++l) {
       const S* const column = a.data() + l * rows;
       for (Index i = 0; i < rows; ++i) add_product(out[i], column[i], x[l], t);
     }

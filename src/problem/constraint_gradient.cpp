@@ -30,6 +30,8 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
     }
     weighted_patterns_.push_back({weighted_columns, {reached.begin(), reached.end()}});
     weighted_columns += static_cast<Index>(reached.size());
+    prepare(constraint, patterns_.back());
+    prepare_weighing(patterns_.back(), weighted_patterns_.back());
   }
   values_ = Matrix<S>::Zero(lanes, columns);
   weighted_ = Matrix<S>::Zero(lanes, weighted_columns);
@@ -50,52 +52,106 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
 }
 
 template <Scalar S>
+void ConstraintGradient<S>::prepare(const Constraint<S>& constraint, const Pattern& pattern) {
+  std::vector<Share>& shares = shares_.emplace_back();
+  const auto* product = std::get_if<DisplacementProduct<S>>(&constraint.form);
+  if (!product) return;
+  std::set<Index> touched;
+  // d(x.y) = y.dx + x.dy
+  const auto spread = [&](const Displacement<S>& moving, bool of_y) {
+    for (const auto& block : moving.blocks)
+      for (Index j = 0; j < problem_.dimension; ++j) {
+        const Index column = pattern.column(block.offset + j);
+        shares.push_back({column, j, of_y, touched.insert(column).second, block.weight});
+      }
+  };
+  spread(product->x, !product->same);
+  if (!product->same) spread(product->y, false);
+}
+
+template <Scalar S>
+void ConstraintGradient<S>::prepare_weighing(const Pattern& from, const Pattern& to) {
+  for (const auto& block : problem_.mass.blocks()) {
+    const auto first = std::lower_bound(from.coordinates.begin(), from.coordinates.end(), block.offset);
+    const auto last = std::lower_bound(first, from.coordinates.end(), block.offset + block.size);
+    if (!block.full) {
+      for (auto l = first; l != last; ++l)
+        weighings_.push_back({to.column(*l), from.column(*l), true, block.mass == 1 ? nullptr : &block.inverse_mass});
+      continue;
+    }
+    for (Index j = 0; first != last && j < block.size; ++j)
+      for (auto l = first; l != last; ++l)
+        weighings_.push_back(
+            {to.column(block.offset + j), from.column(*l), l == first, &block.W(j, *l - block.offset)});
+  }
+}
+
+template <Scalar S>
 void ConstraintGradient<S>::update(Lanes<const S> q) {
+  update_all(q, nullptr);
+}
+
+template <Scalar S>
+void ConstraintGradient<S>::update(Lanes<const S> q, Matrix<S>& g) {
+  update_all(q, &g);
+}
+
+template <Scalar S>
+void ConstraintGradient<S>::update_all(Lanes<const S> q, Matrix<S>* g) {
   for (std::size_t a = 0; a < patterns_.size(); ++a) {
-    const auto& form = problem_.constraints[a].form;
-    if (const auto* product = std::get_if<DisplacementProduct<S>>(&form)) update(*product, patterns_[a], q);
-    if (const auto* quadric = std::get_if<Quadric<S>>(&form)) update(*quadric, patterns_[a], q);
+    S* const out = g ? g->data() + static_cast<Index>(a) * lanes_ : nullptr;
+    std::visit([&](const auto& form) { update(a, form, q, out); }, problem_.constraints[a].form);
   }
   weigh();
 }
 
 template <Scalar S>
-void ConstraintGradient<S>::update(const DisplacementProduct<S>& form, const Pattern& pattern, Lanes<const S> q) {
-  const Index d = problem_.dimension;
-  for (std::size_t k = 0; k < pattern.coordinates.size(); ++k) {
-    S* const column = values_.data() + (pattern.first + static_cast<Index>(k)) * lanes_;
-    for (Index i = 0; i < lanes_; ++i) set_zero(column[i]);
-  }
-  // d(x.y) = y.dx + x.dy
-  const auto spread = [&](const Displacement<S>& moving, const Matrix<S>& other) {
-    for (const auto& block : moving.blocks) {
-      for (Index j = 0; j < d; ++j) {
-        S* const column = values_.data() + pattern.column(block.offset + j) * lanes_;
-        const S* const factor = other.data() + j * lanes_;
-        add_weighted(column, block.weight, factor, lanes_, t_);
-      }
-    }
-  };
-  displace(form.x, d, q, x_.data(), lanes_);
-  if (form.same) {
-    for (Index i = 0; i < x_.size(); ++i) set_sum(x_.data()[i], x_.data()[i], x_.data()[i]);
-    spread(form.x, x_);
-    return;
-  }
-  displace(form.y, d, q, y_.data(), lanes_);
-  spread(form.x, y_);
-  spread(form.y, x_);
+void ConstraintGradient<S>::share(S* column, const S* a, const S& weight, bool first) {
+  if (!first)
+    add_weighted(column, weight, a, lanes_, t_);
+  else if (weight == 1)
+    for (Index i = 0; i < lanes_; ++i) set(column[i], a[i]);
+  else if (weight == -1)
+    for (Index i = 0; i < lanes_; ++i) set_negative(column[i], a[i]);
+  else
+    for (Index i = 0; i < lanes_; ++i) set_product(column[i], weight, a[i]);
 }
 
 template <Scalar S>
-void ConstraintGradient<S>::update(const Quadric<S>& form, const Pattern& pattern, Lanes<const S> q) {
+void ConstraintGradient<S>::update(std::size_t a, const DisplacementProduct<S>& form, Lanes<const S> q, S* g) {
+  const Index d = problem_.dimension;
+  displace(form.x, d, q, x_.data(), lanes_);
+  if (!form.same) displace(form.y, d, q, y_.data(), lanes_);
+  if (g) {
+    const S* const y = form.same ? x_.data() : y_.data();
+    for (Index i = 0; i < lanes_; ++i) {
+      set_product(g[i], x_.data()[i], y[i]);
+      for (Index j = 1; j < d; ++j) add_product(g[i], x_.data()[j * lanes_ + i], y[j * lanes_ + i], t_);
+      set_difference(g[i], g[i], form.value);
+    }
+  }
+  if (form.same)
+    for (Index i = 0; i < x_.size(); ++i) set_sum(x_.data()[i], x_.data()[i], x_.data()[i]);
+  for (const Share& to : shares_[a])
+    share(values_.data() + to.column * lanes_, (to.of_y ? y_ : x_).data() + to.source * lanes_, to.weight, to.first);
+}
+
+template <Scalar S>
+void ConstraintGradient<S>::update(std::size_t a, const Quadric<S>& form, Lanes<const S> q, S* g) {
+  const Pattern& pattern = patterns_[a];
+  if (g)
+    for (Index i = 0; i < lanes_; ++i) set(g[i], form.c);
   for (Index j = 0; j < form.b.size(); ++j) {
     S* const column = values_.data() + pattern.column(form.offset + j) * lanes_;
     for (Index i = 0; i < lanes_; ++i) set_zero(column[i]);
-    for (Index l = 0; l < form.b.size(); ++l) {
-      if (form.A(j, l) == 0) continue;
-      const S* const in = q[form.offset + l];
-      for (Index i = 0; i < lanes_; ++i) add_product(column[i], form.A(j, l), in[i], t_);
+    for (Index l = 0; l < form.b.size(); ++l)
+      if (form.A(j, l) != 0) add_weighted(column, form.A(j, l), q[form.offset + l], lanes_, t_);
+    if (g) {
+      for (Index i = 0; i < lanes_; ++i) {
+        set_sum(t_, column[i], form.b[j]);
+        set_product(t_, t_, q[form.offset + j][i]);
+        set_sum(g[i], g[i], t_);
+      }
     }
     for (Index i = 0; i < lanes_; ++i) {
       set_sum(column[i], column[i], column[i]);
@@ -105,34 +161,23 @@ void ConstraintGradient<S>::update(const Quadric<S>& form, const Pattern& patter
 }
 
 template <Scalar S>
+void ConstraintGradient<S>::update(std::size_t, const Plane<S>& form, Lanes<const S> q, S* g) {
+  if (!g) return;  // the gradient is constant
+  for (Index i = 0; i < lanes_; ++i) set_negative(g[i], form.offset);
+  for (Index j = 0; j < form.normal.size(); ++j) add_weighted(g, form.normal[j], q[form.block + j], lanes_, t_);
+}
+
+template <Scalar S>
 void ConstraintGradient<S>::weigh() {
-  for (std::size_t a = 0; a < patterns_.size(); ++a) {
-    const Pattern& from = patterns_[a];
-    const Pattern& to = weighted_patterns_[a];
-    for (const auto& block : problem_.mass.blocks()) {
-      const auto first = std::lower_bound(from.coordinates.begin(), from.coordinates.end(), block.offset);
-      const auto last = std::lower_bound(first, from.coordinates.end(), block.offset + block.size);
-      if (first == last) continue;
-      if (block.full) {
-        for (Index j = 0; j < block.size; ++j) {
-          S* const out = weighted_.data() + to.column(block.offset + j) * lanes_;
-          for (Index i = 0; i < lanes_; ++i) set_zero(out[i]);
-          for (auto l = first; l != last; ++l) {
-            const S* const in = values_.data() + from.column(*l) * lanes_;
-            for (Index i = 0; i < lanes_; ++i) add_product(out[i], block.W(j, *l - block.offset), in[i], t_);
-          }
-        }
-        continue;
-      }
-      for (auto l = first; l != last; ++l) {
-        S* const out = weighted_.data() + to.column(*l) * lanes_;
-        const S* const in = values_.data() + from.column(*l) * lanes_;
-        if (block.mass == 1)
-          for (Index i = 0; i < lanes_; ++i) set(out[i], in[i]);
-        else
-          for (Index i = 0; i < lanes_; ++i) set_product(out[i], block.inverse_mass, in[i]);
-      }
-    }
+  for (const Weighing& w : weighings_) {
+    S* const out = weighted_.data() + w.to * lanes_;
+    const S* const in = values_.data() + w.from * lanes_;
+    if (w.factor == nullptr)
+      for (Index i = 0; i < lanes_; ++i) set(out[i], in[i]);
+    else if (w.first)
+      for (Index i = 0; i < lanes_; ++i) set_product(out[i], *w.factor, in[i]);
+    else
+      for (Index i = 0; i < lanes_; ++i) add_product(out[i], *w.factor, in[i], t_);
   }
 }
 
@@ -148,9 +193,14 @@ OperationCounts ConstraintGradient<S>::operations() const {
         counts.add(Op::add, d);
       else
         counts += hbvm::operations(product->y, d);
-      for (const auto& block : product->x.blocks) counts += weighted_sum(block.weight, d);
-      if (!product->same)
-        for (const auto& block : product->y.blocks) counts += weighted_sum(block.weight, d);
+      for (const Share& to : shares_[a]) {
+        if (!to.first)
+          counts += weighted_sum(to.weight, 1);
+        else if (to.weight == -1)
+          counts.add(Op::negate, 1);
+        else if (to.weight != 1)
+          counts.add(Op::multiply, 1);
+      }
     }
     if (const auto* quadric = std::get_if<Quadric<S>>(&form)) {
       for (Index i = 0; i < quadric->A.size(); ++i)
@@ -171,12 +221,17 @@ OperationCounts ConstraintGradient<S>::operations() const {
 }
 
 template <Scalar S>
-void ConstraintGradient<S>::transposed_times(Index i, Index a, Lanes<const S> v, S& result) {
+void ConstraintGradient<S>::transposed_times(Index a, Lanes<const S> v, S* result) {
   const Pattern& pattern = patterns_[static_cast<std::size_t>(a)];
-  set_zero(result);
-  const S* column = values_.data() + pattern.first * lanes_ + i;
+  const S* column = values_.data() + pattern.first * lanes_;
+  bool first = true;
   for (const Index coordinate : pattern.coordinates) {
-    add_product(result, *column, v[coordinate][i], t_);
+    const S* const in = v[coordinate];
+    if (first)
+      for (Index i = 0; i < lanes_; ++i) set_product(result[i], column[i], in[i]);
+    else
+      for (Index i = 0; i < lanes_; ++i) add_product(result[i], column[i], in[i], t_);
+    first = false;
     column += lanes_;
   }
 }
@@ -207,16 +262,30 @@ void ConstraintGradient<S>::add_weighted_times(const Matrix<S>& lambda, Lanes<S>
 }
 
 template <Scalar S>
-void ConstraintGradient<S>::coupling(const Coupling& pair, Index i, Index j, S& result) {
-  set_zero(result);
-  for (const auto& [column, weighted_column] : pair.terms)
-    add_product(result, values_.data()[column * lanes_ + i], weighted_.data()[weighted_column * lanes_ + j], t_);
+void ConstraintGradient<S>::coupling(const Coupling& pair, const ConstraintGradient& right, S* result) {
+  bool first = true;
+  for (const auto& [column, weighted_column] : pair.terms) {
+    const S* const x = values_.data() + column * lanes_;
+    const S* const y = right.weighted_.data() + weighted_column * lanes_;
+    for (Index j = 0; j < lanes_; ++j) {
+      S* const out = result + j * lanes_;
+      if (first)
+        for (Index i = 0; i < lanes_; ++i) set_product(out[i], x[i], y[j]);
+      else
+        for (Index i = 0; i < lanes_; ++i) add_product(out[i], x[i], y[j], t_);
+    }
+    first = false;
+  }
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::gram(Matrix<S>& result) {
   result.setZero(problem_.nu(), problem_.nu());
-  for (const Coupling& pair : couplings_) coupling(pair, 0, 0, result(pair.a, pair.b));
+  Matrix<S> all(lanes_, lanes_);
+  for (const Coupling& pair : couplings_) {
+    coupling(pair, *this, all.data());
+    set(result(pair.a, pair.b), all(0, 0));
+  }
 }
 
 #define HBVM_DEFINE(S) template class ConstraintGradient<S>;

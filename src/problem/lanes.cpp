@@ -4,6 +4,15 @@ namespace hbvm {
 
 template <Scalar S>
 void displace(const Displacement<S>& x, Index dimension, Lanes<const S> q, S* out, Index stride) {
+  if (x.blocks.size() == 2 && x.shift.size() == 0 && x.blocks[0].weight == 1 && x.blocks[1].weight == -1) {
+    // The usual pair, in one pass.
+    for (Index j = 0; j < dimension; ++j, out += stride) {
+      const S* const a = q[x.blocks[0].offset + j];
+      const S* const b = q[x.blocks[1].offset + j];
+      for (Index i = 0; i < q.count; ++i) set_difference(out[i], a[i], b[i]);
+    }
+    return;
+  }
   S t;
   for (Index j = 0; j < dimension; ++j, out += stride) {
     bool first = true;

@@ -38,7 +38,7 @@ const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S
   if (problem_.nu() == 0) return hidden_;
   gradient_.update(lanes(q));
   problem_.mass.velocity(lanes(p), lanes(v_));
-  for (Index a = 0; a < problem_.nu(); ++a) gradient_.transposed_times(0, a, lanes(v_), hidden_[a]);
+  for (Index a = 0; a < problem_.nu(); ++a) gradient_.transposed_times(a, lanes(std::as_const(v_)), &hidden_[a]);
   return hidden_;
 }
 
@@ -76,7 +76,7 @@ const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
   problem_.mass.velocity(lanes(force_), lanes(acceleration));
   problem_.mass.velocity(lanes(p), lanes(v_));
   for (Index a = 0; a < problem_.nu(); ++a) {
-    gradient_.transposed_times(0, a, lanes(acceleration), multiplier_[a]);
+    gradient_.transposed_times(a, lanes(std::as_const(acceleration)), &multiplier_[a]);
     multiplier_[a] += curvature(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, v_);
   }
   solve_gram(multiplier_);

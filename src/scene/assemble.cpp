@@ -324,7 +324,7 @@ class Assembler {
       const auto at_start = value(constraint, d_, result_.q0);
       report(constraint, a, "position", at_start.g, S(tolerance * at_start.size));
       S w;
-      gradient.transposed_times(0, a, lanes(v), w);
+      gradient.transposed_times(a, lanes(v), &w);
       report(constraint, a, "velocity", w, S(tolerance * speed * gradient_size(constraint, result_.q0)));
     }
   }

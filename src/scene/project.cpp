@@ -27,7 +27,7 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, c
     const Vector<S> away = target - q;
     const Vector<S>& g = point.constraints(q);
     for (Index a = 0; a < nu; ++a) {
-      gradient.transposed_times(0, a, lanes(away), mu[a]);
+      gradient.transposed_times(a, lanes(away), &mu[a]);
       mu[a] += g[a];
     }
     gradient.gram(gram_matrix);

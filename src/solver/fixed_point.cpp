@@ -72,34 +72,37 @@ bool FixedPoint<S>::sweep() {
 
 template <Scalar S>
 long FixedPoint<S>::iterate() {
-  const S h = equations_.step();
-  S least = 0, increment = 0, last = 0, before_last = 0, term;
+  const S h = equations_.step(), eps = epsilon<S>();
+  const bool papers = order_ == Order::paper;
+  S least = 0, increment = 0, last = 0, size = 0, term;
   long waiting = 0;
   for (long sweeps = 1;; ++sweeps) {
     if (!sweep())
       throw StageFailure("the linear system (lam) for the multipliers is singular", to_scientific(increment, 3),
                          sweeps);
-    S size = max_norm(equations_.p0());
-    raise_to(size, max_norm(x_.gamma));
-    raise_to(size, S(h * std::max(max_norm(x_.psi), max_norm(x_.zeta))));
     set_zero(increment);
     for (Index i = 0; i < x_.gamma.size(); ++i) {
       set_difference(term, x_.gamma.data()[i], gamma_before_.data()[i]);
       raise_to(increment, magnitude(term));
-      set_difference(term, x_.psi.data()[i], psi_before_.data()[i]);
-      set_product(term, term, h);
-      raise_to(increment, magnitude(term));
     }
-    // Left to change, if the next increments fall by as much as this one did (in the paper's order, where two sweeps
-    // make one of the other, as this one and the one before it). The first increment is no measure: psi had no value of
-    // this step before.
-    const bool papers = order_ == Order::paper;
-    const S& earlier = papers ? before_last : last;
-    const bool falls = sweeps > (papers ? 3 : 2) && 2 * increment < earlier;
-    const S left = falls ? S(increment * (increment / earlier)) : increment;
+    if (papers) {
+      for (Index i = 0; i < x_.psi.size(); ++i) {
+        set_difference(term, x_.psi.data()[i], psi_before_.data()[i]);
+        set_product(term, term, h);
+        raise_to(increment, magnitude(term));
+      }
+    }
+    // Once the increments are small, the scale changes no more.
+    if (!(16 * increment <= size)) {
+      set(size, max_norm(equations_.p0()));
+      raise_to(size, max_norm(x_.gamma));
+      raise_to(size, S(h * std::max(max_norm(x_.psi), max_norm(x_.zeta))));
+    }
+    // Left to change, if the next increments fall by as much as this one did. In the paper's order they fall unevenly.
+    const bool falls = !papers && sweeps > 1 && 2 * increment < last;
+    const S left = falls ? S(increment * (increment / last)) : increment;
     // In the paper's order psi lags by a sweep, so that a small first increment would not mean convergence.
-    if (left <= size * epsilon<S>() / 8 && sweeps > 1) return sweeps;
-    before_last = last;
+    if (left <= size * eps / 4 && sweeps > 1) return sweeps;
     last = increment;
     if (increment != 0) increment /= std::max(size, position_scale_);
     if (!is_finite(increment)) throw StageFailure("an iterate is not finite", to_scientific(increment, 3), sweeps);

@@ -104,9 +104,9 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& ste
 template <Scalar S>
 void Newton<S>::make_rungs() {
   if constexpr (std::same_as<S, Mpfr>) {
-    // Limbs of 64 bits decide the cost: from two on, a seventh more from rung to rung.
+    // Limbs of 64 bits decide the cost: from two on, a sixteenth more from rung to rung.
     constexpr long limb = 64;
-    for (long limbs = 2; limb * limbs < bits_; limbs = std::max(limbs + 1, limbs * 8 / 7)) {
+    for (long limbs = 2; limb * limbs < bits_; limbs = std::max(limbs + 1, limbs * 17 / 16)) {
       // The digits whose bits, with what Boost adds, fit in the limbs.
       const auto digits = static_cast<unsigned>(static_cast<double>(limb * limbs - 4) * std::log10(2.0));
       const PrecisionScope scope(digits);
@@ -176,13 +176,14 @@ long Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
   const double h = rounded_->equations().step();
   const double size =
       std::max({max_norm(rounded_p0_), max_norm(start.gamma), h * max_norm(start.psi), h * max_norm(start.zeta)});
-  const double size_bits = std::log2(size);
+  // Unknowns that double cannot hold are zero there.
+  const double size_bits = size > 0 ? std::log2(size) : static_cast<double>(binary_exponent(max_norm(p0)));
   // log2 of corrections over the size, and of the error left.
   double last = 0, left = -bits_per_sweep;
   int waiting = 0;
   for (long sweeps = 1;; ++sweeps) {
     long exponent = 0;
-    const bool full = residual(static_cast<long>(-left) + bits_per_sweep + 8, exponent);
+    const bool full = residual(static_cast<long>(-left) + bits_per_sweep + 2, exponent);
     rounded_->jacobian().solve(correction_);
     double norm = max_norm(correction_.momentum);
     raise_to(norm, max_norm(correction_.constraint));
@@ -195,7 +196,7 @@ long Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
     const double rate = sweeps == 1 ? rate_ : std::max<double>(now - last, -bits_per_sweep);
     left = now + std::min(rate, -1.0);
     const double round_off = static_cast<double>(-bits_);
-    const bool converged = rate < -1 && now + rate <= round_off - 2;
+    const bool converged = rate < -1 && now + rate <= round_off - 1;
     const bool stagnant = sweeps > 1 && rate >= -1 && now <= round_off + tolerance_bits_;
     if (full && (converged || stagnant)) {
       if (sweeps > 1 && rate < -1) rate_ = rate;
@@ -207,7 +208,7 @@ long Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
     }
     if (converged || stagnant) left = round_off;
     waiting = rate >= -1 ? waiting + 1 : 0;
-    if (waiting >= 4)
+    if (waiting >= 4 || sweeps > bits_)
       throw StageFailure("the corrections do not fall", to_scientific(std::exp2(std::max(now, -1000.0)), 3), sweeps);
     last = now;
   }

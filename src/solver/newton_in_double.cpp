@@ -108,6 +108,7 @@ long NewtonInDouble::iterate(StageEquations<double>& equations, Jacobian& jacobi
       usable_ = true;
     }
     momentum_ = residual_.momentum;
+    const double hidden = max_norm(residual_.constraint);
     jacobian.solve(residual_);
     x_.gamma -= residual_.momentum;
     x_.lambda -= residual_.constraint / h;
@@ -123,7 +124,11 @@ long NewtonInDouble::iterate(StageEquations<double>& equations, Jacobian& jacobi
     const bool small = max_norm(momentum_) <= std::sqrt(epsilon<double>()) * size;
     const double left = rate < 0.5 ? increment * rate : increment;
     const bool converged = small && left <= epsilon<double>() / 8;
-    if (converged || (small && sweeps > 1 && increment <= tolerance_ && rate >= 0.5)) {
+    // Or the increments are round-off, also where it is magnified by an ill-conditioned Jacobian: then the residual is.
+    const bool round_off = max_norm(momentum_) <= tolerance_ * size &&
+                           hidden <= tolerance_ * max_norm(equations.constraint_gradient().values()) *
+                                         max_norm(equations.node_velocities());
+    if (converged || (small && sweeps > 1 && rate >= 0.5 && (increment <= tolerance_ || round_off))) {
       if (sweeps > 1 && rate < 1) rate_ = std::max(rate, epsilon<double>());
       for (Index j = 0; j < momentum_change_.size(); ++j) momentum_change_[j] = h * (x_.psi(0, j) - x_.zeta(0, j));
       add_change_of_momentum(momentum_, residual_.momentum, momentum_change_);

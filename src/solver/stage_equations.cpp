@@ -19,6 +19,7 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
   u_.resize(s, m);
   w_.resize(s, m);
   stage_.resize(s, m);
+  coupling_.resize(s, s);
   std::vector<std::pair<Index, Index>> entries;
   for (const auto& pair : gradient_.couplings()) entries.emplace_back(pair.a, pair.b);
   order_ = order_for_band(nu, entries);
@@ -62,29 +63,34 @@ void StageEquations<S>::describe_parts() {
   parts_[velocities].per_call = stages * problem_.mass.operations();
   parts_[velocities].per_call.add(Op::multiply, s * m);
   for (const auto& [part, rows] : {std::pair(constraint_nodes, s), std::pair(quadrature_nodes, k)}) {
-    parts_[part].per_call.add_products(rows * s * m);
+    parts_[part].per_call.add_dots(rows * m, s);
     parts_[part].per_call.add(Op::add, rows * m);
   }
-  if (potential_.has_varying_force()) parts_[projection].per_call.add_products(s * k * m);
+  if (potential_.has_varying_force()) parts_[projection].per_call.add_dots(s * m, k);
   parts_[projection].per_call.add(Op::add, m);
   parts_[gradients].per_call = gradient_.operations();
   for (const auto& pair : gradient_.couplings()) {
-    parts_[matrix].per_call.add_products(s * s * static_cast<Index>(pair.terms.size()));
+    parts_[matrix].per_call.add_dots(s * s, static_cast<Index>(pair.terms.size()));
     parts_[matrix].per_call.add(Op::multiply, s * s);
   }
   OperationCounts& rhs = parts_[right_hand_side].per_call;
   rhs = stages * problem_.mass.operations();
-  rhs.add_products(s * s * m + s * gradient_.stored());
+  rhs.add_dots(s * m, s);
+  for (Index a = 0; a < problem_.nu(); ++a)
+    rhs.add_dots(s, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
   rhs.add(Op::add, s * m);
   rhs.add(Op::reciprocal, m);
   parts_[solution].per_call = system_.factor_operations() + system_.solve_operations();
-  parts_[zetas].per_call.add_products(s * gradient_.stored() + s * s * m);
+  parts_[zetas].per_call.add_products(s * gradient_.stored());
+  parts_[zetas].per_call.add_dots(s * m, s);
   OperationCounts& gamma = parts_[gammas].per_call;
   gamma.add(Op::subtract, s * m);
   gamma.add(Op::multiply, 2 * s * m);
   gamma.add_products((s - 1) * m);
   gamma.add(Op::add, m);
-  parts_[constraint_residual].per_call.add_products(s * s * m + s * gradient_.stored());
+  parts_[constraint_residual].per_call.add_dots(s * m, s);
+  for (Index a = 0; a < problem_.nu(); ++a)
+    parts_[constraint_residual].per_call.add_dots(s, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
   parts_[constraint_residual].per_call.add(Op::subtract, s * m);
 }
 
@@ -180,13 +186,10 @@ void StageEquations<S>::set_up(const Matrix<S>& psi) {
     const Call call(*this, matrix);
     system_.set_zero();
     for (const auto& pair : gradient_.couplings()) {
-      for (Index j = 0; j < s; ++j) {
-        for (Index i = 0; i < s; ++i) {
-          S& entry = system_.entry(first(pair.a) + i, first(pair.b) + j);
-          gradient_.coupling(pair, i, j, entry);
-          set_product(entry, entry, method_.A(i, j));
-        }
-      }
+      gradient_.coupling(pair, gradient_, coupling_.data());
+      for (Index j = 0; j < s; ++j)
+        for (Index i = 0; i < s; ++i)
+          set_product(system_.entry(first(pair.a) + i, first(pair.b) + j), coupling_(i, j), method_.A(i, j));
     }
   }
   const Call call(*this, right_hand_side);
@@ -196,8 +199,7 @@ void StageEquations<S>::set_up(const Matrix<S>& psi) {
     for (Index i = 0; i < s; ++i) set_sum(stage_(i, j), stage_(i, j), t_);
   }
   problem_.mass.velocity(lanes(stage_), lanes(w_));
-  for (Index b = 0; b < nu; ++b)
-    for (Index i = 0; i < s; ++i) gradient_.transposed_times(i, b, lanes(w_), rhs_[first(b) + i]);
+  for (Index b = 0; b < nu; ++b) gradient_.transposed_times(b, lanes(std::as_const(w_)), &rhs_[first(b)]);
 }
 
 template <Scalar S>
@@ -227,7 +229,7 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& r) {
   if (!constrained) return;
   product(w_, method_.P_s, velocity_);
   for (Index b = 0; b < problem_.nu(); ++b)
-    for (Index i = 0; i < method_.s; ++i) gradient_.transposed_times(i, b, lanes(w_), r.constraint(i, b));
+    gradient_.transposed_times(b, lanes(std::as_const(w_)), &r.constraint(0, b));
 }
 
 template <Scalar S>

@@ -102,7 +102,7 @@ AccountLine line_of(const Account& account, const std::string& name) {
 }
 
 struct Count {
-  int add = 0, subtract = 0, multiply = 0, divide = 0, root = 0;
+  int add = 0, subtract = 0, multiply = 0, divide = 0, root = 0, negate = 0;
 };
 
 void expect_operations(const OperationCounts& found, std::uint64_t times, const Count& each, const std::string& what) {
@@ -112,6 +112,7 @@ void expect_operations(const OperationCounts& found, std::uint64_t times, const 
   expected.add(Op::multiply, each.multiply);
   expected.add(Op::reciprocal, each.divide);
   expected.add(Op::sqrt, each.root);
+  expected.add(Op::negate, each.negate);
   for (std::size_t op = 0; op < op_count; ++op)
     EXPECT_EQ(found[static_cast<Op>(op)], times * expected[static_cast<Op>(op)])
         << what << ", " << name_of(static_cast<Op>(op));
@@ -284,17 +285,17 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
       expect_operations(line_of(account, part).operations, times, each, part);
     };
     expect("velocities h M^-1 gamma", {.multiply = s * d + s * m});
-    expect("positions at c", {.add = s * s * m + s * m, .multiply = s * s * m});
-    expect("positions at c_hat", {.add = k * s * m + k * m, .multiply = k * s * m});
-    expect("coefficients psi_hat", {.add = s * k * m + m, .multiply = s * k * m});
-    // At each node x = a - b, 2 x, its sum into both gradients, and half of that of b.
-    expect("constraint gradients", {.add = s * 2 * d, .subtract = s * 2 * d, .multiply = s * d});
-    expect("matrix of (lam)", {.add = s * s * m, .multiply = s * s * (m + 1)});
+    expect("positions at c", {.add = s * (s - 1) * m + s * m, .multiply = s * s * m});
+    expect("positions at c_hat", {.add = k * (s - 1) * m + k * m, .multiply = k * s * m});
+    expect("coefficients psi_hat", {.add = s * (k - 1) * m + m, .multiply = s * k * m});
+    // At each node x = a - b, x + x for a, minus that for b, and half of the latter.
+    expect("constraint gradients", {.add = s * d, .subtract = s * d, .multiply = s * d, .negate = s * d});
+    expect("matrix of (lam)", {.add = s * s * (m - 1), .multiply = s * s * (m + 1)});
     expect("right-hand side of (lam)",
-           {.add = s * s * m + s * m + s * m, .multiply = s * d + s * s * m + s * m, .divide = m});
+           {.add = s * (s - 1) * m + s * m + s * (m - 1), .multiply = s * d + s * s * m + s * m, .divide = m});
     // Two equations: a quotient and a product to factor, two products and two quotients to solve.
     expect("solution of (lam)", {.subtract = 1 + 2, .multiply = 1 + 2, .divide = 1 + 2});
-    expect("coefficients zeta", {.add = s * m + s * s * m, .multiply = s * m + s * s * m});
+    expect("coefficients zeta", {.add = s * m + s * (s - 1) * m, .multiply = s * m + s * s * m});
     expect("coefficients gamma", {.add = (s - 1) * m + m, .subtract = s * m, .multiply = s * m + (s - 1) * m + s * m});
   }
 }

@@ -22,6 +22,11 @@ class OperationCounts {
     (*this)[Op::multiply] += static_cast<std::uint64_t>(n);
     (*this)[Op::add] += static_cast<std::uint64_t>(n);
   }
+  /// n sums of so many products.
+  void add_dots(Index n, Index length) {
+    (*this)[Op::multiply] += static_cast<std::uint64_t>(n * length);
+    (*this)[Op::add] += static_cast<std::uint64_t>(n * (length - 1));
+  }
   void add(Op op, Index n) { (*this)[op] += static_cast<std::uint64_t>(n); }
   OperationCounts& operator+=(const OperationCounts& other) {
     for (std::size_t i = 0; i < op_count; ++i) counts_[i] += other.counts_[i];

@@ -21,8 +21,11 @@ class ConstraintGradient {
   /// Numbers stored for grad g in one lane.
   Index stored() const { return values_.cols(); }
 
-  /// (grad g^T v)_a in lane i.
-  void transposed_times(Index i, Index a, Lanes<const S> v, S& result);
+  /// g as well, lanes x nu, from the same displacements.
+  void update(Lanes<const S> q, Matrix<S>& g);
+
+  /// result_i = (grad g^T v)_a in lane i, for all lanes.
+  void transposed_times(Index a, Lanes<const S> v, S* result);
   /// out += grad g lambda in every lane, with lambda (lanes x nu).
   void add_times(const Matrix<S>& lambda, Lanes<S> out);
   /// out += M^-1 grad g lambda in every lane.
@@ -34,7 +37,9 @@ class ConstraintGradient {
     std::vector<std::pair<Index, Index>> terms;  ///< columns of the stored gradients that meet
   };
   const std::vector<Coupling>& couplings() const { return couplings_; }
-  void coupling(const Coupling& pair, Index i, Index j, S& result);
+  /// grad g_a of this in lane i with M^-1 grad g_b of `right`, which may be this, in lane j: result(i, j), column by
+  /// column.
+  void coupling(const Coupling& pair, const ConstraintGradient& right, S* result);
   /// The Gram matrix grad g^T M^-1 grad g of the first lane, nu x nu.
   void gram(Matrix<S>& result);
 
@@ -53,13 +58,33 @@ class ConstraintGradient {
  private:
   static void add_times(const std::vector<Pattern>& patterns, const Matrix<S>& values, const Matrix<S>& lambda,
                         Lanes<S> out, S& t);
-  void update(const DisplacementProduct<S>& form, const Pattern& pattern, Lanes<const S> q);
-  void update(const Quadric<S>& form, const Pattern& pattern, Lanes<const S> q);
+  /// One column of a gradient from a displacement: column = weight source, or += if it is not the first.
+  struct Share {
+    Index column, source;
+    bool of_y, first;
+    S weight;
+  };
+  /// One column of M^-1 grad g: to = factor from, or += if it is not the first; no factor stands for 1.
+  struct Weighing {
+    Index to, from;
+    bool first;
+    const S* factor;
+  };
+  void prepare(const Constraint<S>& constraint, const Pattern& pattern);
+  void prepare_weighing(const Pattern& from, const Pattern& to);
+  void update_all(Lanes<const S> q, Matrix<S>* g);
+  void update(std::size_t a, const DisplacementProduct<S>& form, Lanes<const S> q, S* g);
+  void update(std::size_t a, const Quadric<S>& form, Lanes<const S> q, S* g);
+  void update(std::size_t a, const Plane<S>& form, Lanes<const S> q, S* g);
+  /// column = or += weight a, in every lane.
+  void share(S* column, const S* a, const S& weight, bool first);
   void weigh();
 
   const Problem<S>& problem_;
   Index lanes_;
   std::vector<Pattern> patterns_, weighted_patterns_;
+  std::vector<std::vector<Share>> shares_;  ///< of each constraint
+  std::vector<Weighing> weighings_;
   Matrix<S> values_, weighted_;  // lanes x stored columns
   std::vector<Coupling> couplings_;
   Matrix<S> x_, y_;  // scratch: lanes x dimension

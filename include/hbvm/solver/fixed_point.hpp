@@ -11,13 +11,15 @@ namespace hbvm {
 /// Otherwise a sweep uses each value as soon as it is known (psi from gamma, then lambda and zeta, then gamma), and
 /// starts from the extrapolation of the last steps' gamma; if that leads nowhere, once more from the constant v = p0.
 ///
-/// It stops when the increment, scaled, times the factor by which it fell is below epsilon/8: that is what the next
-/// sweep would change. It also stops when the max-norm of the increment, scaled, is below C epsilon and has not fallen
-/// below its least value for two sweeps in a row: then it is round-off. The increment is that of gamma and h psi; the
-/// scale is the largest of |p0|, |gamma|, h |psi|, h |zeta| and |M q0|/h (positions are rounded, too, and h M^-1 gamma
-/// is added to them); C = 4 (k + 3 s + m + s nu), an upper bound of the lengths of the sums of one sweep, where a sum
-/// of n terms carries n roundings, and 4 for what they are passed through. It stops, too, where the increment is below
-/// epsilon/8 of the scale without the positions: a component that decays towards 0 could go on for ever.
+/// It stops when the increment times the factor by which it fell, which is what the next sweep would change (in the
+/// paper's order, where increments fall unevenly: the increment itself), is below epsilon/4 of the scale: the largest
+/// of |p0|, |gamma|, h |psi| and h |zeta|. The increment is the max-norm of that of gamma, and in the paper's order,
+/// where psi lags, of h psi.
+///
+/// It also stops when the increment is below C epsilon, for a scale that includes |M q0|/h (positions are rounded, too,
+/// and h M^-1 gamma is added to them), and has not fallen below its least value for two sweeps in a row: then it is
+/// round-off. C = 4 (k + 3 s + m + s nu) is an upper bound of the lengths of the sums of one sweep, where a sum of n
+/// terms carries n roundings, and 4 for what they are passed through.
 ///
 /// It fails if an increment is not finite, if (lam) is singular, and if the increments, above C epsilon, do not fall
 /// below their least value for `patience` sweeps: they stagnate or grow.

@@ -118,6 +118,7 @@ class StageEquations {
   Matrix<S> velocity_, h_velocity_;  // s x m
   Matrix<S> u_hat_, force_;          // k x m
   Matrix<S> u_, w_, stage_;          // s x m
+  Matrix<S> coupling_;               // s x s
   Vector<S> rhs_;                    // s nu
   S t_;
   std::vector<PartCount> parts_;

@@ -1,0 +1,81 @@
+#include "linear/mpfr_dot.hpp"
+
+#include <gmp.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace hbvm {
+namespace {
+
+constexpr long limb_bits = GMP_NUMB_BITS;
+/// From about here on mpfr_mul, which computes the upper half of a product alone, is as fast.
+constexpr long max_limbs = 24;
+
+long limbs_of(mpfr_srcptr x) { return (mpfr_get_prec(x) + limb_bits - 1) / limb_bits; }
+const mp_limb_t* digits_of(mpfr_srcptr x) { return static_cast<const mp_limb_t*>(mpfr_custom_get_significand(x)); }
+
+}  // namespace
+
+bool dot(mpfr_ptr r, const Mpfr* x, long x_stride, const Mpfr* y, long y_stride, long n) {
+  const long limbs = limbs_of(r);
+  if (limbs > max_limbs) return false;
+
+  // A number is 0.d1d2… 2^exponent with its first bit set: the largest exponent of a product is that of the sum's unit.
+  constexpr mpfr_exp_t none = std::numeric_limits<mpfr_exp_t>::min();
+  mpfr_exp_t largest = none;
+  for (long i = 0; i < n; ++i) {
+    mpfr_srcptr const a = raw(x[i * x_stride]);
+    mpfr_srcptr const b = raw(y[i * y_stride]);
+    if (limbs_of(a) != limbs || limbs_of(b) != limbs || !mpfr_number_p(a) || !mpfr_number_p(b)) return false;
+    if (mpfr_zero_p(a) || mpfr_zero_p(b)) continue;
+    largest = std::max(largest, mpfr_get_exp(a) + mpfr_get_exp(b));
+  }
+  if (largest == none) {
+    mpfr_set_zero(r, 1);
+    return true;
+  }
+
+  // The sum in two's complement: a limb below the last of a product's upper half, and one above for sign and carries.
+  const long width = limbs + 2;
+  mp_limb_t sum[max_limbs + 2], product[2 * max_limbs], shifted[max_limbs + 1];
+  std::fill_n(sum, width, mp_limb_t{0});
+  for (long i = 0; i < n; ++i) {
+    mpfr_srcptr const a = raw(x[i * x_stride]);
+    mpfr_srcptr const b = raw(y[i * y_stride]);
+    if (mpfr_zero_p(a) || mpfr_zero_p(b)) continue;
+    const mpfr_exp_t down = largest - mpfr_get_exp(a) - mpfr_get_exp(b);
+    const long whole = static_cast<long>(down / limb_bits);
+    if (whole > limbs) continue;  // below the last limb
+    mpn_mul_n(product, digits_of(a), digits_of(b), limbs);
+    const long kept = limbs + 1 - whole;
+    const mp_limb_t* top = product + 2 * limbs - kept;
+    if (kept > 2 * limbs) return false;
+    if (const auto bits = static_cast<unsigned>(down % limb_bits); bits != 0) {
+      mpn_rshift(shifted, top, kept, bits);
+      top = shifted;
+    }
+    if ((mpfr_signbit(a) != 0) == (mpfr_signbit(b) != 0))
+      mpn_add(sum, sum, width, top, kept);
+    else
+      mpn_sub(sum, sum, width, top, kept);
+  }
+
+  const bool negative = sum[width - 1] >> (limb_bits - 1) != 0;
+  if (negative) mpn_neg(sum, sum, width);
+  long used = width;
+  while (used > 0 && sum[used - 1] == 0) --used;
+  if (used == 0) {
+    mpfr_set_zero(r, 1);
+    return true;
+  }
+  const auto leading = static_cast<unsigned>(__builtin_clzl(sum[used - 1]));
+  if (leading != 0) mpn_lshift(sum, sum, used, leading);
+  const mpfr_exp_t exponent = largest - limb_bits * (width - 1 - used) - static_cast<long>(leading);
+  mpfr_t view;
+  mpfr_custom_init_set(view, negative ? -MPFR_REGULAR_KIND : MPFR_REGULAR_KIND, exponent, used * limb_bits, sum);
+  mpfr_set(r, view, MPFR_RNDN);
+  return true;
+}
+
+}  // namespace hbvm

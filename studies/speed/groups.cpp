@@ -1,0 +1,297 @@
+#include "groups.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include "chain.hpp"
+#include "hbvm/problem/point.hpp"
+#include "raw_cost.hpp"
+
+namespace hbvm::speed {
+namespace {
+
+constexpr const char* satellites = "tethered_satellites";
+
+std::string microseconds(double seconds) {
+  return seconds < 1e-3 ? fmt::format("{:.3g} us", seconds * 1e6) : fmt::format("{:.3g} ms", seconds * 1e3);
+}
+
+std::string method_text(int k, int s) { return fmt::format("HBVM({},{})", k, s); }
+
+/// The paper's iteration against the default solver.
+template <Scalar S>
+Row against_papers(const std::string& scene_name, int k, int s, const std::string& precision, double limit, long steps,
+                   long paper_steps) {
+  const Assembled<S> scene = assemble<S>(load_scene(scene_name));
+  const S h = S(1) / S(10);
+  const StepCost own = step_cost<S>(scene, k, s, h, SolverKind::newton, steps),
+                 papers = step_cost<S>(scene, k, s, h, SolverKind::paper, paper_steps);
+  return {fmt::format("{} {}, {}", scene_name, method_text(k, s), precision),
+          "newton: times faster than paper",
+          papers.seconds / own.seconds,
+          limit,
+          true,
+          fmt::format("{} and {} a step, {:.1f} and {:.1f} sweeps", microseconds(own.seconds),
+                      microseconds(papers.seconds), own.sweeps, papers.sweeps)};
+}
+
+}  // namespace
+
+std::vector<Group> groups() {
+  return {{"double", "Satellites in double, h = 0.1, against RATTLE at h = 0.1", double_rows},
+          {"best", "Satellites to T = 1000 in double, errors of q and p at t = 100 below 1e-9", best_rows},
+          {"quad", "Satellites in quad, h = 0.1", quad_rows},
+          {"mpfr", "Satellites in more digits, h = 0.1", mpfr_rows},
+          {"raw", "Residuals and sweeps against the raw cost of their operations", raw_rows},
+          {"nodes", "Gauss-Legendre nodes and weights against Arb", node_rows},
+          {"chain", "Chain of rods, h = 0.01: slope of time per step", chain_rows},
+          {"scenes", "Other scenes", scene_rows}};
+}
+
+std::vector<Row> double_rows() {
+  const Assembled<double> scene = assemble<double>(load_scene(satellites));
+  const double h = 1.0 / 10;
+  std::vector<Row> rows;
+  constexpr long steps = 10'000;
+  for (const auto& [k, s, limit] : {std::tuple(1, 1, 2.0), {5, 1, 4.5}, {3, 3, 9.0}, {5, 3, 10.0}}) {
+    const StepCost rattle = rattle_cost<double>(scene, h, steps),
+                   own = step_cost<double>(scene, k, s, h, SolverKind::automatic, steps);
+    rows.push_back({method_text(k, s) + ", auto", "RATTLE", own.seconds / rattle.seconds, limit, false,
+                    fmt::format("{} and {} a step, {:.2f} sweeps and {:.2f} iterations", microseconds(own.seconds),
+                                microseconds(rattle.seconds), own.sweeps, rattle.sweeps)});
+  }
+  return rows;
+}
+
+namespace {
+
+/// q and the output momentum at time t.
+template <Scalar S>
+std::pair<Vector<S>, Vector<S>> output_at(const Scene& text, int k, int s, const S& h, long steps) {
+  const Assembled<S> scene = assemble<S>(text);
+  const Hbvm<S> method = make_hbvm<S>(k, s);
+  Stepper<S> stepper(scene.problem, method, h, SolverKind::automatic);
+  State<S> state(scene.q0, scene.p0);
+  for (long i = 0; i < steps; ++i) stepper.step(state);
+  Point<S> point(scene.problem);
+  return {state.q, point.tangential(state.q, state.p)};
+}
+
+}  // namespace
+
+std::vector<Row> best_rows() {
+  const Scene text = load_scene(satellites);
+  const Assembled<double> scene = assemble<double>(text);
+  constexpr double T = 1000, t = 100, wanted = 1e-9;
+  Vector<double> q_true, p_true;
+  {
+    const PrecisionScope digits(34);
+    const auto [q, p] = output_at<Mpfr>(text, 22, 16, Mpfr(1) / 5, 500);
+    q_true.resize(q.size());
+    p_true.resize(p.size());
+    for (Index j = 0; j < q.size(); ++j) {
+      q_true[j] = approximately(q[j]);
+      p_true[j] = approximately(p[j]);
+    }
+  }
+  const double rattle = rattle_cost<double>(scene, 1.0 / 10, 10'000).seconds * 10'000;
+  Row best{"", "RATTLE, h = 0.1", 1e9, 12, false, ""};
+  for (const auto& [k, s] : {std::pair(6, 4), {8, 5}, {9, 6}, {11, 7}, {12, 8}, {14, 10}, {16, 12}}) {
+    for (const int steps_a_unit : {1, 2, 3, 4, 5, 8, 10}) {
+      const double h = 1.0 / steps_a_unit;
+      try {
+        const auto [q, p] = output_at<double>(text, k, s, h, static_cast<long>(t) * steps_a_unit);
+        const double error = std::max(max_norm(Vector<double>(q - q_true)), max_norm(Vector<double>(p - p_true)));
+        if (!(error < wanted)) continue;
+        const StepCost cost =
+            step_cost<double>(scene, k, s, h, SolverKind::automatic, static_cast<long>(T) * steps_a_unit / 10);
+        const double ratio = cost.seconds * T * steps_a_unit / rattle;
+        if (ratio < best.ratio) {
+          best.ratio = ratio;
+          best.work = fmt::format("{}, h = 1/{}, auto", method_text(k, s), steps_a_unit);
+          best.detail = fmt::format("error {:.1e} at t = 100, {} a step, {:.2f} sweeps", error,
+                                    microseconds(cost.seconds), cost.sweeps);
+        }
+        break;  // smaller steps cost more
+      } catch (const StageFailure&) {
+        // too large a step
+      }
+    }
+  }
+  return {best};
+}
+
+std::vector<Row> quad_rows() {
+  return {against_papers<Quad>(satellites, 5, 3, "quad", 4, 100, 20),
+          against_papers<Quad>(satellites, 16, 12, "quad", 4, 20, 4)};
+}
+
+std::vector<Row> mpfr_rows() {
+  std::vector<Row> rows;
+  for (const auto& [digits, k, s, limit, steps, paper_steps] : {std::tuple(50U, 16, 12, 10.0, 40L, 3L),
+                                                                {100U, 6, 4, 15.0, 100L, 10L},
+                                                                {100U, 16, 12, 20.0, 40L, 2L},
+                                                                {100U, 24, 20, 20.0, 20L, 1L},
+                                                                {1000U, 16, 12, 30.0, 3L, 1L}}) {
+    const PrecisionScope scope(digits);
+    rows.push_back(against_papers<Mpfr>(satellites, k, s, fmt::format("mpfr:{}", digits), limit, steps, paper_steps));
+  }
+  return rows;
+}
+
+std::vector<Row> raw_rows() {
+  std::vector<Row> rows;
+  for (const unsigned digits : {100U, 1000U}) {
+    const PrecisionScope scope(digits);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(satellites));
+    const RawCost raw_cost;
+    for (const auto& [k, s] : {std::pair(6, 4), {16, 12}}) {
+      const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
+      for (const bool residual : {true, false}) {
+        StageEquations<Mpfr> equations(scene.problem, method, Mpfr(1) / 10);
+        StageUnknowns<Mpfr> x = equations.make_unknowns();
+        StageResidual<Mpfr> r{x.gamma, x.lambda};
+        for (Index j = 0; j < x.gamma.cols(); ++j) x.gamma(0, j) = scene.p0[j];
+        Matrix<Mpfr> gamma = x.gamma;
+        equations.start(scene.q0, scene.p0);
+        const double seconds = seconds_of([&] {
+          if (residual) {
+            equations.residual(x, r);
+          } else {
+            equations.move(x.gamma);
+            equations.forces(x.psi);
+            if (!equations.multipliers(x.psi, x.lambda, x.zeta)) throw Error("(lam) is singular");
+            equations.momenta(x.psi, x.zeta, gamma);
+          }
+        });
+        OperationCounts counts;
+        std::uint64_t calls = 0;
+        for (const PartCount& part : equations.part_counts()) {
+          counts += part.calls > 0 ? part.per_call : OperationCounts();
+          calls = std::max(calls, part.calls);
+        }
+        for (const EffectCount& effect : equations.effect_counts())
+          counts += static_cast<std::uint64_t>(k) * effect.per_evaluation;
+        rows.push_back(
+            {fmt::format("{}, mpfr:{}, {}", method_text(k, s), digits, residual ? "residual" : "sweep"),
+             "its operations, raw", seconds / raw_cost.of(counts), 1.2, false,
+             fmt::format(
+                 "{}, {} operations; mul {:.0f} ns, add {:.0f} ns, div {:.0f} ns, sqrt {:.0f} ns, sin {:.0f} ns",
+                 microseconds(seconds), counts.total(), raw_cost.multiply() * 1e9, raw_cost.add() * 1e9,
+                 raw_cost.divide() * 1e9, raw_cost.sqrt_cost() * 1e9, raw_cost.sin() * 1e9)});
+      }
+    }
+  }
+  return rows;
+}
+
+namespace {
+
+template <Scalar S>
+std::vector<std::pair<double, double>> chain_times(std::vector<Row>& rows, const std::string& precision, long steps) {
+  std::vector<std::pair<double, double>> times;
+  std::string detail;
+  for (const int n : {10, 50, 200}) {
+    const Assembled<S> scene = assemble<S>(chain(n));
+    const StepCost cost = step_cost<S>(scene, 4, 2, S(1) / S(100), SolverKind::newton, steps);
+    times.emplace_back(n, cost.seconds);
+    detail += fmt::format("{}{} rods {}, {:.1f} sweeps", detail.empty() ? "" : "; ", n, microseconds(cost.seconds),
+                          cost.sweeps);
+  }
+  const double slope =
+      std::log(times.back().second / times.front().second) / std::log(times.back().first / times.front().first);
+  rows.push_back({"HBVM(4,2), newton, " + precision, "rods, 10 to 200", slope, 1.2, false, detail});
+  return times;
+}
+
+}  // namespace
+
+std::vector<Row> chain_rows() {
+  std::vector<Row> rows;
+  chain_times<double>(rows, "double", 100);
+  const PrecisionScope scope(50);
+  chain_times<Mpfr>(rows, "mpfr:50", 20);
+  return rows;
+}
+
+std::vector<Row> scene_rows() {
+  std::vector<Row> rows;
+  for (const char* name : {"double_pendulum", "heavy_top"}) {
+    const Assembled<double> scene = assemble<double>(load_scene(name));
+    const double h = 1.0 / 100;
+    const StepCost rattle = rattle_cost<double>(scene, h, 5000);
+    for (const auto& [k, s] : {std::pair(1, 1), {3, 3}, {5, 3}}) {
+      const StepCost own = step_cost<double>(scene, k, s, h, SolverKind::automatic, 5000);
+      rows.push_back({fmt::format("{} {}, double, h = 0.01", name, method_text(k, s)), "RATTLE",
+                      own.seconds / rattle.seconds, 0, false,
+                      fmt::format("{} a step, {:.2f} sweeps", microseconds(own.seconds), own.sweeps)});
+    }
+    const PrecisionScope scope(100);
+    rows.push_back(against_papers<Mpfr>(name, 6, 4, "mpfr:100", 0, 100, 10));
+    rows.push_back(against_papers<Mpfr>(name, 16, 12, "mpfr:100", 0, 20, 2));
+  }
+  return rows;
+}
+
+namespace {
+
+void write_curve(const std::filesystem::path& file, const std::vector<std::pair<double, double>>& points) {
+  std::ofstream out(file);
+  out << "# log10 x,log10 milliseconds a step\n";
+  for (const auto& [x, seconds] : points) out << std::log10(x) << "," << std::log10(seconds * 1000) << "\n";
+}
+
+}  // namespace
+
+Figure cost_figure(const std::filesystem::path& folder) {
+  std::vector<std::pair<double, double>> digits[2], stages[2];
+  for (const SolverKind kind : {SolverKind::newton, SolverKind::paper}) {
+    const std::size_t c = kind == SolverKind::paper;
+    for (const unsigned d : {20U, 34U, 50U, 100U, 200U, 500U, 1000U}) {
+      const PrecisionScope scope(d);
+      const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(satellites));
+      digits[c].emplace_back(d, step_cost<Mpfr>(scene, 6, 4, Mpfr(1) / 10, kind, c ? 1 : 5).seconds);
+    }
+    const PrecisionScope scope(50);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(satellites));
+    for (const int s : {1, 2, 4, 8, 16})
+      stages[c].emplace_back(s, step_cost<Mpfr>(scene, s + 2, s, Mpfr(1) / 10, kind, c ? 2 : 10).seconds);
+  }
+  std::vector<Row> unused;
+  const auto bodies = chain_times<double>(unused, "double", 50);
+  const PrecisionScope scope(50);
+  const auto bodies50 = chain_times<Mpfr>(unused, "mpfr:50", 5);
+  const auto curve = [&](const std::string& name, const auto& points, const std::string& label) {
+    write_curve(folder / (name + ".csv"), points);
+    return Curve{(folder / (name + ".csv")).string(), 1, 2, 0, label, false};
+  };
+  const std::string y = "milliseconds a step (10^y)";
+  return {"speed",
+          "Time of a step",
+          {{"HBVM(6,4), satellites",
+            "digits (10^x)",
+            y,
+            "",
+            {curve("digits_newton", digits[0], "newton"), curve("digits_paper", digits[1], "paper")},
+            {},
+            {},
+            false},
+           {"HBVM(s + 2, s), 50 digits",
+            "s (10^x)",
+            y,
+            "",
+            {curve("stages_newton", stages[0], "newton"), curve("stages_paper", stages[1], "paper")},
+            {},
+            {},
+            false},
+           {"Chain, HBVM(4,2), newton",
+            "rods (10^x)",
+            y,
+            "",
+            {curve("bodies_double", bodies, "double"), curve("bodies_mpfr50", bodies50, "50 digits")},
+            {},
+            {},
+            false}}};
+}
+
+}  // namespace hbvm::speed

@@ -1,0 +1,109 @@
+#include "hbvm/solver/newton.hpp"
+
+#include "hbvm/integrate/drift.hpp"
+#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class NewtonTest : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+};
+TYPED_TEST_SUITE(NewtonTest, AllScalars, ScalarNames);
+
+/// The pendulum that goes over the top, with steps at which the fixed point has no chance: U is linear, so that H and g
+/// are conserved to round-off.
+TYPED_TEST(NewtonTest, ConvergesWhereTheFixedPointBreaksDown) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("swinging_pendulum"));
+  for (const auto& [s, step] : {std::pair(1, "3/2"), {2, "2"}, {4, "2"}, {6, "2"}}) {
+    const TimeGrid<S> grid(Expression::parse(step), Expression::parse("60"));
+    for (const int k : {s, s + 3}) {
+      const Hbvm<S> method = make_hbvm<S>(k, s);
+      for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
+        Drift<S> drift(scene.problem);
+        Stepper<S> stepper(scene.problem, method, grid.step(), kind);
+        State<S> state(scene.q0, scene.p0);
+        ASSERT_NO_THROW(integrate<S>(stepper, state, grid, {&drift})) << method.s << " " << name_of(kind);
+        // H is 3.5, and 30 to 40 steps add their round-off.
+        EXPECT_LE(drift.e_H(), 200 * epsilon<S>()) << k << "," << s;
+        EXPECT_LE(drift.e_g(), 100 * epsilon<S>()) << k << "," << s;
+      }
+    }
+  }
+}
+
+TYPED_TEST(NewtonTest, EndsWithATypedErrorWhereNoSolutionIsFound) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("swinging_pendulum"));
+  const Hbvm<S> method = make_hbvm<S>(1, 1);
+  for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
+    const TimeGrid<S> grid(Expression::parse("3"), Expression::parse("30"));
+    Stepper<S> stepper(scene.problem, method, grid.step(), kind);
+    State<S> state(scene.q0, scene.p0);
+    EXPECT_THROW(integrate<S>(stepper, state, grid, {}), StepError);
+  }
+}
+
+/// A body dropped next to a centre of gravity: a tiny increment of an enormous unknown is no solution.
+TEST(Newton, TakesNoSmallIncrementForASolution) {
+  const Assembled<double> scene = assemble<double>(read_scene(
+      "dimension = 2\npoint = [{ name = \"sun\", position = [0, 0] }]\nbody = [{ name = \"stone\", mass = 1, "
+      "position = [1e-9, 0], velocity = [0, 0] }]\neffect = [{ kind = \"central_gravity\", center = \"sun\", "
+      "strength = 1 }]\n",
+      "fall"));
+  const Hbvm<double> method = make_hbvm<double>(2, 2);
+  for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
+    const auto solver = make_solver(kind, scene.problem, method, 1.0);
+    EXPECT_THROW(solver->solve(scene.q0, scene.p0), StageFailure) << name_of(kind);
+  }
+}
+
+/// Each sweep wins some fourteen digits: the number of sweeps grows by one or two for 25 digits more, and is far below
+/// the fixed point's.
+TEST(Newton, WinsFourteenDigitsASweep) {
+  long last = 0;
+  for (const unsigned digits : {25U, 50U, 75U, 100U, 200U}) {
+    const PrecisionScope scope(digits);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("tethered_satellites"));
+    const Hbvm<Mpfr> method = make_hbvm<Mpfr>(6, 4);
+    const Mpfr h = Mpfr(1) / 10;
+    Stepper<Mpfr> newton(scene.problem, method, h, SolverKind::newton),
+        papers(scene.problem, method, h, SolverKind::paper);
+    State<Mpfr> state(scene.q0, scene.p0), other = state;
+    newton.step(state);
+    papers.step(other);
+    const long sweeps = newton.step(state), papers_sweeps = papers.step(other);
+    if (digits == 100) {
+      EXPECT_LE(sweeps, 16);
+      EXPECT_GE(papers_sweeps, 50);
+    }
+    EXPECT_LE(sweeps, last == 0 ? 12 : last + (digits == 200 ? 8 : 3)) << digits;
+    last = sweeps;
+    EXPECT_LE(max_norm(Vector<Mpfr>(state.q - other.q)), 10'000 * epsilon<Mpfr>());
+    EXPECT_LE(max_norm(Vector<Mpfr>(state.p - other.p)), 10'000 * epsilon<Mpfr>());
+  }
+}
+
+/// Numbers that double does not hold: Newton fails, typed, and the automatic solver goes on with the fixed point.
+TEST(Newton, LeavesWhatDoubleCannotHoldToTheFixedPoint) {
+  const PrecisionScope digits(40);
+  const Scene text = read_scene(
+      "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = 1, position = [1, "
+      "0], "
+      "velocity = [0, \"10^(-400)\"] }]\nconstraint = [{ kind = \"rod\", between = [\"O\", \"a\"], length = 1 }]\n",
+      "slow");
+  const Assembled<Mpfr> scene = assemble<Mpfr>(text);
+  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(2, 2);
+  const auto solver = make_solver(SolverKind::automatic, scene.problem, method, Mpfr(Mpfr(1) / 10));
+  EXPECT_NO_THROW(solver->solve(scene.q0, scene.p0));
+  EXPECT_LE(magnitude(Mpfr(solver->position_change()[1] / scene.p0[1] - Mpfr(1) / 10)), 100 * epsilon<Mpfr>());
+}
+
+}  // namespace
+}  // namespace hbvm

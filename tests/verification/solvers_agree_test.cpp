@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <random>
+
+#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Bodies on a grid with random offsets, some hung from the one before by a rod, at rest, and some effects.
+struct RandomScene {
+  std::mt19937 random;
+  int dimension, bodies;
+
+  explicit RandomScene(unsigned seed) : random(seed), dimension(2 + pick(2)), bodies(1 + pick(4)) {}
+  int pick(int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); }
+
+  std::string text() {
+    std::vector<std::vector<int>> at;  // hundredths
+    std::string result = fmt::format("dimension = {}\n[[point]]\nname = \"0\"\nposition = [{}]\n", dimension,
+                                     dimension == 2 ? "0, 0" : "0, 0, 0");
+    at.push_back(std::vector<int>(static_cast<std::size_t>(dimension), 0));
+    for (int b = 1; b <= bodies; ++b) {
+      std::vector<int> x;
+      for (int j = 0; j < dimension; ++j) x.push_back((j == 0 ? 120 * b : 0) + pick(60) - 30);
+      std::string position;
+      for (const int value : x) position += fmt::format("{}\"{}/100\"", position.empty() ? "" : ", ", value);
+      result += fmt::format("[[body]]\nname = \"{}\"\nmass = \"{}/4\"\ncharge = {}\nposition = [{}]\nvelocity = [{}]\n",
+                            b, 1 + pick(12), 1 + pick(3), position, dimension == 2 ? "0, 0" : "0, 0, 0");
+      at.push_back(x);
+    }
+    for (int b = 1; b <= bodies; ++b) {
+      if (pick(4) == 0) continue;
+      long squared = 0;
+      for (std::size_t j = 0; j < at[0].size(); ++j) {
+        const long d = at[static_cast<std::size_t>(b)][j] - at[static_cast<std::size_t>(b - 1)][j];
+        squared += d * d;
+      }
+      result += fmt::format("[[constraint]]\nkind = \"rod\"\nbetween = [\"{}\", \"{}\"]\nlength = \"sqrt({})/100\"\n",
+                            b - 1, b, squared);
+    }
+    const std::string all = "[[effect]]\nkind = ";
+    if (pick(2) == 0)
+      result +=
+          all + fmt::format("\"uniform_gravity\"\nacceleration = [{}]\n", dimension == 2 ? "0.1, -1" : "0, 0.2, -1");
+    if (pick(2) == 0) result += all + "\"trap\"\ncenter = \"0\"\nstiffness = 0.5\nexponent = 4\n";
+    if (pick(3) == 0) result += all + "\"radial_cosine\"\ncenter = \"0\"\nstrength = 0.7\n";
+    if (bodies > 1 && pick(2) == 0)
+      result += all + fmt::format("\"coulomb\"\nstrength = 0.3\nbetween = [[\"1\", \"{}\"]]\n", bodies);
+    if (bodies > 1 && pick(2) == 0)
+      result += all + "\"spring\"\nstiffness = 2\nrest_length = 0.8\nbetween = [[\"1\", \"2\"]]\n";
+    return result;
+  }
+};
+
+template <Scalar S>
+State<S> end_of(const Scene& text, int k, int s, SolverKind kind) {
+  const Assembled<S> scene = assemble<S>(text);
+  const Hbvm<S> method = make_hbvm<S>(k, s);
+  Stepper<S> stepper(scene.problem, method, S(S(1) / 20), kind);
+  State<S> state(scene.q0, scene.p0);
+  for (int step = 0; step < 6; ++step) stepper.step(state);
+  return state;
+}
+
+template <class S>
+class SolversAgree : public ::testing::Test {
+ protected:
+  PrecisionScope digits{45};
+};
+TYPED_TEST_SUITE(SolversAgree, AllScalars, ScalarNames);
+
+TYPED_TEST(SolversAgree, OnFiftyRandomScenesAndMethods) {
+  using S = TypeParam;
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    RandomScene random(seed);
+    const Scene text = read_scene(random.text(), fmt::format("random {}", seed));
+    const int s = 1 + random.pick(5), k = s + random.pick(5);
+    const State<S> expected = end_of<S>(text, k, s, SolverKind::paper);
+    for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::newton, SolverKind::automatic}) {
+      const State<S> end = end_of<S>(text, k, s, kind);
+      // Unknowns are of order 10, and six steps magnify their round-off.
+      const S bound = 2000 * epsilon<S>();
+      EXPECT_LE(max_norm(Vector<S>(end.q - expected.q)), bound) << seed << " " << name_of(kind) << " " << k << "," << s;
+      EXPECT_LE(max_norm(Vector<S>(end.p - expected.p)), bound) << seed << " " << name_of(kind) << " " << k << "," << s;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
