@@ -33,7 +33,7 @@ void Lu<S>::set(const Matrix<S>& a) {
 
 template <Scalar S>
 bool Lu<S>::factor() {
-  S t;
+  S& t = scratch<S>();
   for (Index k = 0; k < n_; ++k) {
     const Index last_row = std::min(n_ - 1, k + b_), last_column = std::min(n_ - 1, k + upper_);
     S* const column = &entry(0, k);
@@ -59,7 +59,7 @@ bool Lu<S>::factor() {
 
 template <Scalar S>
 void Lu<S>::solve(S* x) {
-  S t;
+  S& t = scratch<S>();
   for (Index k = 0; k < n_; ++k) {
     const Index pivot = pivots_[static_cast<std::size_t>(k)];
     if (pivot != k) {

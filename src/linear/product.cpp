@@ -13,7 +13,7 @@ void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
     for (Index i = 0; i < c.size(); ++i) set_zero(c.data()[i]);
     return;
   }
-  S t;
+  S& t = scratch<S>();
   for (Index j = 0; j < columns; ++j) {
     S* const out = c.data() + j * rows;
     const S* const x = b.data() + j * inner;

@@ -13,7 +13,7 @@ void displace(const Displacement<S>& x, Index dimension, Lanes<const S> q, S* ou
     }
     return;
   }
-  S t;
+  S& t = scratch<S>();
   for (Index j = 0; j < dimension; ++j, out += stride) {
     bool first = true;
     for (const auto& block : x.blocks) {

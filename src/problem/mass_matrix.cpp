@@ -64,7 +64,7 @@ void MassMatrix<S>::add_full(const Matrix<S>& M) {
 
 template <Scalar S>
 void MassMatrix<S>::velocity(Lanes<const S> p, Lanes<S> v) const {
-  S t;
+  S& t = scratch<S>();
   for (const Block& block : blocks_) {
     for (Index j = 0; j < block.size; ++j) {
       S* const out = v[block.offset + j];
@@ -88,18 +88,24 @@ void MassMatrix<S>::velocity(Lanes<const S> p, Lanes<S> v) const {
 template <Scalar S>
 Vector<S> MassMatrix<S>::momentum(const Vector<S>& v) const {
   Vector<S> p(m_);
+  momentum(v, p);
+  return p;
+}
+
+template <Scalar S>
+void MassMatrix<S>::momentum(const Vector<S>& v, Vector<S>& p) const {
+  S& t = scratch<S>();
   for (const Block& block : blocks_) {
     for (Index j = 0; j < block.size; ++j) {
       S& sum = p[block.offset + j];
       if (!block.full) {
-        sum = block.mass * v[block.offset + j];
+        set_product(sum, block.mass, v[block.offset + j]);
         continue;
       }
-      sum = 0;
-      for (Index l = 0; l < block.size; ++l) sum += block.M(j, l) * v[block.offset + l];
+      set_zero(sum);
+      for (Index l = 0; l < block.size; ++l) add_product(sum, block.M(j, l), v[block.offset + l], t);
     }
   }
-  return p;
 }
 
 #define HBVM_DEFINE(S) template class MassMatrix<S>;

@@ -20,12 +20,15 @@ FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, cons
       momentum_change_(problem.m()) {
   const Index C = 4 * (method.k + 3 * method.s + problem.m() + method.s * problem.nu());
   tolerance_ = S(static_cast<long>(C)) * epsilon<S>();
+  quarter_epsilon_ = epsilon<S>() / 4;
 }
 
 template <Scalar S>
 long FixedPoint<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
   equations_.start(q0, p0);
-  position_scale_ = max_norm(equations_.problem().mass.momentum(q0)) / equations_.step();
+  equations_.problem().mass.momentum(q0, momentum_change_);
+  set_max_norm(position_scale_, momentum_change_);
+  set_quotient(position_scale_, position_scale_, equations_.step());
   long sweeps = 0;
   if (order_ == Order::paper) {
     prepare(Start::zero, p0);
@@ -71,51 +74,71 @@ bool FixedPoint<S>::sweep() {
 }
 
 template <Scalar S>
+void FixedPoint<S>::measure_increment() {
+  set_zero(increment_);
+  for (Index i = 0; i < x_.gamma.size(); ++i) {
+    set_difference(term_, x_.gamma.data()[i], gamma_before_.data()[i]);
+    raise_magnitude(increment_, term_);
+  }
+  if (order_ == Order::paper) {
+    for (Index i = 0; i < x_.psi.size(); ++i) {
+      set_difference(term_, x_.psi.data()[i], psi_before_.data()[i]);
+      set_product(term_, term_, equations_.step());
+      raise_magnitude(increment_, term_);
+    }
+  }
+}
+
+template <Scalar S>
+void FixedPoint<S>::measure_size() {
+  set_max_norm(size_, equations_.p0());
+  set_max_norm(term_, x_.gamma);
+  raise_magnitude(size_, term_);
+  for (const Matrix<S>* force : {&x_.psi, &x_.zeta}) {
+    set_max_norm(term_, *force);
+    set_product(term_, term_, equations_.step());
+    raise_magnitude(size_, term_);
+  }
+}
+
+template <Scalar S>
 long FixedPoint<S>::iterate() {
-  const S h = equations_.step(), eps = epsilon<S>();
   const bool papers = order_ == Order::paper;
-  S least = 0, increment = 0, last = 0, size = 0, term;
+  set_zero(size_);
   long waiting = 0;
   for (long sweeps = 1;; ++sweeps) {
     if (!sweep())
-      throw StageFailure("the linear system (lam) for the multipliers is singular", to_scientific(increment, 3),
-                         sweeps);
-    set_zero(increment);
-    for (Index i = 0; i < x_.gamma.size(); ++i) {
-      set_difference(term, x_.gamma.data()[i], gamma_before_.data()[i]);
-      raise_to(increment, magnitude(term));
-    }
-    if (papers) {
-      for (Index i = 0; i < x_.psi.size(); ++i) {
-        set_difference(term, x_.psi.data()[i], psi_before_.data()[i]);
-        set_product(term, term, h);
-        raise_to(increment, magnitude(term));
-      }
-    }
+      throw StageFailure("the linear system (lam) for the multipliers is singular",
+                         to_scientific(sweeps > 1 ? scaled_ : S(0), 3), sweeps);
+    measure_increment();
     // Once the increments are small, the scale changes no more.
-    if (!(16 * increment <= size)) {
-      set(size, max_norm(equations_.p0()));
-      raise_to(size, max_norm(x_.gamma));
-      raise_to(size, S(h * std::max(max_norm(x_.psi), max_norm(x_.zeta))));
-    }
+    set_product(term_, increment_, sixteen_);
+    if (sweeps == 1 || !(term_ <= size_)) measure_size();
     // Left to change, if the next increments fall by as much as this one did. In the paper's order they fall unevenly.
-    const bool falls = !papers && sweeps > 1 && 2 * increment < last;
-    const S left = falls ? S(increment * (increment / last)) : increment;
+    set_sum(left_, increment_, increment_);
+    if (!papers && sweeps > 1 && left_ < last_) {
+      set_quotient(left_, increment_, last_);
+      set_product(left_, left_, increment_);
+    } else {
+      set(left_, increment_);
+    }
     // In the paper's order psi lags by a sweep, so that a small first increment would not mean convergence.
-    if (left <= size * eps / 4 && sweeps > 1) return sweeps;
-    last = increment;
-    if (increment != 0) increment /= std::max(size, position_scale_);
-    if (!is_finite(increment)) throw StageFailure("an iterate is not finite", to_scientific(increment, 3), sweeps);
-    if (sweeps == 1 || increment < least) {
-      least = increment;
+    set_product(term_, size_, quarter_epsilon_);
+    if (left_ <= term_ && sweeps > 1) return sweeps;
+    set(last_, increment_);
+    set(scaled_, increment_);
+    if (increment_ != 0) set_quotient(scaled_, increment_, size_ > position_scale_ ? size_ : position_scale_);
+    if (!is_finite(scaled_)) throw StageFailure("an iterate is not finite", to_scientific(scaled_, 3), sweeps);
+    if (sweeps == 1 || scaled_ < least_) {
+      set(least_, scaled_);
       waiting = 0;
       continue;
     }
     ++waiting;
-    if (increment <= tolerance_ && waiting >= 2) return sweeps;
+    if (scaled_ <= tolerance_ && waiting >= 2) return sweeps;
     if (waiting >= patience)
-      throw StageFailure(increment > 10 * least ? "the increments grow" : "the increments stagnate",
-                         to_scientific(increment, 3), sweeps);
+      throw StageFailure(scaled_ > 10 * least_ ? "the increments grow" : "the increments stagnate",
+                         to_scientific(scaled_, 3), sweeps);
   }
 }
 

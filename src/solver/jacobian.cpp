@@ -36,14 +36,8 @@ Jacobian::Jacobian(const Problem<double>& problem, const Hbvm<double>& method, d
   order_ = order_for_band(m + nu, entries);
   n_ = s * (m + nu);
   const Index half_bandwidth = s * (order_.half_bandwidth + 1) - 1;
-  // Up to here Eigen's blocked code for dense matrices is faster.
-  banded_ = 8 * half_bandwidth < n_;
-  if (banded_)
-    band_.resize(n_, half_bandwidth);
-  else
-    dense_.resize(n_, n_);
+  matrix_.resize(n_, half_bandwidth);
   x_.resize(n_);
-  y_.resize(n_);
   block_.resize(s, s);
   curved_.resize(s, static_cast<Index>(curvature_.pairs().size()));
 }
@@ -51,21 +45,14 @@ Jacobian::Jacobian(const Problem<double>& problem, const Hbvm<double>& method, d
 bool Jacobian::factor(const StageEquations<double>& at, const Matrix<double>& lambda) {
   ++factorisations_;
   assemble(at, lambda);
-  if (banded_) return band_.factor();
-  if (!dense_.allFinite()) return false;
-  dense_lu_.compute(dense_);
-  const auto pivots = dense_lu_.matrixLU().diagonal();
-  return pivots.allFinite() && (pivots.array() != 0).all();
+  return matrix_.factor();
 }
 
 void Jacobian::assemble(const StageEquations<double>& at, const Matrix<double>& lambda) {
   const Index m = problem_.m(), nu = problem_.nu(), s = method_.s, k = method_.k;
-  if (banded_)
-    band_.set_zero();
-  else
-    dense_.setZero();
+  matrix_.set_zero();
   for (Index j = 0; j < m; ++j)
-    for (Index i = 0; i < s; ++i) entry(of_coordinate(j) + i, of_coordinate(j) + i) = 1;
+    for (Index i = 0; i < s; ++i) matrix_.entry(of_coordinate(j) + i, of_coordinate(j) + i) = 1;
 
   // The second derivatives, of U at the k nodes and of g lambda at the s nodes.
   const Matrix<double>& hessian = curvature_.potential(lanes(at.quadrature_positions()));
@@ -74,18 +61,17 @@ void Jacobian::assemble(const StageEquations<double>& at, const Matrix<double>& 
     for (Index n = 0; n < s; ++n) curved_(n, second.pair) += second.value * lambda(n, second.constraint);
   for (std::size_t p = 0; p < curvature_.pairs().size(); ++p) {
     const auto& pair = curvature_.pairs()[p];
+    const auto second = static_cast<Index>(p);
+    block_.setZero();
     for (Index j = 0; j < s; ++j) {
-      for (Index i = 0; i < s; ++i) {
-        double sum = 0;
-        for (Index n = 0; n < k; ++n) sum -= X_hat_(i, n) * hessian(n, static_cast<Index>(p)) * method_.I_hat(n, j);
-        for (Index n = 0; n < s; ++n)
-          sum += X_projection_(i, n) * curved_(n, static_cast<Index>(p)) * method_.I_s(n, j);
-        block_(i, j) = h_ * h_ * sum;
-      }
+      for (Index n = 0; n < k; ++n) block_.col(j) -= hessian(n, second) * method_.I_hat(n, j) * X_hat_.col(n);
+      for (Index n = 0; n < s; ++n) block_.col(j) += curved_(n, second) * method_.I_s(n, j) * X_projection_.col(n);
     }
+    block_ *= h_ * h_;
     for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)])
       for (Index j = 0; j < s; ++j)
-        for (Index i = 0; i < s; ++i) entry(of_coordinate(pair.row) + i, of_coordinate(column) + j) += block_(i, j) * w;
+        for (Index i = 0; i < s; ++i)
+          matrix_.entry(of_coordinate(pair.row) + i, of_coordinate(column) + j) += block_(i, j) * w;
   }
 
   const ConstraintGradient<double>& gradient = at.constraint_gradient();
@@ -94,13 +80,13 @@ void Jacobian::assemble(const StageEquations<double>& at, const Matrix<double>& 
     for (std::size_t l = 0; l < own.coordinates.size(); ++l)
       for (Index n = 0; n < s; ++n)
         for (Index i = 0; i < s; ++i)
-          entry(of_coordinate(own.coordinates[l]) + i, of_multiplier(a) + n) =
+          matrix_.entry(of_coordinate(own.coordinates[l]) + i, of_multiplier(a) + n) =
               X_projection_(i, n) * gradient.values()(n, own.first + static_cast<Index>(l));
     const auto& weighted = gradient.weighted_pattern(a);
     for (std::size_t l = 0; l < weighted.coordinates.size(); ++l)
       for (Index j = 0; j < s; ++j)
         for (Index n = 0; n < s; ++n)
-          entry(of_multiplier(a) + n, of_coordinate(weighted.coordinates[l]) + j) +=
+          matrix_.entry(of_multiplier(a) + n, of_coordinate(weighted.coordinates[l]) + j) +=
               method_.P_s(n, j) * gradient.weighted_values()(n, weighted.first + static_cast<Index>(l));
   }
   for (const auto& second : curvature_.constraints()) {
@@ -108,7 +94,7 @@ void Jacobian::assemble(const StageEquations<double>& at, const Matrix<double>& 
     for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)])
       for (Index j = 0; j < s; ++j)
         for (Index n = 0; n < s; ++n)
-          entry(of_multiplier(second.constraint) + n, of_coordinate(column) + j) +=
+          matrix_.entry(of_multiplier(second.constraint) + n, of_coordinate(column) + j) +=
               h_ * method_.I_s(n, j) * second.value * at.node_velocities()(n, pair.row) * w;
   }
 }
@@ -119,14 +105,7 @@ void Jacobian::solve(StageResidual<double>& r) {
     for (Index i = 0; i < s; ++i) x_[of_coordinate(j) + i] = r.momentum(i, j);
   for (Index a = 0; a < nu; ++a)
     for (Index i = 0; i < s; ++i) x_[of_multiplier(a) + i] = r.constraint(i, a);
-  if (banded_) {
-    band_.solve(x_);
-  } else {
-    y_.noalias() = dense_lu_.permutationP() * x_;
-    dense_lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(y_);
-    dense_lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(y_);
-    x_.swap(y_);
-  }
+  matrix_.solve(x_);
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) r.momentum(i, j) = x_[of_coordinate(j) + i];
   for (Index a = 0; a < nu; ++a)

@@ -8,10 +8,10 @@ namespace hbvm {
 namespace {
 
 /// log2 |x| to less than a unit; of 0, less than that of any number.
+constexpr long exponent_of_zero = -(1L << 40);
 template <Scalar S>
 long binary_exponent(const S& x) {
-  constexpr long of_zero = -(1L << 40);
-  if (x == 0) return of_zero;
+  if (x == 0) return exponent_of_zero;
   if constexpr (std::same_as<S, Mpfr>) {
     return mpfr_get_exp(raw(x));
   } else {
@@ -58,7 +58,7 @@ void set_exactly(S& x, double y) {
 
 template <Scalar S>
 long largest_exponent(const Matrix<S>& a) {
-  long exponent = binary_exponent(S(0));
+  long exponent = exponent_of_zero;
   for (Index i = 0; i < a.size(); ++i) exponent = std::max(exponent, binary_exponent(a.data()[i]));
   return exponent;
 }
@@ -110,7 +110,7 @@ void Newton<S>::make_rungs() {
       // The digits whose bits, with what Boost adds, fit in the limbs.
       const auto digits = static_cast<unsigned>(static_cast<double>(limb * limbs - 4) * std::log10(2.0));
       const PrecisionScope scope(digits);
-      rungs_.push_back({digits, mpfr_working_bits(), nullptr});
+      rungs_.push_back({digits, mpfr_working_bits(), std::make_unique<Level>(problem_, method_, S(h_))});
     }
   }
 }
@@ -149,7 +149,6 @@ bool Newton<S>::residual(long bits, long& exponent) {
   for (Rung& rung : rungs_) {
     if (rung.bits < bits) continue;
     const PrecisionScope scope(rung.digits);
-    if (!rung.level) rung.level = std::make_unique<Level>(problem_, method_, S(h_));
     Level& level = *rung.level;
     for (Index j = 0; j < level.q0.size(); ++j) {
       set(level.q0[j], equations_->q0()[j]);
@@ -221,8 +220,7 @@ SolverCounts Newton<S>::counts() const {
     add_counts(sum, {equations.effect_counts(), equations.part_counts()}, problem_);
   };
   if (equations_) add(*equations_);
-  for (const Rung& rung : rungs_)
-    if (rung.level) add(rung.level->equations);
+  for (const Rung& rung : rungs_) add(rung.level->equations);
   add(rounded_->equations());
   return sum;
 }
@@ -230,8 +228,7 @@ SolverCounts Newton<S>::counts() const {
 template <Scalar S>
 void Newton<S>::measure_time() {
   if (equations_) equations_->measure_time();
-  for (Rung& rung : rungs_)
-    if (rung.level) rung.level->equations.measure_time();
+  for (Rung& rung : rungs_) rung.level->equations.measure_time();
   rounded_->equations().measure_time();
 }
 

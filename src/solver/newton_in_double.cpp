@@ -1,5 +1,6 @@
 #include "hbvm/solver/newton_in_double.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "hbvm/scalar/text.hpp"

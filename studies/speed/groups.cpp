@@ -151,9 +151,16 @@ std::vector<Row> raw_rows() {
         StageEquations<Mpfr> equations(scene.problem, method, Mpfr(1) / 10);
         StageUnknowns<Mpfr> x = equations.make_unknowns();
         StageResidual<Mpfr> r{x.gamma, x.lambda};
-        for (Index j = 0; j < x.gamma.cols(); ++j) x.gamma(0, j) = scene.p0[j];
+        // Numbers with all their digits, so that no operation is cheaper than it will be.
+        for (Index j = 0; j < x.gamma.size(); ++j) x.gamma.data()[j] = sqrt(Mpfr(j + 2)) / 8;
+        for (Index j = 0; j < x.lambda.size(); ++j) x.lambda.data()[j] = sqrt(Mpfr(j + 3)) / 8;
+        Vector<Mpfr> q0 = scene.q0, p0 = scene.p0;
+        for (Index j = 0; j < q0.size(); ++j) {
+          q0[j] += sqrt(Mpfr(j + 2)) / 1000;
+          p0[j] += sqrt(Mpfr(j + 5)) / 1000;
+        }
         Matrix<Mpfr> gamma = x.gamma;
-        equations.start(scene.q0, scene.p0);
+        equations.start(q0, p0);
         const double seconds = seconds_of([&] {
           if (residual) {
             equations.residual(x, r);

@@ -29,4 +29,21 @@ S max_norm(const Vector<S>& a) {
   return norm;
 }
 
+/// bound = max(bound, |x|), in place; a NaN wins.
+template <Scalar S>
+void raise_magnitude(S& bound, const S& x) {
+  if constexpr (std::same_as<S, Mpfr>) {
+    if (mpfr_cmpabs(raw(x), raw(bound)) > 0 || mpfr_nan_p(raw(x))) mpfr_abs(raw(bound), raw(x), MPFR_RNDN);
+  } else {
+    raise_to(bound, magnitude(x));
+  }
+}
+
+/// norm = max |a_i|, in place, of a matrix or vector.
+template <Scalar S, class Derived>
+void set_max_norm(S& norm, const Eigen::PlainObjectBase<Derived>& a) {
+  norm = 0;
+  for (Index i = 0; i < a.size(); ++i) raise_magnitude(norm, a.data()[i]);
+}
+
 }  // namespace hbvm

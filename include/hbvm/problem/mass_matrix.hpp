@@ -41,6 +41,7 @@ class MassMatrix {
   }
   /// p = M v.
   Vector<S> momentum(const Vector<S>& v) const;
+  void momentum(const Vector<S>& v, Vector<S>& p) const;
 
  private:
   Index m_ = 0;

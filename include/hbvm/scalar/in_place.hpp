@@ -63,6 +63,17 @@ void set_quotient(S& r, const S& a, const S& b) {
     r = a / b;
 }
 
+/// A number of the working precision for use within one kernel, whose value nobody keeps: creating one would allocate.
+template <Scalar S>
+S& scratch() {
+  thread_local S t;
+  if constexpr (std::same_as<S, Mpfr>) {
+    const mpfr_prec_t bits = mpfr_working_bits();
+    if (mpfr_get_prec(raw(t)) != bits) mpfr_set_prec(raw(t), bits);
+  }
+  return t;
+}
+
 /// |a| > |b|.
 template <Scalar S>
 bool exceeds(const S& a, const S& b) {

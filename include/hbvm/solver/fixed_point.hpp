@@ -43,6 +43,8 @@ class FixedPoint final : public StageSolver<S> {
   void prepare(Start start, const Vector<S>& p0);
   long iterate();
   [[nodiscard]] bool sweep();
+  void measure_increment();
+  void measure_size();
 
   StageEquations<S> equations_;
   Order order_;
@@ -50,8 +52,9 @@ class FixedPoint final : public StageSolver<S> {
   Matrix<S> gamma_before_, psi_before_;
   Extrapolation<S> extrapolation_;  ///< of gamma
   Vector<S> position_change_, momentum_change_;
-  S position_scale_;
-  S tolerance_;
+  S position_scale_ = 0, tolerance_ = 0, quarter_epsilon_ = 0, sixteen_ = 16;
+  S increment_ = 0, scaled_ = 0, size_ = 0, left_ = 0, last_ = 0, least_ = 0,
+    term_ = 0;  // kept: creating them allocates
 };
 
 #define HBVM_DECLARE(S) extern template class FixedPoint<S>;

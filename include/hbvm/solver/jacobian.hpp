@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/LU>
-
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/linear/ordering.hpp"
 #include "hbvm/problem/curvature.hpp"
@@ -20,7 +18,7 @@ namespace hbvm {
 ///     d constraint_n / d gamma_j       = P_nj grad g_n^T W + h I_nj D_n^T W
 ///
 /// Unknowns are ordered by the graph of the bodies: for a chain of bodies the matrix is banded, and costs in proportion
-/// to their number. Otherwise it is dense, and Eigen's.
+/// to their number.
 class Jacobian {
  public:
   /// The problem and the method must outlive it.
@@ -34,12 +32,11 @@ class Jacobian {
   void solve(StageResidual<double>& r);
 
   Index unknowns() const { return n_; }
-  bool banded() const { return banded_; }
+  Index half_bandwidth() const { return matrix_.half_bandwidth(); }
   std::uint64_t factorisations() const { return factorisations_; }
 
  private:
   void assemble(const StageEquations<double>& at, const Matrix<double>& lambda);
-  double& entry(Index i, Index j) { return banded_ ? band_.entry(i, j) : dense_(i, j); }
   Index of_coordinate(Index j) const { return order_.position[static_cast<std::size_t>(j)] * method_.s; }
   Index of_multiplier(Index a) const { return order_.position[static_cast<std::size_t>(problem_.m() + a)] * method_.s; }
 
@@ -51,11 +48,8 @@ class Jacobian {
   Matrix<double> X_hat_, X_projection_;                   ///< X P_hat^T Omega_hat and X P^T Omega
   Ordering order_;
   Index n_ = 0;
-  bool banded_ = false;
-  Lu<double> band_;
-  Matrix<double> dense_;
-  Eigen::PartialPivLU<Matrix<double>> dense_lu_;
-  Vector<double> x_, y_;
+  Lu<double> matrix_;
+  Vector<double> x_;
   Matrix<double> block_, curved_;
   std::uint64_t factorisations_ = 0;
 };

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "hbvm/integrate/rattle.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/scene/scene.hpp"
+
+// Counts every allocation of the program: Eigen, MPFR and the standard library come down to malloc.
+#ifndef __SANITIZE_ADDRESS__
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+}
+
+namespace {
+long allocations = 0;
+}
+
+extern "C" {
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* realloc(void* old, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(old, size);
+}
+void* calloc(std::size_t n, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(n, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+
+namespace hbvm {
+namespace {
+
+TEST(Allocations, AreCounted) {
+  const long before = allocations;
+  std::vector<double> v(100);
+  EXPECT_EQ(allocations, before + 1) << v[0];
+}
+
+/// The first two steps may create what later ones use again.
+template <Scalar S, class Stepping>
+long allocations_of(Stepping& stepping, const Assembled<S>& scene) {
+  State<S> state(scene.q0, scene.p0);
+  for (int i = 0; i < 2; ++i) stepping.step(state);
+  const long before = allocations;
+  for (int i = 0; i < 10; ++i) stepping.step(state);
+  return allocations - before;
+}
+
+template <Scalar S>
+void expect_none(const char* name, SolverKind kind) {
+  const Assembled<S> scene = assemble<S>(load_scene(name));
+  for (const auto& [k, s] : {std::pair(1, 1), {4, 2}, {3, 3}}) {
+    const Hbvm<S> method = make_hbvm<S>(k, s);
+    Stepper<S> stepper(scene.problem, method, S(S(1) / 100), kind);
+    EXPECT_EQ(allocations_of<S>(stepper, scene), 0) << name << ", " << name_of(kind) << ", " << k << "," << s;
+  }
+}
+
+constexpr SolverKind kinds[] = {SolverKind::automatic, SolverKind::newton, SolverKind::fixed_point, SolverKind::paper};
+
+TEST(AStep, AllocatesNothingInDouble) {
+  for (const auto& [name, text] : built_in_scenes())
+    for (const SolverKind kind : kinds) expect_none<double>(name.c_str(), kind);
+}
+
+TEST(AStep, AllocatesNothingInQuad) {
+  for (const char* name : {"tethered_satellites", "heavy_top"})
+    for (const SolverKind kind : kinds) expect_none<Quad>(name, kind);
+}
+
+/// MPFR's own sine and exponential allocate: scenes without them.
+TEST(AStep, AllocatesNothingInMpfr) {
+  for (const unsigned digits : {30U, 50U, 100U}) {
+    const PrecisionScope scope(digits);
+    for (const char* name : {"simple_pendulum", "double_pendulum", "kepler", "heavy_top", "bead_on_ellipsoid", "chain",
+                             "charged_tetrahedron"})
+      for (const SolverKind kind : kinds) expect_none<Mpfr>(name, kind);
+  }
+}
+
+TEST(AStep, OfRattleAllocatesNothing) {
+  const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
+  Rattle<double> rattle(scene.problem, 0.1);
+  EXPECT_EQ(allocations_of<double>(rattle, scene), 0);
+}
+
+}  // namespace
+}  // namespace hbvm
+#endif

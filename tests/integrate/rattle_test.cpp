@@ -1,0 +1,97 @@
+#include "hbvm/integrate/rattle.hpp"
+
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class RattleTest : public ::testing::Test {
+ protected:
+  PrecisionScope digits{40};
+
+  State<S> after(const Assembled<S>& scene, const S& h, long steps) {
+    Rattle<S> rattle(scene.problem, h);
+    State<S> state(scene.q0, scene.p0);
+    for (long i = 0; i < steps; ++i) rattle.step(state);
+    return state;
+  }
+};
+TYPED_TEST_SUITE(RattleTest, AllScalars, ScalarNames);
+
+TYPED_TEST(RattleTest, KeepsBothKindsOfConstraints) {
+  using S = TypeParam;
+  for (const char* name : {"tethered_satellites", "double_pendulum", "heavy_top", "bead_on_ellipsoid"}) {
+    const Assembled<S> scene = assemble<S>(load_scene(name));
+    const State<S> state = this->after(scene, S(1) / 50, 100);
+    Point<S> point(scene.problem);
+    EXPECT_LE(max_norm(point.constraints(state.q)), 10'000 * epsilon<S>()) << name;
+    EXPECT_LE(max_norm(point.hidden_constraints(state.q, state.p)), 10'000 * epsilon<S>()) << name;
+  }
+}
+
+/// It is symmetric: with the momentum turned it goes back to where it came from.
+TYPED_TEST(RattleTest, IsReversible) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  const S h = S(1) / 50;
+  Assembled<S> back = scene;
+  const State<S> end = this->after(scene, h, 50);
+  back.q0 = end.q;
+  back.p0 = -end.p;
+  const State<S> start = this->after(back, h, 50);
+  EXPECT_LE(max_norm(Vector<S>(start.q - scene.q0)), 100'000 * epsilon<S>());
+  EXPECT_LE(max_norm(Vector<S>(start.p + scene.p0)), 100'000 * epsilon<S>());
+}
+
+/// Order 2 in q and p, against HBVM(6,6).
+TYPED_TEST(RattleTest, IsOfOrderTwo) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  const Hbvm<S> method = make_hbvm<S>(6, 6);
+  Stepper<S> stepper(scene.problem, method, S(S(1) / 32), SolverKind::fixed_point);
+  State<S> exact(scene.q0, scene.p0);
+  for (int i = 0; i < 32; ++i) stepper.step(exact);
+  Point<S> point(scene.problem);
+  const Vector<S> p = point.tangential(exact.q, exact.p);
+  S last = 0;
+  for (const long steps : {64L, 128L, 256L}) {
+    const State<S> state = this->after(scene, S(S(1) / S(steps)), steps);
+    S error = max_norm(Vector<S>(state.q - exact.q));
+    raise_to(error, max_norm(Vector<S>(state.p - p)));
+    if (last != 0) {
+      EXPECT_GE(approximately(S(last / error)), 3.8);
+      EXPECT_LE(approximately(S(last / error)), 4.2);
+    }
+    last = error;
+  }
+}
+
+TYPED_TEST(RattleTest, WithoutConstraintsIsLeapfrog) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("kepler"));
+  const S h = S(1) / 64;
+  const State<S> state = this->after(scene, h, 1);
+  const auto force = [](const Vector<S>& q) {
+    using std::sqrt;
+    const S r = sqrt(S(q[0] * q[0] + q[1] * q[1]));
+    return Vector<S>(-q / (r * r * r));
+  };
+  const Vector<S> half = scene.p0 + h / 2 * force(scene.q0), q = scene.q0 + h * half, p = half + h / 2 * force(q);
+  EXPECT_LE(max_norm(Vector<S>(state.q - q)), 16 * epsilon<S>());
+  EXPECT_LE(max_norm(Vector<S>(state.p - p)), 16 * epsilon<S>());
+}
+
+TEST(Rattle, SaysSoWhereItFindsNoPositions) {
+  const Assembled<double> scene = assemble<double>(load_scene("swinging_pendulum"));
+  Rattle<double> rattle(scene.problem, 5.0);
+  State<double> state(scene.q0, scene.p0);
+  EXPECT_THROW(rattle.step(state), StageFailure);
+  EXPECT_EQ(state.q, scene.q0);
+}
+
+}  // namespace
+}  // namespace hbvm
