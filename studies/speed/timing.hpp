@@ -45,13 +45,13 @@ struct StepCost {
   double seconds = 0, sweeps = 0;  ///< of a step
 };
 
-/// The cost of one step, after the first few, without observers: the best of five runs of so many steps.
-template <Scalar S>
-StepCost step_cost(const Assembled<S>& scene, int k, int s, const S& h, SolverKind solver, long steps) {
-  const Hbvm<S> method = make_hbvm<S>(k, s);
+/// The cost of one step, after the first two, without observers: the best of five runs of so many steps, each with a
+/// new stepper.
+template <Scalar S, class Make>
+StepCost cost_of_steps(const Assembled<S>& scene, long steps, Make&& make) {
   StepCost best;
   for (int run = 0; run < 5; ++run) {
-    Stepper<S> stepper(scene.problem, method, h, solver);
+    auto stepper = make();
     State<S> state(scene.q0, scene.p0);
     for (int i = 0; i < 2; ++i) stepper.step(state);
     long sweeps = 0;
@@ -64,19 +64,14 @@ StepCost step_cost(const Assembled<S>& scene, int k, int s, const S& h, SolverKi
 }
 
 template <Scalar S>
+StepCost step_cost(const Assembled<S>& scene, int k, int s, const S& h, SolverKind solver, long steps) {
+  const Hbvm<S> method = make_hbvm<S>(k, s);
+  return cost_of_steps<S>(scene, steps, [&] { return Stepper<S>(scene.problem, method, h, solver); });
+}
+
+template <Scalar S>
 StepCost rattle_cost(const Assembled<S>& scene, const S& h, long steps) {
-  StepCost best;
-  for (int run = 0; run < 5; ++run) {
-    Rattle<S> rattle(scene.problem, h);
-    State<S> state(scene.q0, scene.p0);
-    for (int i = 0; i < 2; ++i) rattle.step(state);
-    long sweeps = 0;
-    const double before = thread_seconds();
-    for (long i = 0; i < steps; ++i) sweeps += rattle.step(state);
-    const double time = (thread_seconds() - before) / static_cast<double>(steps);
-    if (run == 0 || time < best.seconds) best = {time, static_cast<double>(sweeps) / static_cast<double>(steps)};
-  }
-  return best;
+  return cost_of_steps<S>(scene, steps, [&] { return Rattle<S>(scene.problem, h); });
 }
 
 }  // namespace hbvm::speed
