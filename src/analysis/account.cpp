@@ -7,8 +7,9 @@ namespace hbvm {
 std::string to_text(const Account& account) {
   double seconds = 0;
   for (const AccountLine& line : account.lines) seconds += line.seconds;
-  std::string text =
-      fmt::format("{} steps, {} sweeps; operations of the working precision\n", account.steps, account.sweeps);
+  std::string text = fmt::format(
+      "{} steps, {} sweeps; operations, in the working precision or the digits that a sweep of Newton's needs\n",
+      account.steps, account.sweeps);
   text += fmt::format("{:<26}{:>10}{:>12}{:>13}{:>13}{:>11}{:>10}{:>10}{:>8}\n", "", "calls", "evaluations", "add",
                       "multiply", "divide", "sqrt", "other", "time");
   const auto row = [&](const std::string& name, std::uint64_t calls, std::uint64_t evaluations,

@@ -100,6 +100,7 @@ void Jacobian::assemble(const StageEquations<double>& at, const Matrix<double>& 
 }
 
 void Jacobian::solve(StageResidual<double>& r) {
+  ++solutions_;
   const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) x_[of_coordinate(j) + i] = r.momentum(i, j);

@@ -222,6 +222,9 @@ SolverCounts Newton<S>::counts() const {
   if (equations_) add(*equations_);
   for (const Rung& rung : rungs_) add(rung.level->equations);
   add(rounded_->equations());
+  const Jacobian& jacobian = rounded_->jacobian();
+  sum.parts.push_back({"factors of the Jacobian", jacobian.factorisations(), jacobian.factor_operations()});
+  sum.parts.push_back({"corrections", jacobian.solutions(), jacobian.solve_operations()});
   return sum;
 }
 

@@ -33,7 +33,11 @@ class Jacobian {
 
   Index unknowns() const { return n_; }
   Index half_bandwidth() const { return matrix_.half_bandwidth(); }
+  /// How often it was factored and solved with, and what each takes in double (without its assembly).
   std::uint64_t factorisations() const { return factorisations_; }
+  std::uint64_t solutions() const { return solutions_; }
+  OperationCounts factor_operations() const { return matrix_.factor_operations(); }
+  OperationCounts solve_operations() const { return matrix_.solve_operations(); }
 
  private:
   void assemble(const StageEquations<double>& at, const Matrix<double>& lambda);
@@ -51,7 +55,7 @@ class Jacobian {
   Lu<double> matrix_;
   Vector<double> x_;
   Matrix<double> block_, curved_;
-  std::uint64_t factorisations_ = 0;
+  std::uint64_t factorisations_ = 0, solutions_ = 0;
 };
 
 }  // namespace hbvm

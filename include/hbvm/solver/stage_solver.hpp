@@ -41,7 +41,11 @@ void add_counts(SolverCounts& sum, const SolverCounts& other, const Problem<S>& 
     sum.effects[t].evaluations += other.effects[t].evaluations;
     sum.effects[t].seconds += other.effects[t].seconds;
   }
-  for (std::size_t i = 0; i < sum.parts.size(); ++i) {
+  for (std::size_t i = 0; i < other.parts.size(); ++i) {
+    if (i == sum.parts.size()) {
+      sum.parts.push_back(other.parts[i]);
+      continue;
+    }
     sum.parts[i].calls += other.parts[i].calls;
     sum.parts[i].seconds += other.parts[i].seconds;
   }
