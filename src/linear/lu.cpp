@@ -11,9 +11,8 @@ template <Scalar S>
 void Lu<S>::resize(Index n, Index half_bandwidth) {
   n_ = n;
   b_ = std::max<Index>(std::min(half_bandwidth, n - 1), 0);
-  upper_ = std::min(2 * b_, std::max<Index>(n - 1, 0));
   const bool dense = 3 * b_ + 1 >= n;
-  if (dense) upper_ = std::max<Index>(n - 1, 0);
+  upper_ = dense ? std::max<Index>(n - 1, 0) : 2 * b_;
   stride_ = dense ? n : 3 * b_;
   offset_ = dense ? 0 : 2 * b_;
   data_.resize(static_cast<std::size_t>(dense ? n * n : (3 * b_ + 1) * n));

@@ -50,7 +50,6 @@ bool dot(mpfr_ptr r, const Mpfr* x, long x_stride, const Mpfr* y, long y_stride,
     mpn_mul_n(product, digits_of(a), digits_of(b), limbs);
     const long kept = limbs + 1 - whole;
     const mp_limb_t* top = product + 2 * limbs - kept;
-    if (kept > 2 * limbs) return false;
     if (const auto bits = static_cast<unsigned>(down % limb_bits); bits != 0) {
       mpn_rshift(shifted, top, kept, bits);
       top = shifted;

@@ -49,10 +49,6 @@ Hbvm<Mpfr> assemble(int k, int s) {
     const Mpfr P_j_at_1 = sqrt(Mpfr(2 * j + 1));
     for (int i = 0; i < s; ++i) m.lagrange_at_1[i] += P_j_at_1 * m.projection(j, i);
   }
-  // int_0^1 P_l(c) P_j(1 + c) dc has degree 2s - 1 at most: the s nodes integrate it exactly.
-  Vector<Mpfr> shifted = m.c;
-  for (int i = 0; i < s; ++i) shifted[i] += 1;
-  m.extrapolation = m.projection.lazyProduct(legendre_values<Mpfr>(shifted, s + 1));
   return m;
 }
 
@@ -71,7 +67,7 @@ Hbvm<S> make_hbvm(int k, int s) {
   r.b = gauss.b;
   r.c_hat = gauss_hat.c;
   r.b_hat = gauss_hat.b;
-  // P_j(2) = O(5.83^j) in the extrapolation and the small integrals near 0 take the most digits.
+  // The small integrals near 0 take the most digits.
   const unsigned guard = 20 + static_cast<unsigned>(s);
   const auto digits = static_cast<unsigned>(digits10<S>());
   const PrecisionScope guarded(digits + guard);
@@ -86,7 +82,6 @@ Hbvm<S> make_hbvm(int k, int s) {
   r.projection_hat = rounded<S>(m.projection_hat);
   r.A = rounded<S>(m.A);
   r.lagrange_at_1 = rounded<S>(m.lagrange_at_1);
-  r.extrapolation = rounded<S>(m.extrapolation);
   return r;
 }
 

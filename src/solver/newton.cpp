@@ -1,6 +1,7 @@
 #include "hbvm/solver/newton.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "hbvm/scalar/text.hpp"
 
@@ -66,6 +67,9 @@ long largest_exponent(const Matrix<S>& a) {
 /// Bits that one sweep with a Jacobian in double can win.
 constexpr long bits_per_sweep = 50;
 
+/// Corrections that fall by less than a bit a sweep have stopped falling.
+constexpr double least_rate = -1;
+
 }  // namespace
 
 template <Scalar S>
@@ -108,7 +112,7 @@ void Newton<S>::make_rungs() {
     constexpr long limb = 64;
     for (long limbs = 2; limb * limbs < bits_; limbs = std::max(limbs + 1, limbs * 17 / 16)) {
       // The digits whose bits, with what Boost adds, fit in the limbs.
-      const auto digits = static_cast<unsigned>(static_cast<double>(limb * limbs - 4) * std::log10(2.0));
+      const auto digits = static_cast<unsigned>(static_cast<double>(limb * limbs - 4) * std::numbers::ln2 / std::numbers::ln10);
       const PrecisionScope scope(digits);
       rungs_.push_back({digits, mpfr_working_bits(), std::make_unique<Level>(problem_, method_, S(h_))});
     }
@@ -191,14 +195,15 @@ long Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
       add_scaled(x_.gamma.data()[i], -correction_.momentum.data()[i], exponent, t_);
     for (Index i = 0; i < x_.lambda.size(); ++i)
       add_scaled(x_.lambda.data()[i], -correction_.constraint.data()[i] / h, exponent, t_);
-    const double now = norm > 0 ? std::log2(norm) + static_cast<double>(exponent) - size_bits : -1e9;
+    const double now = norm > 0 ? std::log2(norm) + static_cast<double>(exponent) - size_bits
+                                : static_cast<double>(exponent_of_zero);
     const double rate = sweeps == 1 ? rate_ : std::max<double>(now - last, -bits_per_sweep);
-    left = now + std::min(rate, -1.0);
+    left = now + std::min(rate, least_rate);
     const double round_off = static_cast<double>(-bits_);
-    const bool converged = rate < -1 && now + rate <= round_off - 1;
-    const bool stagnant = sweeps > 1 && rate >= -1 && now <= round_off + tolerance_bits_;
+    const bool converged = rate < least_rate && now + rate <= round_off - 1;
+    const bool stagnant = sweeps > 1 && rate >= least_rate && now <= round_off + tolerance_bits_;
     if (full && (converged || stagnant)) {
-      if (sweeps > 1 && rate < -1) rate_ = rate;
+      if (sweeps > 1 && rate < least_rate) rate_ = rate;
       equations_->changes(x_, position_change_, momentum_change_);
       change_.setZero();
       rounded_->add_change_of_momentum(momentum_, correction_.momentum, change_);
@@ -206,9 +211,9 @@ long Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
       return sweeps;
     }
     if (converged || stagnant) left = round_off;
-    waiting = rate >= -1 ? waiting + 1 : 0;
+    waiting = rate >= least_rate ? waiting + 1 : 0;
     if (waiting >= 4 || sweeps > bits_)
-      throw StageFailure("the corrections do not fall", to_scientific(std::exp2(std::max(now, -1000.0)), 3), sweeps);
+      throw StageFailure("the corrections do not fall", to_scientific(std::exp2(now), 3), sweeps);
     last = now;
   }
 }

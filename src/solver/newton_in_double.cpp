@@ -9,7 +9,7 @@ namespace hbvm {
 namespace {
 
 /// Increments that fall by less a sweep are worth a new Jacobian.
-constexpr double slow = 0.1;
+constexpr double slow = 1 / double{10};
 
 /// Row 0 of X_s^-1.
 Vector<double> first_row_of_inverse(const Matrix<double>& X) {
@@ -123,13 +123,13 @@ long NewtonInDouble::iterate(StageEquations<double>& equations, Jacobian& jacobi
     // What is left after this sweep is about rate/(1 - rate) increments.
     // A residual as large as what it is the residual of shows no solution, however small the increments.
     const bool small = max_norm(momentum_) <= std::sqrt(epsilon<double>()) * size;
-    const double left = rate < 0.5 ? increment * rate : increment;
+    const double left = 2 * rate < 1 ? increment * rate : increment;
     const bool converged = small && left <= epsilon<double>() / 8;
     // Or the increments are round-off, also where it is magnified by an ill-conditioned Jacobian: then the residual is.
     const bool round_off = max_norm(momentum_) <= tolerance_ * size &&
                            hidden <= tolerance_ * max_norm(equations.constraint_gradient().values()) *
                                          max_norm(equations.node_velocities());
-    if (converged || (small && sweeps > 1 && rate >= 0.5 && (increment <= tolerance_ || round_off))) {
+    if (converged || (small && sweeps > 1 && 2 * rate >= 1 && (increment <= tolerance_ || round_off))) {
       if (sweeps > 1 && rate < 1) rate_ = std::max(rate, epsilon<double>());
       for (Index j = 0; j < momentum_change_.size(); ++j) momentum_change_[j] = h * (x_.psi(0, j) - x_.zeta(0, j));
       add_change_of_momentum(momentum_, residual_.momentum, momentum_change_);

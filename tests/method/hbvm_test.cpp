@@ -56,8 +56,7 @@ Coefficients<S> all(const Hbvm<S>& m) {
           {"projection", m.projection},
           {"projection_hat", m.projection_hat},
           {"A", m.A},
-          {"lagrange_at_1", m.lagrange_at_1},
-          {"extrapolation", m.extrapolation}};
+          {"lagrange_at_1", m.lagrange_at_1}};
 }
 
 /// |value - reference| in ulps of the value. What is 0 in the reference's digits may be anything below `nothing`.
@@ -111,7 +110,6 @@ TYPED_TEST(HbvmCoefficients, HaveTheirShapes) {
   EXPECT_EQ(shape(m.projection_hat), (std::pair<Index, Index>(3, 5)));
   EXPECT_EQ(shape(m.A), square);
   EXPECT_EQ(m.lagrange_at_1.size(), 3);
-  EXPECT_EQ(shape(m.extrapolation), (std::pair<Index, Index>(3, 4)));
 }
 
 TYPED_TEST(HbvmCoefficients, NodesAreGauss) {
@@ -229,38 +227,6 @@ TYPED_TEST(HbvmCoefficients, LagrangeExtrapolatesPolynomialsToOne) {
       TypeParam sum = 0;
       for (int i = 0; i < s; ++i) sum += m.lagrange_at_1[i] * pow(m.c[i], degree);
       EXPECT_LE(magnitude(TypeParam(sum - 1)), this->tolerance(s)) << "c^" << degree << ", s = " << s;
-    }
-  }
-}
-
-/// On [1, 2] a polynomial of degree s has the same coefficient of P_s as on [0, 1].
-TYPED_TEST(HbvmCoefficients, ExtrapolationContinuesPolynomials) {
-  using std::pow;
-  for (const auto& [k, s] : choices) {
-    const auto m = make_hbvm<TypeParam>(k, s);
-    const Vector<TypeParam> gamma = this->random.vector(s + 1);
-    Vector<TypeParam> c(6), shifted(6);
-    for (int i = 0; i < 6; ++i) {
-      c[i] = magnitude(this->random.value());
-      shifted[i] = 1 + c[i];
-    }
-    const Matrix<TypeParam> P = legendre_values<TypeParam>(c, s + 1),
-                            P_beyond = legendre_values<TypeParam>(shifted, s + 1);
-    Vector<TypeParam> continued(s + 1);
-    for (int l = 0; l < s; ++l) {
-      continued[l] = 0;
-      for (int j = 0; j <= s; ++j) continued[l] += m.extrapolation(l, j) * gamma[j];
-    }
-    continued[s] = gamma[s];
-    // P_j(2) grows as (3 + sqrt 8)^j.
-    const TypeParam tolerance = this->tolerance(s + 1) * pow(TypeParam(6), s);
-    for (int i = 0; i < 6; ++i) {
-      TypeParam before = 0, after = 0;
-      for (int j = 0; j <= s; ++j) {
-        before += P_beyond(i, j) * gamma[j];
-        after += P(i, j) * continued[j];
-      }
-      EXPECT_LE(magnitude(TypeParam(after - before)), tolerance) << "s = " << s;
     }
   }
 }

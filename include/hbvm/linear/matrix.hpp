@@ -15,20 +15,6 @@ using Matrix = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 template <Scalar S>
 using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
-/// max |a_ij| over all entries; 0 for an empty matrix, NaN if an entry is.
-template <Scalar S>
-S max_norm(const Matrix<S>& a) {
-  S norm = 0;
-  for (Index i = 0; i < a.size(); ++i) raise_to(norm, magnitude(a.data()[i]));
-  return norm;
-}
-template <Scalar S>
-S max_norm(const Vector<S>& a) {
-  S norm = 0;
-  for (Index i = 0; i < a.size(); ++i) raise_to(norm, magnitude(a[i]));
-  return norm;
-}
-
 /// bound = max(bound, |x|), in place; a NaN wins.
 template <Scalar S>
 void raise_magnitude(S& bound, const S& x) {
@@ -39,11 +25,25 @@ void raise_magnitude(S& bound, const S& x) {
   }
 }
 
-/// norm = max |a_i|, in place, of a matrix or vector.
+/// norm = max |a_i|, in place, over a matrix or vector; 0 if it is empty, NaN if an entry is.
 template <Scalar S, class Derived>
 void set_max_norm(S& norm, const Eigen::PlainObjectBase<Derived>& a) {
   norm = 0;
   for (Index i = 0; i < a.size(); ++i) raise_magnitude(norm, a.data()[i]);
+}
+
+/// The same as a new value.
+template <Scalar S>
+S max_norm(const Matrix<S>& a) {
+  S norm = 0;
+  set_max_norm(norm, a);
+  return norm;
+}
+template <Scalar S>
+S max_norm(const Vector<S>& a) {
+  S norm = 0;
+  set_max_norm(norm, a);
+  return norm;
 }
 
 }  // namespace hbvm

@@ -19,9 +19,6 @@ struct Hbvm {
   Matrix<S> projection_hat;  ///< s x k: P_hat^T Omega_hat
   Matrix<S> A;               ///< s x s: I_s P_s^T Omega, the Butcher matrix of the s-stage Gauss method (azzera1)
   Vector<S> lagrange_at_1;   ///< s: l_i(1) of (lagmul)
-  /// s x (s + 1): takes the s + 1 Fourier coefficients of a polynomial of degree s on [0, 1] to the first s of the
-  /// same polynomial on [1, 2], which is how a step starts from the previous one.
-  Matrix<S> extrapolation;
 };
 
 /// Every coefficient is computed with guard digits and rounded once.

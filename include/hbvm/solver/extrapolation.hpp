@@ -32,8 +32,7 @@ class Extrapolation {
         for (Index i = 0; i < size_; ++i) set_difference(scratch_[i], old[i], scratch_[i]);
       if (r == 0) continue;
       set_zero(norm_);
-      for (Index i = 0; i < size_; ++i)
-        if (exceeds(old[i], norm_)) set(norm_, old[i]);
+      for (Index i = 0; i < size_; ++i) raise_magnitude(norm_, old[i]);
       if (r > 1 && !exceeds(least_, norm_)) continue;
       set(least_, norm_);
       order_ = r - 1;

@@ -53,8 +53,8 @@ class FixedPoint final : public StageSolver<S> {
   Extrapolation<S> extrapolation_;  ///< of gamma
   Vector<S> position_change_, momentum_change_;
   S position_scale_ = 0, tolerance_ = 0, quarter_epsilon_ = 0, sixteen_ = 16;
-  S increment_ = 0, scaled_ = 0, size_ = 0, left_ = 0, last_ = 0, least_ = 0,
-    term_ = 0;  // kept: creating them allocates
+  // Kept from sweep to sweep: creating them allocates.
+  S increment_ = 0, scaled_ = 0, size_ = 0, left_ = 0, last_ = 0, least_ = 0, term_ = 0;
 };
 
 #define HBVM_DECLARE(S) extern template class FixedPoint<S>;

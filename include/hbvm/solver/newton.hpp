@@ -16,7 +16,7 @@ namespace hbvm {
 /// in Mpfr it is evaluated with problem, method and state rounded to a few more digits than are to be won.
 ///
 /// The last residual is one of the working precision. It stops when the correction, times the rate at which corrections
-/// fall, is below epsilon/8 of the scale; and fails if they do not fall.
+/// fall, is below epsilon/4 of the scale; and fails if they do not fall.
 template <Scalar S>
 class Newton final : public StageSolver<S> {
  public:
