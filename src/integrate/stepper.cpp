@@ -1,5 +1,6 @@
 #include "hbvm/integrate/stepper.hpp"
 
+#include "add_compensated.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -10,20 +11,6 @@ Stepper<S>::Stepper(const Problem<S>& problem, const Hbvm<S>& method, const S& s
       method_(method),
       solver_(make_solver(solver, problem, method, step)),
       multiplier_(Vector<S>::Zero(problem.nu())) {}
-
-namespace {
-
-/// x += increment, where carry holds what earlier roundings took (Kahan).
-template <Scalar S>
-void add_compensated(S& x, S& carry, S& increment, S& t) {
-  set_sum(increment, increment, carry);
-  set_sum(t, x, increment);
-  set_difference(x, t, x);
-  set_difference(carry, increment, x);
-  set(x, t);
-}
-
-}  // namespace
 
 template <Scalar S>
 long Stepper<S>::step(State<S>& state) {

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/method/runge_kutta.hpp"
+#include "hbvm/solver/extrapolation.hpp"
+
+namespace hbvm {
+
+/// One step of fixed size by a Runge-Kutta method, for a problem without constraints:
+///
+///     Q_i = q_0 + h sum_j A_ij V_j,   V_i = M^-1 P_i,         q_1 = q_0 + h sum_i b_i V_i,
+///     P_i = p_0 + h sum_j A_ij F_j,   F_i = grad U(Q_i),      p_1 = p_0 + h sum_i b_i F_i.
+///
+/// If A is strictly lower triangular, the stages are computed one after the other. Else the P_i are found by
+/// fixed-point iteration, a sweep being V from P, Q, F, and P anew; it starts from the extrapolation of the last
+/// steps' P, and if that leads nowhere, once more from P = p0.
+///
+/// The iteration stops when the increment of P times the factor by which it fell is below epsilon/8 of the scale, the
+/// largest of |p0|, |P| and h |F|; or when it is below C epsilon, for a scale that includes |M q0|/h, and has not
+/// fallen below its least value for two sweeps in a row: then it is round-off. C = 4 (3 s + m) is an upper bound of the
+/// lengths of the sums of one sweep, as in FixedPoint. It fails if the increments, above C epsilon, do not fall below
+/// their least value for `patience` sweeps.
+template <Scalar S>
+class RungeKuttaStep {
+ public:
+  static constexpr long patience = 40;
+
+  /// The problem must outlive it.
+  /// \throws InputError if the problem has constraints, or A is not s x s
+  RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>& method, const S& step);
+
+  bool is_explicit() const { return explicit_; }
+
+  /// \return sweeps over the stages: 1 if the method is explicit
+  /// \throws StageFailure if the iteration fails or anything is not finite; the state is then as it was
+  long step(State<S>& state);
+
+ private:
+  void force(Lanes<const S> q, Matrix<S>& force);
+  void stages_in_turn(const State<S>& state);
+  long solve(const State<S>& state);
+  long iterate(const State<S>& state);
+  void sweep(const State<S>& state);
+  void update(State<S>& state, long sweeps);
+
+  const Problem<S>& problem_;
+  S h_;
+  Matrix<S> A_, b_;  ///< s x s and 1 x s
+  bool explicit_;
+  PotentialEvaluator<S> potential_;
+  Matrix<S> P_, P_before_, Q_, V_, F_;  ///< s x m
+  // One stage of an explicit method, and the changes of the state.
+  Vector<S> q_, p_, v_;
+  Matrix<S> force_, position_change_, momentum_change_;  // 1 x m
+  Extrapolation<S> extrapolation_;                       ///< of P
+  S position_scale_ = 0, tolerance_ = 0, eighth_epsilon_ = 0;
+  // Kept from sweep to sweep: creating them allocates.
+  S increment_ = 0, scaled_ = 0, size_ = 0, left_ = 0, last_ = 0, least_ = 0, t_ = 0;
+};
+
+#define HBVM_DECLARE(S) extern template class RungeKuttaStep<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,96 @@
+#include "hbvm/analysis/read_tableau.hpp"
+
+#include <filesystem>
+
+#include "expected_csv.hpp"
+#include "scene/toml_table.hpp"
+
+namespace hbvm {
+namespace {
+
+std::string at(std::size_t i) { return "[" + std::to_string(i + 1) + "]"; }
+
+/// Refuses a number that has no value, which shows in any number of bits.
+void check_value(const TomlTable& table, const toml::node& node, const Expression& number, const std::string& place) {
+  try {
+    constexpr int bits = 53;
+    static_cast<void>(number.evaluate_to_bits(bits));
+  } catch (const ExpressionError& error) {
+    table.fail(node, place + " has no value: " + error.what());
+  }
+}
+
+const toml::array& array_of(const TomlTable& table, const toml::node& node, const std::string& place) {
+  const toml::array* const array = node.as_array();
+  if (!array) table.fail(node, place + " must be an array");
+  return *array;
+}
+
+std::vector<Expression> entries(const TomlTable& table, const toml::node& node, std::size_t size,
+                                const std::string& place) {
+  const toml::array& array = array_of(table, node, place);
+  if (array.size() != size)
+    table.fail(
+        node, place + " has " + std::to_string(array.size()) + " entries, but A has " + std::to_string(size) + " rows");
+  std::vector<Expression> result;
+  for (const toml::node& number : array) {
+    const std::string where = place + at(result.size());
+    result.push_back(table.to_number(number, where));
+    check_value(table, number, result.back(), where);
+  }
+  return result;
+}
+
+/// The sum of a row, as an expression.
+Expression sum_of(const TomlTable& table, const toml::node& node, const std::vector<Expression>& row,
+                  const std::string& place) {
+  std::string text;
+  for (const Expression& number : row)
+    if (number.text() != "0") text += (text.empty() ? "(" : "+(") + number.text() + ")";
+  try {
+    Expression sum = Expression::parse(text.empty() ? "0" : text);
+    check_value(table, node, sum, "the sum of " + place);
+    return sum;
+  } catch (const ExpressionError&) {
+    table.fail(node, place + " holds too many operations to be summed: state c");
+  }
+}
+
+}  // namespace
+
+Tableau read_tableau(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr std::uintmax_t limit = 10'000'000;
+  std::error_code failure;
+  if (!fs::is_regular_file(path, failure)) throw InputError("cannot read " + path);
+  if (fs::file_size(path, failure) > limit) throw InputError(path + ": too large for a tableau");
+  const TomlSource source(read_file(path), path);
+  const toml::table root = source.parse();
+  TomlTable top(source, root, "tableau");
+  Tableau tableau;
+  tableau.name = top.has("name") ? top.string("name") : fs::path(path).stem().string();
+  if (const toml::node* const node = top.take("order")) {
+    // No method of s stages has an order above 2 s.
+    const long order = top.integer("order");
+    if (order < 1 || order > 2 * static_cast<long>(max_tableau_stages))
+      top.fail(*node, "'order' must be from 1 to " + std::to_string(2 * max_tableau_stages));
+    tableau.order = static_cast<int>(order);
+  }
+  const toml::node *const A = &top.require("A"), *const b = &top.require("b"), *const c = top.take("c");
+  top.finish();
+
+  const toml::array& rows = array_of(top, *A, "A");
+  const std::size_t s = rows.size();
+  if (s == 0 || s > max_tableau_stages)
+    top.fail(*A, "A has " + std::to_string(s) + " rows: a method has from 1 to " + std::to_string(max_tableau_stages) +
+                     " stages");
+  for (const toml::node& row : rows) tableau.A.push_back(entries(top, row, s, "A" + at(tableau.A.size())));
+  tableau.b = entries(top, *b, s, "b");
+  if (c)
+    tableau.c = entries(top, *c, s, "c");
+  else
+    for (std::size_t i = 0; i < s; ++i) tableau.c.push_back(sum_of(top, rows[i], tableau.A[i], "A" + at(i)));
+  return tableau;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,204 @@
+#include "hbvm/integrate/runge_kutta_step.hpp"
+
+#include "add_compensated.hpp"
+#include "hbvm/linear/product.hpp"
+#include "hbvm/scalar/in_place.hpp"
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+bool is_strictly_lower(const Matrix<S>& A) {
+  for (Index j = 0; j < A.cols(); ++j)
+    for (Index i = 0; i <= j && i < A.rows(); ++i)
+      if (A(i, j) != 0) return false;
+  return true;
+}
+
+/// x = base + h x in every lane.
+template <Scalar S>
+void scale_and_shift(Matrix<S>& x, const S& h, const Vector<S>& base) {
+  for (Index j = 0; j < x.cols(); ++j)
+    for (Index i = 0; i < x.rows(); ++i) {
+      set_product(x(i, j), h, x(i, j));
+      set_sum(x(i, j), base[j], x(i, j));
+    }
+}
+
+}  // namespace
+
+template <Scalar S>
+RungeKuttaStep<S>::RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>& method, const S& step)
+    : problem_(problem),
+      h_(step),
+      A_(method.A),
+      b_(method.b.transpose()),
+      explicit_(is_strictly_lower(method.A)),
+      potential_(problem.potential, explicit_ ? Index(1) : method.b.size()),
+      P_(Matrix<S>::Zero(method.b.size(), problem.m())),
+      P_before_(P_),
+      Q_(P_),
+      V_(P_),
+      F_(P_),
+      q_(problem.m()),
+      p_(problem.m()),
+      v_(problem.m()),
+      force_(Matrix<S>::Zero(1, problem.m())),
+      position_change_(force_),
+      momentum_change_(force_),
+      extrapolation_(P_.size()) {
+  if (problem.nu() > 0) throw InputError("a Runge-Kutta method takes no constraints, and the problem has some");
+  const Index s = method.b.size();
+  if (s < 1 || A_.rows() != s || A_.cols() != s) throw InputError("A must have as many rows and columns as b entries");
+  tolerance_ = S(static_cast<long>(4 * (3 * s + problem.m()))) * epsilon<S>();
+  eighth_epsilon_ = epsilon<S>() / 8;
+}
+
+template <Scalar S>
+void RungeKuttaStep<S>::force(Lanes<const S> q, Matrix<S>& force) {
+  if (potential_.has_varying_force())
+    potential_.varying_force(q, force);
+  else
+    for (Index n = 0; n < force.size(); ++n) set_zero(force.data()[n]);
+  const Vector<S>& constant = potential_.constant_force();
+  for (Index j = 0; j < force.cols(); ++j)
+    for (Index i = 0; i < force.rows(); ++i) set_sum(force(i, j), force(i, j), constant[j]);
+}
+
+template <Scalar S>
+void RungeKuttaStep<S>::stages_in_turn(const State<S>& state) {
+  const Index s = A_.rows(), m = problem_.m();
+  const auto stage = [&](Index i, const Vector<S>& base, const Matrix<S>& slopes, Vector<S>& x) {
+    for (Index j = 0; j < m; ++j) {
+      set_zero(x[j]);
+      for (Index l = 0; l < i; ++l)
+        if (A_(i, l) != 0) add_product(x[j], A_(i, l), slopes(l, j), t_);
+      set_product(x[j], h_, x[j]);
+      set_sum(x[j], base[j], x[j]);
+    }
+  };
+  for (Index i = 0; i < s; ++i) {
+    stage(i, state.q, V_, q_);
+    stage(i, state.p, F_, p_);
+    problem_.mass.velocity(lanes(std::as_const(p_)), lanes(v_));
+    force(lanes(std::as_const(q_)), force_);
+    for (Index j = 0; j < m; ++j) {
+      set(V_(i, j), v_[j]);
+      set(F_(i, j), force_(0, j));
+    }
+  }
+}
+
+template <Scalar S>
+long RungeKuttaStep<S>::solve(const State<S>& state) {
+  problem_.mass.momentum(state.q, v_);
+  set_max_norm(t_, v_);
+  set_quotient(t_, t_, h_);
+  set_zero(position_scale_);
+  raise_magnitude(position_scale_, t_);
+  long sweeps = 0;
+  if (!extrapolation_.empty()) {
+    try {
+      extrapolation_.predict(P_.data());
+      sweeps = iterate(state);
+    } catch (const StageFailure& failure) {
+      sweeps = failure.sweeps();
+      extrapolation_.clear();
+    }
+  }
+  if (extrapolation_.empty()) {
+    for (Index j = 0; j < P_.cols(); ++j)
+      for (Index i = 0; i < P_.rows(); ++i) set(P_(i, j), state.p[j]);
+    sweeps += iterate(state);
+  }
+  extrapolation_.add(P_.data());
+  problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
+  return sweeps;
+}
+
+template <Scalar S>
+void RungeKuttaStep<S>::sweep(const State<S>& state) {
+  problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
+  product(Q_, A_, V_);
+  scale_and_shift(Q_, h_, state.q);
+  force(lanes(std::as_const(Q_)), F_);
+  P_.swap(P_before_);
+  product(P_, A_, F_);
+  scale_and_shift(P_, h_, state.p);
+
+  set_zero(increment_);
+  for (Index n = 0; n < P_.size(); ++n) {
+    set_difference(t_, P_.data()[n], P_before_.data()[n]);
+    raise_magnitude(increment_, t_);
+  }
+  set_max_norm(t_, F_);
+  set_product(t_, t_, h_);
+  set_zero(size_);
+  raise_magnitude(size_, t_);
+  for (Index j = 0; j < P_.cols(); ++j) raise_magnitude(size_, state.p[j]);
+  for (Index n = 0; n < P_.size(); ++n) raise_magnitude(size_, P_.data()[n]);
+}
+
+template <Scalar S>
+long RungeKuttaStep<S>::iterate(const State<S>& state) {
+  long waiting = 0;
+  for (long sweeps = 1;; ++sweeps) {
+    sweep(state);
+    // Left to change, if the next increments fall by as much as this one did.
+    set_sum(left_, increment_, increment_);
+    if (sweeps > 1 && left_ < last_) {
+      set_quotient(left_, increment_, last_);
+      set_product(left_, left_, increment_);
+    } else {
+      set(left_, increment_);
+    }
+    set_product(t_, size_, eighth_epsilon_);
+    if (left_ <= t_ && sweeps > 1) return sweeps;
+    set(last_, increment_);
+    set(scaled_, increment_);
+    if (increment_ != 0) set_quotient(scaled_, increment_, size_ > position_scale_ ? size_ : position_scale_);
+    if (!is_finite(scaled_)) throw StageFailure("an iterate is not finite", to_scientific(scaled_, 3), sweeps);
+    if (sweeps == 1 || scaled_ < least_) {
+      set(least_, scaled_);
+      waiting = 0;
+      continue;
+    }
+    ++waiting;
+    if (scaled_ <= tolerance_ && waiting >= 2) return sweeps;
+    if (waiting >= patience)
+      throw StageFailure(scaled_ > 10 * least_ ? "the increments grow" : "the increments stagnate",
+                         to_scientific(scaled_, 3), sweeps);
+  }
+}
+
+template <Scalar S>
+void RungeKuttaStep<S>::update(State<S>& state, long sweeps) {
+  product(position_change_, b_, V_);
+  product(momentum_change_, b_, F_);
+  for (Matrix<S>* change : {&position_change_, &momentum_change_}) {
+    for (Index j = 0; j < change->size(); ++j) set_product(change->data()[j], h_, change->data()[j]);
+    set_max_norm(size_, *change);
+    if (!is_finite(size_)) throw StageFailure("a stage is not finite", to_scientific(size_, 3), sweeps);
+  }
+  for (Index j = 0; j < problem_.m(); ++j) {
+    add_compensated(state.q[j], state.q_carry[j], position_change_(0, j), t_);
+    add_compensated(state.p[j], state.p_carry[j], momentum_change_(0, j), t_);
+  }
+}
+
+template <Scalar S>
+long RungeKuttaStep<S>::step(State<S>& state) {
+  long sweeps = 1;
+  if (explicit_)
+    stages_in_turn(state);
+  else
+    sweeps = solve(state);
+  update(state, sweeps);
+  return sweeps;
+}
+
+#define HBVM_DEFINE(S) template class RungeKuttaStep<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,223 @@
+#include "hbvm/method/runge_kutta.hpp"
+
+#include <algorithm>
+
+#include "hbvm/error.hpp"
+#include "hbvm/linear/product.hpp"
+#include "hbvm/scalar/literal.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+S entry(const Expression& expression, const std::string& place) {
+  try {
+    return evaluate<S>(expression);
+  } catch (const ExpressionError& error) {
+    throw InputError(place + " has no value: " + error.what());
+  }
+}
+
+std::string at(std::size_t i) { return "[" + std::to_string(i + 1) + "]"; }
+
+/// Adds the trees that `tree` becomes by `missing` more vertices in subtrees none of which stands after `last`.
+void grow(std::vector<RootedTree>& trees, RootedTree& tree, int missing, int last) {
+  if (missing == 0) {
+    trees.push_back(tree);
+    trees.back().density *= tree.order;
+    return;
+  }
+  for (int t = last; t >= 0; --t) {
+    const auto [order, density] =
+        std::pair(trees[static_cast<std::size_t>(t)].order, trees[static_cast<std::size_t>(t)].density);
+    if (order > missing) continue;
+    tree.subtrees.push_back(t);
+    tree.density *= density;
+    grow(trees, tree, missing - order, t);
+    tree.density /= density;
+    tree.subtrees.pop_back();
+  }
+}
+
+/// Calls use(order, defect) for tree after tree, as long as it returns true.
+template <Scalar S, class Use>
+void for_each_condition(const RungeKutta<S>& method, int max_order, const Use& use) {
+  const Index s = method.b.size();
+  std::vector<Vector<S>> A_phi;  // A Phi(t) for each tree that can be a subtree
+  Vector<S> phi(s);
+  for (const RootedTree& tree : rooted_trees(max_order)) {
+    for (Index i = 0; i < s; ++i) {
+      phi[i] = 1;
+      for (const int t : tree.subtrees) phi[i] *= A_phi[static_cast<std::size_t>(t)][i];
+    }
+    if (!use(tree.order, magnitude(S(dot(method.b, phi) - S(1) / S(tree.density))))) return;
+    if (tree.order < max_order) A_phi.push_back(method.A.lazyProduct(phi));
+  }
+}
+
+/// c_i^n.
+template <Scalar S>
+Vector<S> powers(const Vector<S>& c, int n) {
+  Vector<S> r(c.size());
+  for (Index i = 0; i < c.size(); ++i) {
+    r[i] = 1;
+    for (int k = 0; k < n; ++k) r[i] *= c[i];
+  }
+  return r;
+}
+
+/// The defects of B, C and D for one power n.
+template <Scalar S>
+S defect_B(const RungeKutta<S>& method, int n) {
+  return magnitude(S(dot(method.b, powers(method.c, n - 1)) - S(1) / S(n)));
+}
+
+template <Scalar S>
+S defect_C(const RungeKutta<S>& method, int n) {
+  const Vector<S> before = powers(method.c, n - 1), sums = method.A.lazyProduct(before);
+  S worst = 0;
+  for (Index i = 0; i < sums.size(); ++i) raise_to(worst, magnitude(S(sums[i] - before[i] * method.c[i] / S(n))));
+  return worst;
+}
+
+template <Scalar S>
+S defect_D(const RungeKutta<S>& method, int n) {
+  const Vector<S> before = powers(method.c, n - 1);
+  S worst = 0;
+  for (Index j = 0; j < method.b.size(); ++j) {
+    S sum = 0;
+    for (Index i = 0; i < method.b.size(); ++i) sum += method.b[i] * before[i] * method.A(i, j);
+    raise_to(worst, magnitude(S(sum - method.b[j] * (1 - before[j] * method.c[j]) / S(n))));
+  }
+  return worst;
+}
+
+template <Scalar S>
+using Defect = S (*)(const RungeKutta<S>&, int);
+
+template <Scalar S>
+S worst_of(Defect<S> defect, const RungeKutta<S>& method, int last) {
+  S worst = 0;
+  for (int n = 1; n <= last; ++n) raise_to(worst, defect(method, n));
+  return worst;
+}
+
+/// How many powers in a row, at most `most`, have a defect up to the tolerance.
+template <Scalar S>
+int fulfilled(Defect<S> defect, const RungeKutta<S>& method, const S& tolerance, int most) {
+  int n = 0;
+  while (n < most && defect(method, n + 1) <= tolerance) ++n;
+  return n;
+}
+
+}  // namespace
+
+template <Scalar S>
+RungeKutta<S> make_runge_kutta(const Tableau& tableau) {
+  const std::size_t s = tableau.b.size();
+  if (s == 0) throw InputError("a Runge-Kutta method has at least one stage");
+  const std::string size = std::to_string(s);
+  bool square = tableau.A.size() == s;
+  for (const auto& row : tableau.A) square = square && row.size() == s;
+  if (!square) throw InputError("A must be " + size + " x " + size + ", as b has " + size + " entries");
+  if (tableau.c.size() != s)
+    throw InputError("c has " + std::to_string(tableau.c.size()) + " entries, but b has " + size);
+  const auto n = static_cast<Index>(s);
+  RungeKutta<S> r{Matrix<S>(n, n), Vector<S>(n), Vector<S>(n)};
+  for (std::size_t i = 0; i < s; ++i) {
+    const auto row = static_cast<Index>(i);
+    for (std::size_t j = 0; j < s; ++j)
+      r.A(row, static_cast<Index>(j)) = entry<S>(tableau.A[i][j], "A" + at(i) + at(j));
+    r.b[row] = entry<S>(tableau.b[i], "b" + at(i));
+    r.c[row] = entry<S>(tableau.c[i], "c" + at(i));
+  }
+  return r;
+}
+
+std::vector<RootedTree> rooted_trees(int max_order) {
+  if (max_order < 0 || max_order > max_tree_order)
+    throw InputError("trees are listed up to order " + std::to_string(max_tree_order));
+  std::vector<RootedTree> trees;
+  for (int order = 1; order <= max_order; ++order) {
+    RootedTree root{order, 1, {}};
+    grow(trees, root, order - 1, static_cast<int>(trees.size()) - 1);
+  }
+  return trees;
+}
+
+template <Scalar S>
+std::vector<S> order_defects(const RungeKutta<S>& method, int max_order) {
+  std::vector<S> worst(static_cast<std::size_t>(std::max(max_order, 0)), S(0));
+  for_each_condition(method, max_order, [&](int order, const S& defect) {
+    raise_to(worst[static_cast<std::size_t>(order - 1)], defect);
+    return true;
+  });
+  return worst;
+}
+
+template <Scalar S>
+S condition_B(const RungeKutta<S>& method, int p) {
+  return worst_of<S>(defect_B<S>, method, p);
+}
+
+template <Scalar S>
+S condition_C(const RungeKutta<S>& method, int q) {
+  return worst_of<S>(defect_C<S>, method, q);
+}
+
+template <Scalar S>
+S condition_D(const RungeKutta<S>& method, int r) {
+  return worst_of<S>(defect_D<S>, method, r);
+}
+
+template <Scalar S>
+S symmetry_defect(const RungeKutta<S>& method) {
+  const Index s = method.b.size();
+  S worst = 0;
+  for (Index i = 0; i < s; ++i) {
+    raise_to(worst, magnitude(S(method.b[s - 1 - i] - method.b[i])));
+    for (Index j = 0; j < s; ++j)
+      raise_to(worst, magnitude(S(method.A(s - 1 - i, s - 1 - j) + method.A(i, j) - method.b[j])));
+  }
+  return worst;
+}
+
+template <Scalar S>
+S symplecticity_defect(const RungeKutta<S>& method) {
+  const Matrix<S>& A = method.A;
+  const Vector<S>& b = method.b;
+  S worst = 0;
+  for (Index i = 0; i < b.size(); ++i)
+    for (Index j = 0; j <= i; ++j) raise_to(worst, magnitude(S(b[i] * A(i, j) + b[j] * A(j, i) - b[i] * b[j])));
+  return worst;
+}
+
+template <Scalar S>
+int order(const RungeKutta<S>& method, const S& tolerance) {
+  // No method of s stages has an order above 2 s.
+  const int s = method.stages(), by_trees = std::min(max_tree_order, 2 * s);
+  int p = by_trees;
+  for_each_condition(method, by_trees, [&](int tree_order, const S& defect) {
+    if (defect <= tolerance) return true;
+    p = tree_order - 1;
+    return false;
+  });
+  if (p < max_tree_order) return p;
+  const int B = fulfilled<S>(defect_B<S>, method, tolerance, 2 * s);
+  const int C = fulfilled<S>(defect_C<S>, method, tolerance, s);
+  const int D = fulfilled<S>(defect_D<S>, method, tolerance, s);
+  return std::max(p, std::min({B, 2 * C + 2, C + D + 1}));
+}
+
+#define HBVM_DEFINE(S)                                                 \
+  template RungeKutta<S> make_runge_kutta<S>(const Tableau&);          \
+  template std::vector<S> order_defects<S>(const RungeKutta<S>&, int); \
+  template S condition_B<S>(const RungeKutta<S>&, int);                \
+  template S condition_C<S>(const RungeKutta<S>&, int);                \
+  template S condition_D<S>(const RungeKutta<S>&, int);                \
+  template S symmetry_defect<S>(const RungeKutta<S>&);                 \
+  template S symplecticity_defect<S>(const RungeKutta<S>&);            \
+  template int order<S>(const RungeKutta<S>&, const S&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,187 @@
+#include "hbvm/analysis/read_tableau.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "hbvm/error.hpp"
+#include "hbvm/scalar/literal.hpp"
+
+namespace hbvm {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string gauss = R"(name = "Gauss, two stages"
+order = 4
+A = [["1/4", "1/4-sqrt(3)/6"],
+     ["1/4+sqrt(3)/6", 0.25]]
+b = [0.5, "1/2"]
+c = ["1/2-sqrt(3)/6", "1/2+sqrt(3)/6"]
+)";
+
+class ReadTableau : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("hbvm_tableau_") + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path() const { return (folder_ / "method.toml").string(); }
+  Tableau read(const std::string& text) const {
+    std::ofstream(path(), std::ios::binary) << text;
+    return read_tableau(path());
+  }
+  /// What the text is refused with, after the path.
+  std::string refusal(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_TRUE(message.starts_with(path() + ":")) << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      return message.substr(std::min(message.size(), path().size() + 1));
+    }
+    return "nothing";
+  }
+  static std::string changed(const std::string& from, const std::string& to) {
+    std::string text = gauss;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  }
+  void expect_refusal(const std::string& text, const std::string& line, const std::vector<std::string>& words) const {
+    const std::string message = refusal(text);
+    EXPECT_TRUE(message.starts_with(line + ": ")) << message;
+    for (const std::string& word : words) EXPECT_NE(message.find(word), std::string::npos) << word << ": " << message;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(ReadTableau, TakesAllKeys) {
+  const Tableau tableau = read(gauss);
+  EXPECT_EQ(tableau.name, "Gauss, two stages");
+  EXPECT_EQ(tableau.order, 4);
+  EXPECT_EQ(tableau.stages(), 2);
+  EXPECT_EQ(tableau.A[0][1].text(), "1/4-sqrt(3)/6");
+  const PrecisionScope digits(60);
+  const auto method = make_runge_kutta<Mpfr>(tableau);
+  EXPECT_EQ(method.A(1, 0), literal<Mpfr>("1/4+sqrt(3)/6"));
+  EXPECT_EQ(order(method, literal<Mpfr>("1e-58")), 4);
+}
+
+TEST_F(ReadTableau, NameOrderAndNodesMayBeAbsent) {
+  const Tableau tableau = read("A = [[0, 0, 0], [\"1/3\", 0, 0.0], [-0.1, +0.3, 0]]\nb = [1, 0, 0]\n");
+  EXPECT_EQ(tableau.name, "method");
+  EXPECT_FALSE(tableau.order.has_value());
+  ASSERT_EQ(tableau.c.size(), 3u);
+  EXPECT_EQ(literal<double>(tableau.c[0].text()), 0);
+  const PrecisionScope digits(60);
+  const auto method = make_runge_kutta<Mpfr>(tableau);
+  EXPECT_EQ(method.c[1], literal<Mpfr>("1/3"));
+  EXPECT_EQ(method.c[2], literal<Mpfr>("0.2"));  // not of the binary fractions next to 0.1 and 0.3
+}
+
+TEST_F(ReadTableau, DecimalsAreReadToTheLastDigit) {
+  const Tableau tableau = read("A = [[0.1234567890123456789012345678901234567890]]\nb = [1e0]\n");
+  const PrecisionScope digits(60);
+  EXPECT_EQ(make_runge_kutta<Mpfr>(tableau).A(0, 0), literal<Mpfr>("0.1234567890123456789012345678901234567890"));
+}
+
+TEST_F(ReadTableau, ValuesBeyondDoubleAreValues) {
+  EXPECT_EQ(read("A = [[\"10^-400\"]]\nb = [1]\n").A[0][0].text(), "10^-400");
+}
+
+TEST_F(ReadTableau, RefusesKeys) {
+  expect_refusal(changed("b = [0.5, \"1/2\"]\n", ""), "1", {"tableau", "'b' is missing"});
+  expect_refusal("b = [1]\n", "1", {"'A' is missing"});
+  expect_refusal("", "1", {"'A' is missing"});
+  expect_refusal(changed("order", "ordre"), "2", {"unknown key 'ordre'", "did you mean 'order'"});
+  expect_refusal(gauss + "d = 1\n", "7", {"unknown key 'd'"});
+  expect_refusal(gauss + "b = [1, 2]\n", "7", {});
+  expect_refusal(gauss + "[more]\nx = 1\n", "7", {"unknown key 'more'"});
+}
+
+TEST_F(ReadTableau, RefusesNamesAndOrders) {
+  expect_refusal(changed("\"Gauss, two stages\"", "5"), "1", {"'name'"});
+  expect_refusal(changed("\"Gauss, two stages\"", "\"\""), "1", {"'name'"});
+  for (const char* const wrong : {"0", "-3", "4.0", "\"4\"", "201", "9223372036854775807", "[4]"})
+    expect_refusal(changed("order = 4", std::string("order = ") + wrong), "2", {"'order'"});
+}
+
+TEST_F(ReadTableau, RefusesShapes) {
+  expect_refusal(changed("0.25]]", "0.25, 0]]"), "4", {"A[2] has 3 entries", "2 rows"});
+  expect_refusal(changed("0.25]]", "0.25], [0, 0]]"), "3", {"A[1] has 2 entries", "3 rows"});
+  expect_refusal(changed("[\"1/4\", \"1/4-sqrt(3)/6\"]", "1"), "3", {"A[1] must be an array"});
+  expect_refusal(changed("[0.5, \"1/2\"]", "[1]"), "5", {"b has 1 entries", "2 rows"});
+  expect_refusal(changed("[0.5, \"1/2\"]", "1"), "5", {"b must be an array"});
+  expect_refusal(changed("c = [", "c = [0, "), "6", {"c has 3 entries"});
+  expect_refusal("A = []\nb = []\n", "1", {"0 rows"});
+  expect_refusal("A = 1\nb = [1]\n", "1", {"A must be an array"});
+  expect_refusal("A = \"x\"\nb = [1]\n", "1", {"A must be an array"});
+  expect_refusal("A = {x = 1}\nb = [1]\n", "1", {"A must be an array"});
+  expect_refusal("b = [1]\n[[A]]\nx = 1\n", "2", {"A[1] must be an array"});
+}
+
+std::string square(int stages, const std::string& number) {
+  std::string row = number;
+  for (int i = 1; i < stages; ++i) row += ", " + number;
+  std::string text = "b = [" + row + "]\nA = [[" + row + "]";
+  for (int i = 1; i < stages; ++i) text += ",\n[" + row + "]";
+  return text + "]\n";
+}
+
+TEST_F(ReadTableau, RefusesMoreStagesThanItTakes) {
+  EXPECT_EQ(read(square(100, "\"1/3\"")).stages(), 100);
+  expect_refusal(square(101, "0"), "2", {"101 rows", "100 stages"});
+}
+
+TEST_F(ReadTableau, RefusesEntries) {
+  expect_refusal(changed("0.25]]", "\"1/0\"]]"), "4", {"A[2][2] has no value", "1/0"});
+  expect_refusal(changed("0.25]]", "\"1/\"]]"), "4", {"A[2][2]"});
+  expect_refusal(changed("0.25]]", "\"\"]]"), "4", {"A[2][2]"});
+  expect_refusal(changed("0.25]]", "nan]]"), "4", {"A[2][2]", "finite"});
+  expect_refusal(changed("0.25]]", "-inf]]"), "4", {"A[2][2]", "finite"});
+  expect_refusal(changed("0.25]]", "true]]"), "4", {"A[2][2]", "number"});
+  expect_refusal(changed("0.25]]", "[0.25]]]"), "4", {"A[2][2]", "number"});
+  expect_refusal(changed("0.25]]", "1979-05-27]]"), "4", {"A[2][2]", "number"});
+  expect_refusal(changed("0.25]]", "{a = 1}]]"), "4", {"A[2][2]", "number"});
+  expect_refusal(changed("[0.5,", "[\"sqrt(-1)\","), "5", {"b[1] has no value"});
+  expect_refusal(changed("[0.5,", "[\"x\","), "5", {"b[1] has no value", "x"});
+  expect_refusal(changed("[0.5,", "[\"exp(exp(100))\","), "5", {"b[1] has no value"});
+  expect_refusal(changed("\"1/2+sqrt(3)/6\"", "\"log(0)\""), "6", {"c[2] has no value"});
+}
+
+TEST_F(ReadTableau, AsksForNodesWhereRowsAreTooLongToBeSummed) {
+  std::string entry = "\"1/2";
+  for (int i = 0; i < 300; ++i) entry += "+1";
+  entry += "\"";
+  expect_refusal(square(4, entry), "2", {"A[1]", "state c"});
+}
+
+TEST_F(ReadTableau, RefusesWhatIsNoToml) {
+  expect_refusal(changed("0.25]]", "0.25]"), "5", {});
+  expect_refusal(changed("two stages\"", "two stages"), "1", {});
+  expect_refusal(changed("0.25]]", "0x]]"), "4", {});
+  expect_refusal(std::string("A = [[1]]\nb = [\0]\n", 18), "2", {});
+  EXPECT_NE(refusal("A = " + std::string(100'000, '[')), "nothing");
+  EXPECT_NE(refusal("\xFF\xFE"), "nothing");
+  for (std::size_t length = 0; length < gauss.size(); ++length) try {
+      read(gauss.substr(0, length));
+    } catch (const InputError&) {
+    }
+}
+
+TEST_F(ReadTableau, RefusesWhatIsNoFile) {
+  EXPECT_THROW(read_tableau((folder_ / "none.toml").string()), InputError);
+  EXPECT_THROW(read_tableau(folder_.string()), InputError);
+  EXPECT_THROW(read_tableau(""), InputError);
+}
+
+}  // namespace
+}  // namespace hbvm

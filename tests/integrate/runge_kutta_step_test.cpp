@@ -1,0 +1,195 @@
+#include "hbvm/integrate/runge_kutta_step.hpp"
+
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+RungeKutta<S> gauss(int s) {
+  const Hbvm<S> method = make_hbvm<S>(s, s);
+  return {method.A, method.b, method.c};
+}
+
+template <Scalar S>
+RungeKutta<S> rk4() {
+  RungeKutta<S> r{Matrix<S>::Zero(4, 4), Vector<S>(4), Vector<S>(4)};
+  const S half = S(1) / 2;
+  r.A(1, 0) = r.A(2, 1) = half;
+  r.A(3, 2) = 1;
+  r.b << S(S(1) / 6), S(S(1) / 3), S(S(1) / 3), S(S(1) / 6);
+  r.c << S(0), half, half, S(1);
+  return r;
+}
+
+template <Scalar S>
+RungeKutta<S> radau_iia() {
+  RungeKutta<S> r{Matrix<S>(2, 2), Vector<S>(2), Vector<S>(2)};
+  r.A << literal<S>("5/12"), literal<S>("-1/12"), literal<S>("3/4"), literal<S>("1/4");
+  r.b << literal<S>("3/4"), literal<S>("1/4");
+  r.c << literal<S>("1/3"), S(1);
+  return r;
+}
+
+template <Scalar S>
+S distance(const State<S>& a, const State<S>& b) {
+  S r = max_norm(Vector<S>(a.q - b.q));
+  raise_to(r, max_norm(Vector<S>(a.p - b.p)));
+  return r;
+}
+
+template <Scalar S, class Stepping>
+State<S> after(Stepping& stepping, const Assembled<S>& scene, long steps) {
+  State<S> state(scene.q0, scene.p0);
+  for (long i = 0; i < steps; ++i) stepping.step(state);
+  return state;
+}
+
+template <class S>
+class RungeKuttaStepTest : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+  const Assembled<S> kepler = assemble<S>(load_scene("kepler"));
+
+  State<S> run(const RungeKutta<S>& method, const S& h, long steps) const {
+    RungeKuttaStep<S> step(kepler.problem, method, h);
+    return after(step, kepler, steps);
+  }
+};
+TYPED_TEST_SUITE(RungeKuttaStepTest, AllScalars, ScalarNames);
+
+TYPED_TEST(RungeKuttaStepTest, GaussIsHbvmOfEqualStages) {
+  using S = TypeParam;
+  for (int s = 1; s <= 4; ++s)
+    for (const S& h : {S(S(1) / 20), S(S(-1) / 20)}) {
+      const Hbvm<S> method = make_hbvm<S>(s, s);
+      Stepper<S> stepper(this->kepler.problem, method, h, SolverKind::fixed_point);
+      const State<S> expected = after(stepper, this->kepler, 20);
+      EXPECT_LE(distance(this->run(gauss<S>(s), h, 20), expected), 100 * epsilon<S>()) << s;
+    }
+}
+
+/// The four stages written out.
+TYPED_TEST(RungeKuttaStepTest, ClassicalMethodStageByStage) {
+  using S = TypeParam;
+  const auto force = [](const Vector<S>& q) {
+    using std::sqrt;
+    const S r = sqrt(S(q[0] * q[0] + q[1] * q[1]));
+    return Vector<S>(-q / (r * r * r));
+  };
+  const S h = S(1) / 16, half = h / 2;
+  const Vector<S>&q = this->kepler.q0, &p = this->kepler.p0;
+  const Vector<S> F1 = force(q), V2 = p + half * F1, F2 = force(Vector<S>(q + half * p)), V3 = p + half * F2,
+                  F3 = force(Vector<S>(q + half * V2)), V4 = p + h * F3, F4 = force(Vector<S>(q + h * V3));
+  State<S> expected(q, p);
+  expected.q += h / 6 * (p + 2 * V2 + 2 * V3 + V4);
+  expected.p += h / 6 * (F1 + 2 * F2 + 2 * F3 + F4);
+  EXPECT_LE(distance(this->run(rk4<S>(), h, 1), expected), 16 * epsilon<S>());
+
+  RungeKuttaStep<S> step(this->kepler.problem, rk4<S>(), h);
+  State<S> state(q, p);
+  EXPECT_TRUE(step.is_explicit());
+  EXPECT_EQ(step.step(state), 1);
+}
+
+/// The error of one step falls by 2^(p + 1) as the step is halved.
+TYPED_TEST(RungeKuttaStepTest, LocalErrorHasTheOrderOfTheMethod) {
+  using S = TypeParam;
+  const Hbvm<S> fine = make_hbvm<S>(8, 8);
+  for (const auto& [method, p] :
+       {std::pair{rk4<S>(), 4}, {radau_iia<S>(), 3}, {gauss<S>(1), 2}, {gauss<S>(2), 4}, {gauss<S>(3), 6}}) {
+    S last = 0;
+    for (const int divisor : {16, 32, 64}) {
+      const S h = S(1) / divisor;
+      Stepper<S> reference(this->kepler.problem, fine, h, SolverKind::fixed_point);
+      const S error = distance(this->run(method, h, 1), after(reference, this->kepler, 1));
+      if (last != 0 && error > 1'000 * epsilon<S>()) {
+        EXPECT_NEAR(std::log2(approximately(S(last / error))), p + 1, 0.35) << divisor;
+      }
+      last = error;
+    }
+  }
+}
+
+/// RK4 and Gauss come to the same end where both are converged.
+TYPED_TEST(RungeKuttaStepTest, ClassicalMethodConvergesToTheOrbit) {
+  using S = TypeParam;
+  const Hbvm<S> fine = make_hbvm<S>(8, 8);
+  Stepper<S> reference(this->kepler.problem, fine, S(S(1) / 32), SolverKind::fixed_point);
+  const State<S> expected = after(reference, this->kepler, 32);
+  S last = 0;
+  for (const long steps : {128L, 256L, 512L}) {
+    const S error = distance(this->run(rk4<S>(), S(S(1) / S(steps)), steps), expected);
+    if (last != 0) {
+      EXPECT_NEAR(std::log2(approximately(S(last / error))), 4, 0.2);
+    }
+    last = error;
+  }
+  EXPECT_LE(last, literal<S>("1e-7"));
+}
+
+TYPED_TEST(RungeKuttaStepTest, GaussKeepsTheAngularMomentum) {
+  using S = TypeParam;
+  const auto momentum = [](const State<S>& x) { return S(x.q[0] * x.p[1] - x.q[1] * x.p[0]); };
+  const S start = momentum(State<S>(this->kepler.q0, this->kepler.p0)), h = S(1) / 10;
+  EXPECT_LE(magnitude(S(momentum(this->run(gauss<S>(2), h, 50)) - start)), 50 * epsilon<S>());
+  EXPECT_GT(magnitude(S(momentum(this->run(radau_iia<S>(), h, 50)) - start)), literal<S>("1e-6"));
+}
+
+TYPED_TEST(RungeKuttaStepTest, TakesFullMassMatricesAndConstantForces) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(read_scene(R"(dimension = 2
+[[body]]
+name = "a"
+mass = [[2, "1/4"], ["1/4", 1]]
+position = [1, -3]
+velocity = [0.1, 2]
+[[effect]]
+kind = "uniform_gravity"
+acceleration = ["1/3", "-1/7"]
+)",
+                                                    "scene"));
+  const S h = S(1) / 4;
+  const Hbvm<S> method = make_hbvm<S>(2, 2);
+  Stepper<S> stepper(scene.problem, method, h, SolverKind::fixed_point);
+  const State<S> expected = after(stepper, scene, 8);  // a parabola, which all of them follow
+  for (const RungeKutta<S>& other : {rk4<S>(), radau_iia<S>(), gauss<S>(1)}) {
+    RungeKuttaStep<S> step(scene.problem, other, h);
+    EXPECT_LE(distance(after(step, scene, 8), expected), 50 * epsilon<S>());
+  }
+}
+
+TYPED_TEST(RungeKuttaStepTest, RefusesConstraintsAndShapes) {
+  using S = TypeParam;
+  const Assembled<S> pendulum = assemble<S>(load_scene("double_pendulum"));
+  const S h = S(1) / 10;
+  EXPECT_THROW(RungeKuttaStep<S>(pendulum.problem, rk4<S>(), h), InputError);
+  RungeKutta<S> method = rk4<S>();
+  method.b = Vector<S>::Zero(3);
+  EXPECT_THROW(RungeKuttaStep<S>(this->kepler.problem, method, h), InputError);
+  method = {Matrix<S>(0, 0), Vector<S>(0), Vector<S>(0)};
+  EXPECT_THROW(RungeKuttaStep<S>(this->kepler.problem, method, h), InputError);
+}
+
+TYPED_TEST(RungeKuttaStepTest, SaysSoWhereItFails) {
+  using S = TypeParam;
+  State<S> state(this->kepler.q0, this->kepler.p0);
+  // Steps of many revolutions, and a start in the centre of the force.
+  RungeKuttaStep<S> far(this->kepler.problem, gauss<S>(3), S(50));
+  EXPECT_THROW(far.step(state), StageFailure);
+  EXPECT_EQ(state.q, this->kepler.q0);
+  EXPECT_EQ(state.p, this->kepler.p0);
+  for (const RungeKutta<S>& method : {rk4<S>(), gauss<S>(2)}) {
+    State<S> centre(Vector<S>::Zero(2), Vector<S>::Zero(2));
+    RungeKuttaStep<S> step(this->kepler.problem, method, S(S(1) / 10));
+    EXPECT_THROW(step.step(centre), StageFailure);
+    EXPECT_EQ(max_norm(centre.q), 0);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
