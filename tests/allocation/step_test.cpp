@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "hbvm/integrate/rattle.hpp"
+#include "hbvm/integrate/runge_kutta_step.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
 
@@ -93,6 +94,19 @@ TEST(AStep, OfRattleAllocatesNothing) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
   Rattle<double> rattle(scene.problem, 0.1);
   EXPECT_EQ(allocations_of<double>(rattle, scene), 0);
+}
+
+TEST(AStep, OfARungeKuttaMethodAllocatesNothing) {
+  const PrecisionScope digits(50);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("kepler"));
+  const Hbvm<Mpfr> gauss = make_hbvm<Mpfr>(2, 2);
+  const RungeKutta<Mpfr> implicit{gauss.A, gauss.b, gauss.c};
+  RungeKutta<Mpfr> strictly_lower = implicit;
+  strictly_lower.A(0, 0) = strictly_lower.A(0, 1) = strictly_lower.A(1, 1) = 0;
+  for (const RungeKutta<Mpfr>& method : {implicit, strictly_lower}) {
+    RungeKuttaStep<Mpfr> step(scene.problem, method, Mpfr(1) / 100);
+    EXPECT_EQ(allocations_of<Mpfr>(step, scene), 0);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "hbvm/error.hpp"
 #include "hbvm/scalar/literal.hpp"
@@ -171,10 +172,24 @@ TEST_F(ReadTableau, RefusesWhatIsNoToml) {
   expect_refusal(std::string("A = [[1]]\nb = [\0]\n", 18), "2", {});
   EXPECT_NE(refusal("A = " + std::string(100'000, '[')), "nothing");
   EXPECT_NE(refusal("\xFF\xFE"), "nothing");
-  for (std::size_t length = 0; length < gauss.size(); ++length) try {
-      read(gauss.substr(0, length));
+}
+
+TEST_F(ReadTableau, ReadsOrRefusesAnyChangedCharacters) {
+  std::mt19937 random(1);
+  const std::string characters = "\"'[]{}=#.,-+*/^()_0189eEnaxL\n\t\r \\\xEF\xBB\xBF\xC3\x01\x7F";
+  const auto read_or_refuse = [&](const std::string& text) {
+    try {
+      make_runge_kutta<double>(read(text));
     } catch (const InputError&) {
     }
+  };
+  for (std::size_t length = 0; length < gauss.size(); ++length) read_or_refuse(gauss.substr(0, length));
+  for (int trial = 0; trial < 1'000; ++trial) {
+    std::string text = gauss;
+    for (unsigned changes = 1 + random() % 3; changes > 0; --changes)
+      text[random() % text.size()] = characters[random() % characters.size()];
+    read_or_refuse(text);
+  }
 }
 
 TEST_F(ReadTableau, RefusesWhatIsNoFile) {

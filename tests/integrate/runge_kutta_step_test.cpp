@@ -1,6 +1,7 @@
 #include "hbvm/integrate/runge_kutta_step.hpp"
 
-#include "hbvm/problem/point.hpp"
+#include <cmath>
+
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -96,19 +97,26 @@ TYPED_TEST(RungeKuttaStepTest, ClassicalMethodStageByStage) {
   EXPECT_EQ(step.step(state), 1);
 }
 
-/// The error of one step falls by 2^(p + 1) as the step is halved.
+/// The error of one step falls by 2^(p + 1) as the step is halved. (Not from the pericentre, where by symmetry some of
+/// the terms vanish.)
 TYPED_TEST(RungeKuttaStepTest, LocalErrorHasTheOrderOfTheMethod) {
   using S = TypeParam;
   const Hbvm<S> fine = make_hbvm<S>(8, 8);
+  Stepper<S> first(this->kepler.problem, fine, S(S(1) / 4), SolverKind::fixed_point);
+  const State<S> start = after(first, this->kepler, 4);
   for (const auto& [method, p] :
        {std::pair{rk4<S>(), 4}, {radau_iia<S>(), 3}, {gauss<S>(1), 2}, {gauss<S>(2), 4}, {gauss<S>(3), 6}}) {
     S last = 0;
-    for (const int divisor : {16, 32, 64}) {
+    for (const int divisor : {8, 16, 32, 64}) {
       const S h = S(1) / divisor;
       Stepper<S> reference(this->kepler.problem, fine, h, SolverKind::fixed_point);
-      const S error = distance(this->run(method, h, 1), after(reference, this->kepler, 1));
+      RungeKuttaStep<S> step(this->kepler.problem, method, h);
+      State<S> expected = start, state = start;
+      reference.step(expected);
+      step.step(state);
+      const S error = distance(state, expected);
       if (last != 0 && error > 1'000 * epsilon<S>()) {
-        EXPECT_NEAR(std::log2(approximately(S(last / error))), p + 1, 0.35) << divisor;
+        EXPECT_NEAR(std::log2(approximately(S(last / error))), p + 1, 0.3) << p << " " << divisor;
       }
       last = error;
     }
@@ -178,11 +186,11 @@ TYPED_TEST(RungeKuttaStepTest, RefusesConstraintsAndShapes) {
 TYPED_TEST(RungeKuttaStepTest, SaysSoWhereItFails) {
   using S = TypeParam;
   State<S> state(this->kepler.q0, this->kepler.p0);
-  // Steps of many revolutions, and a start in the centre of the force.
-  RungeKuttaStep<S> far(this->kepler.problem, gauss<S>(3), S(50));
+  RungeKuttaStep<S> far(this->kepler.problem, gauss<S>(3), S(2));
   EXPECT_THROW(far.step(state), StageFailure);
   EXPECT_EQ(state.q, this->kepler.q0);
   EXPECT_EQ(state.p, this->kepler.p0);
+  // In the centre of the force it is not finite.
   for (const RungeKutta<S>& method : {rk4<S>(), gauss<S>(2)}) {
     State<S> centre(Vector<S>::Zero(2), Vector<S>::Zero(2));
     RungeKuttaStep<S> step(this->kepler.problem, method, S(S(1) / 10));
