@@ -11,6 +11,10 @@ namespace {
 /// Increments that fall by less a sweep are worth a new Jacobian.
 constexpr double slow = 1 / double{10};
 
+/// An increment that fell by more than this may have done so because the start was off where the old Jacobian is exact;
+/// the next one need not.
+constexpr double least_rate = 1 / double{4096};
+
 /// Row 0 of X_s^-1.
 Vector<double> first_row_of_inverse(const Matrix<double>& X) {
   const Vector<double> e = Vector<double>::Unit(X.rows(), 0);
@@ -119,18 +123,19 @@ long NewtonInDouble::iterate(StageEquations<double>& equations, Jacobian& jacobi
     raise_to(increment, max_norm(residual_.constraint));
     if (increment != 0) increment /= size;
     if (!std::isfinite(increment)) throw StageFailure("an iterate is not finite", to_scientific(increment, 3), sweeps);
-    const double rate = sweeps > 1 && last > 0 ? increment / last : rate_;
+    // Nothing is known of it before the second sweep: a Jacobian kept from earlier steps may have become worse.
+    const double rate = sweeps > 1 && last > 0 ? increment / last : 1;
+    const double rate_to_come = std::max(rate, least_rate);
     // What is left after this sweep is about rate/(1 - rate) increments.
     // A residual as large as what it is the residual of shows no solution, however small the increments.
     const bool small = max_norm(momentum_) <= std::sqrt(epsilon<double>()) * size;
-    const double left = 2 * rate < 1 ? increment * rate : increment;
+    const double left = 2 * rate < 1 ? increment * rate_to_come : increment;
     const bool converged = small && left <= epsilon<double>() / 8;
     // Or the increments are round-off, also where it is magnified by an ill-conditioned Jacobian: then the residual is.
     const bool round_off = max_norm(momentum_) <= tolerance_ * size &&
                            hidden <= tolerance_ * max_norm(equations.constraint_gradient().values()) *
                                          max_norm(equations.node_velocities());
     if (converged || (small && sweeps > 1 && 2 * rate >= 1 && (increment <= tolerance_ || round_off))) {
-      if (sweeps > 1 && rate < 1) rate_ = std::max(rate, epsilon<double>());
       for (Index j = 0; j < momentum_change_.size(); ++j) momentum_change_[j] = h * (x_.psi(0, j) - x_.zeta(0, j));
       add_change_of_momentum(momentum_, residual_.momentum, momentum_change_);
       return sweeps;

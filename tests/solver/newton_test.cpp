@@ -112,6 +112,19 @@ TEST(Newton, CountsWhatItDid) {
   EXPECT_EQ(part("corrections").per_call[Op::multiply], 12u);
 }
 
+/// Where the motion turns uniformly, the increments of the third step fall fast once and then no more: to take the first
+/// fall for the rate of all would leave an error that shows in the angular momentum.
+TEST(Newton, IsNotMisledByOneFastFall) {
+  const Assembled<double> scene = assemble<double>(load_scene("conical_pendulum"));
+  const Hbvm<double> method = make_hbvm<double>(3, 3);
+  Stepper<double> stepper(scene.problem, method, 1.0 / 16, SolverKind::newton);
+  State<double> state(scene.q0, scene.p0);
+  const auto momentum = [&] { return state.q[0] * state.p[1] - state.q[1] * state.p[0]; };
+  const double before = momentum();
+  for (int n = 0; n < 64; ++n) stepper.step(state);
+  EXPECT_LE(std::abs(momentum() - before), 16 * epsilon<double>());
+}
+
 /// Numbers that double does not hold: Newton fails, typed, and the automatic solver goes on with the fixed point.
 TEST(Newton, LeavesWhatDoubleCannotHoldToTheFixedPoint) {
   const PrecisionScope digits(40);

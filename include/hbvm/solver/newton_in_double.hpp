@@ -53,7 +53,6 @@ class NewtonInDouble {
   Matrix<double> momentum_;  ///< residual before it is solved for
   Vector<double> first_row_of_inverse_X_, momentum_change_, sequence_;
   Extrapolation<double> extrapolation_;
-  double rate_ = 1;  ///< at which increments fell last
   double tolerance_;
 };
 
