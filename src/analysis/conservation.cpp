@@ -9,22 +9,6 @@
 namespace hbvm {
 namespace {
 
-/// |T| + |U|.
-template <Scalar S>
-S energy_size(const Problem<S>& problem, const Vector<S>& q, const Vector<S>& p) {
-  Point<S> point(problem);
-  const S at_rest = point.energy(q, Vector<S>::Zero(problem.m()));
-  return magnitude(S(point.energy(q, p) - at_rest)) + magnitude(at_rest);
-}
-
-template <Scalar S>
-S constraint_size(const Problem<S>& problem, const Vector<S>& q) {
-  S size = 0;
-  for (const Constraint<S>& constraint : problem.constraints)
-    raise_to(size, value(constraint, problem.dimension, q).size);
-  return size;
-}
-
 template <Scalar S>
 Conservation conservation_in(const ConservationRequest& request) {
   const TimeGrid<S> grid(request.step, request.until, request.scene->constants);
@@ -47,9 +31,9 @@ Conservation conservation_in(const ConservationRequest& request) {
     result.quantities.push_back({kind, name, to_scientific(drift, 3), ulps});
   };
   const Snapshot<S>& end = run.integration.end;
-  add(Kind::energy, "H", run.e_H,
-      std::max(energy_size(problem, scene.q0, scene.p0), energy_size(problem, end.q, end.p)));
-  if (problem.nu() > 0) add(Kind::constraints, "g", run.e_g, constraint_size(problem, end.q));
+  Point<S> point(problem);
+  add(Kind::energy, "H", run.e_H, std::max(point.energy_size(scene.q0, scene.p0), point.energy_size(end.q, end.p)));
+  if (problem.nu() > 0) add(Kind::constraints, "g", run.e_g, point.constraint_size(end.q));
   for (std::size_t i = 0; i < momenta.components().size(); ++i) {
     const MomentumComponent<S>& component = momenta.components()[i];
     add(component.is_linear() ? Kind::linear_momentum : Kind::angular_momentum, component.name(), momenta.drift(i),

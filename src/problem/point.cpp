@@ -27,6 +27,20 @@ S Point<S>::energy(const Vector<S>& q, const Vector<S>& p) {
 }
 
 template <Scalar S>
+S Point<S>::energy_size(const Vector<S>& q, const Vector<S>& p) {
+  const S at_rest = energy(q, Vector<S>::Zero(problem_.m()));
+  return magnitude(S(energy(q, p) - at_rest)) + magnitude(at_rest);
+}
+
+template <Scalar S>
+S Point<S>::constraint_size(const Vector<S>& q) const {
+  S size = 0;
+  for (const Constraint<S>& constraint : problem_.constraints)
+    raise_to(size, value(constraint, problem_.dimension, q).size);
+  return size;
+}
+
+template <Scalar S>
 const Vector<S>& Point<S>::constraints(const Vector<S>& q) {
   for (Index a = 0; a < problem_.nu(); ++a)
     g_[a] = value(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, q).g;

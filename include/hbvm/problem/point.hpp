@@ -13,8 +13,12 @@ class Point {
 
   /// H = 1/2 p^T M^-1 p - U(q), (Hqp).
   S energy(const Vector<S>& q, const Vector<S>& p);
+  /// |T| + |U|, which the round-off of the energy is proportional to.
+  S energy_size(const Vector<S>& q, const Vector<S>& p);
   /// g(q), (gq).
   const Vector<S>& constraints(const Vector<S>& q);
+  /// The greatest sum of the magnitudes of a constraint's terms.
+  S constraint_size(const Vector<S>& q) const;
   /// grad g^T M^-1 p, (Dgp0).
   const Vector<S>& hidden_constraints(const Vector<S>& q, const Vector<S>& p);
 

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hbvm/analysis/audit/convergence.hpp"
+#include "hbvm/method/method_name.hpp"
+#include "hbvm/method/perturbation.hpp"
+#include "hbvm/method/runge_kutta.hpp"
+#include "hbvm/scene/scene.hpp"
+
+namespace hbvm {
+
+/// What a claim is about. Errors are max-norms.
+enum class Quantity {
+  q,                 ///< position
+  p,                 ///< momentum as it is propagated
+  tangential_p,      ///< momentum of the output state, projected to the tangent space
+  lagmul,            ///< multiplier extrapolated from the nodes, (lagmul)
+  output_lambda,     ///< multiplier of the output state, (Theorem lamex)
+  delta_lambda,      ///< lambda(u(c_j h), v(c_j h)) - lambda_j at the internal nodes, (dli)
+  polynomials,       ///< u and v at eight points of a step, of (norm)
+  g,                 ///< constraints
+  hidden,            ///< hidden constraints grad g^T M^-1 p, (hidcons)
+  H,                 ///< energy
+  angular_momentum,  ///< every momentum that the problem conserves
+  reversal,          ///< the start, after as many steps back (momenta reversed) as forth
+  hidden_constant,   ///< hidden constraint over its leading term, for a constant Gram matrix
+  hidden_drift,      ///< growth of the hidden constraint from t = 20 to t = 1280
+  sweeps,            ///< sweeps of (iter) a step, less those of k = s
+  order_conditions,  ///< order that a Runge-Kutta tableau has by the order conditions
+  B,                 ///< condition B(2k) of the tableau, and B(2s) of the constraints' nodes
+  C,                 ///< condition C(s)
+  D,                 ///< condition D(s), D(s - 1) for k > s
+  X,                 ///< X_s = P_s^-1 I_s, (IsPs)
+  symmetry,          ///< c_i + c_{s+1-i} = 1, b_i = b_{s+1-i}, and A likewise
+  W                  ///< P_s^-1 A P_s = X_s, the W-transformation
+};
+
+/// Its name in tables and claims files: "tangential p".
+std::string_view name_of(Quantity quantity);
+/// Also accepts '_' and '-' for the blank. \throws InputError
+Quantity parse_quantity(std::string_view name);
+
+/// How the error of a method is looked at.
+enum class Span {
+  step,     ///< after one step from consistent states
+  interval  ///< after all steps to a fixed time, or the greatest over them (g, hidden, H, angular momentum)
+};
+
+enum class Form {
+  at_least,   ///< the error is O(h^rate)
+  exactly,    ///< and no smaller
+  round_off,  ///< the error is 0 but for round-off, in every precision
+  near        ///< the quantity itself lies within a tolerance of a value
+};
+
+/// One statement about one method and problem.
+struct Claim {
+  std::string label;  ///< of the paper's statement, or where else it is from
+  Quantity quantity = Quantity::q;
+  std::string problem;  ///< a scene, by name or file; "tableau" for the coefficients alone
+  MethodName method;
+  Span span = Span::interval;
+  Form form = Form::at_least;
+  double predicted = 0;  ///< rate, or value
+  double tolerance = 0;  ///< of Form::near
+  unsigned least_digits = 0;  ///< with which it must be looked at
+  std::shared_ptr<const Tableau> tableau{};  ///< in place of HBVM(k, s)
+  std::optional<Perturbation> perturbation{};
+
+  /// "HBVM(3,2)", or the tableau's name.
+  std::string method_text() const;
+};
+
+enum class Verdict { holds, fails, undecidable };
+std::string_view name_of(Verdict verdict);
+
+/// The errors of a quantity in one precision.
+struct Ladder {
+  std::string precision;
+  std::vector<Rung> rungs;
+};
+
+/// What the audit found out about a claim.
+struct Finding {
+  Claim claim;
+  Verdict verdict = Verdict::undecidable;
+  double measured = 0, uncertainty = 0;  ///< rate, NaN if there is only round-off; of Form::round_off, units of round-off and how many are allowed
+  std::string precision;                 ///< the last one used
+  std::string reference;                 ///< what errors are measured against
+  std::string reason;                    ///< of a verdict that is not "holds"
+  std::vector<Ladder> evidence;          ///< precision after precision
+};
+
+/// Whether a measured rate bears a claim out. Rates are whole numbers: the interval value +- uncertainty must lie
+/// within 1/2 of the predicted rate, or above that for `at_least`; it fails if it lies outside altogether.
+Verdict judge(const Claim& claim, const std::optional<Rate>& rate);
+
+}  // namespace hbvm

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hbvm/analysis/audit/claim.hpp"
+
+namespace hbvm {
+
+enum class Extent {
+  quick,  ///< s = 1, 2, 3 and the smaller problems: under two minutes
+  full    ///< s = 1 .. 8, all problems, and s = 12 and 20 in 200 digits
+};
+
+/// The paper's statements and those that are known beyond it, each with the label of the theorem, corollary or remark
+/// it belongs to (an error bound "O(h^r)" is claimed "at least"; "exactly" only where the leading term is known not to
+/// vanish).
+std::vector<Claim> paper_claims(Extent extent);
+
+/// What a Runge-Kutta method must show on the problems without constraints: the order that its author states (if none,
+/// that which its conditions show to ten digits, as a look in double would have it), the order of the energy error, and
+/// symmetry and conservation of angular momentum if its coefficients say so to ten digits.
+std::vector<Claim> tableau_claims(const std::shared_ptr<const Tableau>& tableau);
+
+/// Claims written in TOML, an array of tables [[claim]] with
+///
+///     quantity = "raw p"          what name_of gives: "q", "H", "g", "hidden" …
+///     problem = "double_pendulum" a scene, by name or file
+///     method = "hbvm:3,2"         or a file with a tableau
+///     rate = "2*s"                an expression of k and s; or "round-off"
+///     form = "exactly"            "at least" if absent
+///     over = "step"               "interval" if absent
+///     perturb = { part = "node", i = 1, j = 1, hat = false, relative = "1e-25" }
+///                                 optional: node, weight, integral, X or legendre, counted from 1
+///
+/// Files are looked for beside the claims' file first.
+/// \throws InputError with file, line and what is wrong
+std::vector<Claim> read_claims(const std::string& path);
+
+}  // namespace hbvm

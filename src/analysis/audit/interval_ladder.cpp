@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <deque>
+
+#include "hbvm/problem/momenta.hpp"
+#include "hbvm/reference/closed_form.hpp"
+#include "measurements.hpp"
+
+namespace hbvm {
+namespace {
+
+/// What some thousand steps' roundings add up to, in units of the last digit, as log2.
+constexpr double roundings = 14;
+
+Mpfr distance(const Vector<Mpfr>& a, const Vector<Mpfr>& b) { return max_norm(Vector<Mpfr>(a - b)); }
+
+/// The exact motion from one start, at the end of the interval.
+class Destination {
+ public:
+  Destination(Laboratory& laboratory, const Laboratory::Start& start, const std::string& scene, const Mpfr& until, int s)
+      : laboratory_(laboratory), start_(start), until_(until), s_(s), known_(closed_form(scene, until)) {}
+
+  /// At least so exact if that can be had: log2 of the error wanted.
+  void sharpen(double wanted) {
+    if (known_) return;
+    if (!motion_) motion_.emplace(laboratory_.problem(), start_.q, start_.p, until_, 16, s_ + 2);
+    while (motion_->error() > wanted && motion_->refine()) {
+    }
+  }
+  const Vector<Mpfr>& q() const { return known_ ? known_->q : motion_->q(); }
+  const Vector<Mpfr>& p() const { return known_ ? known_->p : motion_->p(); }
+  double error() const { return known_ ? static_cast<double>(-mpfr_working_bits()) : motion_->error(); }
+
+ private:
+  Laboratory& laboratory_;
+  const Laboratory::Start& start_;
+  Mpfr until_;
+  int s_;
+  std::optional<ExactPoint> known_;
+  std::optional<ReferenceMotion> motion_;
+};
+
+}  // namespace
+
+template <Scalar S>
+Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
+  const double unit = 1 - significand_bits<S>() + roundings;
+  const Claim& subject = cell.subject();
+  Trial<S> trial(subject);
+  const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
+  Laboratory laboratory(subject.problem, cell.first_start, cell.starts);
+  const Problem<Mpfr>& problem = laboratory.problem();
+  Point<Mpfr>& point = laboratory.point();
+  const Mpfr until = Mpfr(1) / 2;
+  const bool constrained = problem.nu() > 0;
+  const bool end_errors = cell.asks_for(Quantity::q) || cell.asks_for(Quantity::p) ||
+                          cell.asks_for(Quantity::tangential_p) || cell.asks_for(Quantity::lagmul) ||
+                          cell.asks_for(Quantity::output_lambda);
+  std::deque<Destination> destinations;
+  for (const Laboratory::Start& start : laboratory.starts())
+    destinations.emplace_back(laboratory, start, subject.problem, until, cell.stages());
+  std::vector<MomentumComponent<Mpfr>> momenta;
+  if (cell.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem, laboratory.starts().front().q);
+
+  Ladders ladders;
+  for (long n = 4; n <= most; n *= 2) {
+    Sizes sizes;
+    const Mpfr h = until / n;
+    const double log2_h = log2_of(h);
+    try {
+      for (std::size_t i = 0; i < laboratory.starts().size(); ++i) {
+        const Laboratory::Start& start = laboratory.starts()[i];
+        Destination& exact = destinations[i];
+        const double q_unit = unit + log2_of(max_norm(start.q)), p_unit = unit + log2_of(max_norm(start.p));
+        const auto add = [&](Quantity quantity, const Mpfr& error, double floor) {
+          raise(sizes, quantity, log2_of(error), floor);
+        };
+        Vector<Mpfr> q = start.q, p = start.p;
+        const Mpfr H0 = point.energy(q, p);
+        const double H_unit = unit + log2_of(point.energy_size(q, p));
+        std::vector<MomentumValue<Mpfr>> momentum_0;
+        for (const auto& component : momenta) momentum_0.push_back(momentum(problem, component, q, p));
+        trial.begin(start, h);
+        for (long step = 1; step <= n; ++step) {
+          trial.step();
+          trial.state(q, p);
+          if (cell.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), H_unit);
+          if (constrained && cell.asks_for(Quantity::hidden))
+            add(Quantity::hidden, max_norm(point.hidden_constraints(q, p)), q_unit + p_unit - unit + 4);
+          for (std::size_t c = 0; c < momenta.size(); ++c)
+            add(Quantity::angular_momentum,
+                abs(Mpfr(momentum(problem, momenta[c], q, p).value - momentum_0[c].value)),
+                unit + log2_of(momentum_0[c].size));
+        }
+        if (!end_errors) continue;
+        const Vector<Mpfr> tangential = point.tangential(q, p);
+        exact.sharpen(0);
+        // The reference must be better than what is measured by four bits; its momentum decides, too.
+        const double least = log2_of(std::max(distance(q, exact.q()), distance(tangential, exact.p())));
+        exact.sharpen(std::max(least, q_unit) - 8);
+        const double margin = exact.error() + 4;
+        add(Quantity::q, distance(q, exact.q()), std::max({q_unit, p_unit, margin}));
+        add(Quantity::p, distance(p, exact.p()), std::max({q_unit, p_unit, margin}));
+        if (!constrained) continue;
+        add(Quantity::tangential_p, distance(tangential, exact.p()), std::max({q_unit, p_unit, margin}));
+        const Vector<Mpfr> exact_lambda = point.multiplier(exact.q(), exact.p());
+        const double lambda_unit = std::max({unit + log2_of(max_norm(exact_lambda)), q_unit, p_unit});
+        Vector<Mpfr> lambda = exact_lambda;
+        trial.multiplier(lambda);
+        add(Quantity::output_lambda, distance(point.multiplier(q, tangential), exact_lambda),
+            std::max(lambda_unit, margin));
+        add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(lambda_unit - log2_h, margin));
+      }
+    } catch (const StageFailure&) {
+      continue;  // the step is too large for the solver
+    }
+    for (const auto& [quantity, size] : sizes) ladders[quantity].push_back({log2_h, size.error, size.floor});
+    if (enough(ladders)) break;
+  }
+  return ladders;
+}
+
+#define HBVM_DEFINE(S) template Ladders interval_ladder<S>(const Cell&, long, const Enough&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

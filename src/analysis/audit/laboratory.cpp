@@ -1,0 +1,106 @@
+#include "laboratory.hpp"
+
+#include <algorithm>
+
+#include "hbvm/reference/closed_form.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+Vector<S> rounded(const Vector<Mpfr>& x) {
+  Vector<S> result(x.size());
+  for (Index i = 0; i < x.size(); ++i) {
+    const S value = rounded_to<S>(raw(x[i]));
+    set(result[i], value);
+  }
+  return result;
+}
+
+}  // namespace
+
+Laboratory::Laboratory(const std::string& scene, int first, int count) : assembled_(assemble<Mpfr>(load_scene(scene))) {
+  point_.emplace(assembled_.problem);
+  if (has_closed_form(scene)) {
+    starts_.push_back({assembled_.q0, assembled_.p0});
+    return;
+  }
+  // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion.
+  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 4);
+  Stepper<Mpfr> stepper(assembled_.problem, method, Mpfr(1) / 8, SolverKind::automatic);
+  State<Mpfr> state(assembled_.q0, assembled_.p0);
+  const int last = 3 + 2 * (first + count - 1);
+  for (int n = 1; n <= last; ++n) {
+    stepper.step(state);
+    if (n >= 3 + 2 * first && (n - 3) % 2 == 0) starts_.push_back({state.q, point_->tangential(state.q, state.p)});
+  }
+}
+
+template <Scalar S>
+Trial<S>::Trial(const Claim& subject, SolverKind solver)
+    : digits_(static_cast<unsigned>(digits10<S>())),
+      solver_(solver),
+      assembled_(assemble<S>(load_scene(subject.problem))) {
+  if (subject.tableau) {
+    runge_kutta_ = make_runge_kutta<S>(*subject.tableau);
+  } else {
+    method_ = make_hbvm<S>(subject.method.k, subject.method.s);
+    if (subject.perturbation) perturb(*method_, *subject.perturbation);
+  }
+}
+
+template <Scalar S>
+void Trial<S>::begin(const Laboratory::Start& start, const Mpfr& h) {
+  const PrecisionScope working(digits_);
+  const S step = rounded_to<S>(raw(h));
+  state_.emplace(rounded<S>(start.q), rounded<S>(start.p));
+  if (method_)
+    stepper_.emplace(assembled_.problem, *method_, step, solver_);
+  else
+    runge_kutta_step_.emplace(assembled_.problem, *runge_kutta_, step);
+}
+
+template <Scalar S>
+long Trial<S>::step() {
+  const PrecisionScope working(digits_);
+  return stepper_ ? stepper_->step(*state_) : runge_kutta_step_->step(*state_);
+}
+
+template <Scalar S>
+void Trial<S>::reverse() {
+  const PrecisionScope working(digits_);
+  for (Index j = 0; j < state_->p.size(); ++j) {
+    set_negative(state_->p[j], state_->p[j]);
+    set_negative(state_->p_carry[j], state_->p_carry[j]);
+  }
+}
+
+template <Scalar S>
+void Trial<S>::state(Vector<Mpfr>& q, Vector<Mpfr>& p) const {
+  copy_exactly(q, state_->q);
+  copy_exactly(p, state_->p);
+}
+
+template <Scalar S>
+void Trial<S>::multiplier(Vector<Mpfr>& lambda) const {
+  if (stepper_) copy_exactly(lambda, stepper_->multiplier());
+}
+
+template <Scalar S>
+void Trial<S>::unknowns(Matrix<Mpfr>& gamma, Matrix<Mpfr>& lambda) {
+  const StageUnknowns<S>& x = stepper_->solver().unknowns();
+  copy_exactly(gamma, x.gamma);
+  copy_exactly(lambda, x.lambda);
+}
+
+void raise(Sizes& sizes, Quantity quantity, double error, double floor) {
+  const auto [place, is_new] = sizes.try_emplace(quantity, Size{error, floor});
+  if (is_new) return;
+  place->second.error = std::max(place->second.error, error);
+  place->second.floor = std::max(place->second.floor, floor);
+}
+
+#define HBVM_DEFINE(S) template class Trial<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

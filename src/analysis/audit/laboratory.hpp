@@ -1,0 +1,96 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "hbvm/analysis/audit/claim.hpp"
+#include "hbvm/integrate/runge_kutta_step.hpp"
+#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/scene/assemble.hpp"
+
+namespace hbvm {
+
+/// Decimal digits that everything measured has beyond those under audit.
+inline constexpr unsigned guard_digits = 24;
+
+/// to = from, entry by entry, in the digits that `to` has.
+template <class To, class From>
+void copy_exactly(To& to, const From& from) {
+  for (Index i = 0; i < from.size(); ++i) {
+    const BigFloat value = exactly(from.data()[i]);
+    mpfr_set(raw(to.data()[i]), raw(value), MPFR_RNDN);
+  }
+}
+
+/// A problem and generic consistent states of it, in the digits of the scope.
+class Laboratory {
+ public:
+  struct Start {
+    Vector<Mpfr> q, p;
+  };
+
+  /// \param first, count: which states. State 0 is on the scene's motion some steps after its start, state i further
+  /// on; of a scene with a closed form it is the scene's own start, and the only one.
+  /// \throws InputError, IntegrationError, StageFailure
+  Laboratory(const std::string& scene, int first, int count);
+
+  const Problem<Mpfr>& problem() const { return assembled_.problem; }
+  const std::vector<Start>& starts() const { return starts_; }
+  Point<Mpfr>& point() { return *point_; }
+
+ private:
+  Assembled<Mpfr> assembled_;
+  std::vector<Start> starts_;
+  std::optional<Point<Mpfr>> point_;
+};
+
+/// The method under audit on a problem, in the working precision S. What it hands out is exact in the digits of the
+/// laboratory's scope, which it may be called from; its own work is done in a scope of `digits`.
+template <Scalar S>
+class Trial {
+ public:
+  /// To be made in a scope of S.
+  Trial(const Claim& subject, SolverKind solver = SolverKind::newton);
+
+  /// The next step starts at this state, rounded, and is h long.
+  void begin(const Laboratory::Start& start, const Mpfr& h);
+  /// \return sweeps. \throws StageFailure
+  long step();
+  void reverse();  ///< p = -p
+
+  void state(Vector<Mpfr>& q, Vector<Mpfr>& p) const;
+  /// (lagmul) of the last step.
+  void multiplier(Vector<Mpfr>& lambda) const;
+  /// Coefficients of the last step; not for a tableau.
+  void unknowns(Matrix<Mpfr>& gamma, Matrix<Mpfr>& lambda);
+  bool has_polynomials() const { return method_.has_value(); }
+
+ private:
+  unsigned digits_;
+  SolverKind solver_;
+  Assembled<S> assembled_;
+  std::optional<Hbvm<S>> method_;
+  std::optional<RungeKutta<S>> runge_kutta_;
+  std::optional<Stepper<S>> stepper_;
+  std::optional<RungeKuttaStep<S>> runge_kutta_step_;
+  std::optional<State<S>> state_;
+};
+
+#define HBVM_DECLARE(S) extern template class Trial<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+/// Greatest error of a quantity at one step, and what round-off explains of it, as log2.
+struct Size {
+  double error, floor;
+};
+using Sizes = std::map<Quantity, Size>;
+void raise(Sizes& sizes, Quantity quantity, double error, double floor);
+
+/// Ladders of some quantities, by precision.
+using Ladders = std::map<Quantity, std::vector<Rung>>;
+
+}  // namespace hbvm

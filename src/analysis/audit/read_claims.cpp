@@ -1,0 +1,139 @@
+#include <filesystem>
+
+#include "analysis/expected_csv.hpp"
+#include "hbvm/analysis/audit/claims.hpp"
+#include "hbvm/analysis/read_tableau.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "scene/toml_table.hpp"
+
+namespace hbvm {
+namespace {
+
+/// A file that stands beside the claims' file, or the name as it is.
+std::string located(const std::string& name, const std::filesystem::path& folder) {
+  const std::filesystem::path beside = folder / name;
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(beside, ignored) ? beside.string() : name;
+}
+
+int counted_from_one(TomlTable& reader, const char* key) {
+  const long value = reader.has(key) ? reader.integer(key) : 1;
+  if (value < 1 || value > max_k) reader.fail(std::string("'") + key + "' must be between 1 and " + std::to_string(max_k));
+  return static_cast<int>(value) - 1;
+}
+
+Perturbation perturbation(TomlTable reader) {
+  using Part = Perturbation::Part;
+  const std::string name = reader.string("part");
+  std::optional<Part> part;
+  for (const auto& [own, value] : {std::pair("node", Part::node), {"weight", Part::weight}, {"integral", Part::integral},
+                                   {"X", Part::X}, {"legendre", Part::legendre}})
+    if (name == own) part = value;
+  if (!part) reader.fail("unknown part '" + name + "': use node, weight, integral, X or legendre");
+  bool hat = false;
+  if (const toml::node* const node = reader.take("hat")) {
+    if (!node->is_boolean()) reader.fail(*node, "'hat' is true or false");
+    hat = node->value_or(false);
+  }
+  Perturbation result{*part, hat, counted_from_one(reader, "i"), counted_from_one(reader, "j"),
+                      reader.number("relative")};
+  reader.finish();
+  return result;
+}
+
+class ClaimReader {
+ public:
+  ClaimReader(TomlTable table, const std::filesystem::path& folder) : reader_(std::move(table)), folder_(folder) {}
+
+  Claim read() {
+    Claim claim;
+    claim.label = reader_.has("label") ? reader_.string("label") : "stated";
+    checked([&] { claim.quantity = parse_quantity(reader_.string("quantity")); });
+    claim.problem = located(reader_.string("problem"), folder_);
+    const std::string method = reader_.string("method");
+    checked([&] {
+      if (method.starts_with("hbvm:")) {
+        claim.method = MethodName::parse(method);
+        if (claim.method.is_auto()) throw InputError("method " + method + ": a claim states its k");
+      } else {
+        claim.tableau = std::make_shared<const Tableau>(read_tableau(located(method, folder_)));
+      }
+    });
+    const std::string over = reader_.has("over") ? reader_.string("over") : "interval";
+    if (over != "interval" && over != "step") reader_.fail("unknown 'over' \"" + over + "\": use interval or step");
+    claim.span = over == "step" ? Span::step : Span::interval;
+    const std::string form = reader_.has("form") ? reader_.string("form") : "at least";
+    if (form != "at least" && form != "exactly") reader_.fail("unknown form '" + form + "': use 'at least' or 'exactly'");
+    claim.form = form == "exactly" ? Form::exactly : Form::at_least;
+    read_rate(claim);
+    if (const toml::node* const node = reader_.take("perturb")) {
+      if (!node->is_table()) reader_.fail(*node, "'perturb' is a table");
+      if (claim.tableau) reader_.fail(*node, "'perturb' is for hbvm:K,S; a tableau is changed in its own file");
+      claim.perturbation = perturbation(TomlTable(reader_.source(), *node->as_table(), "perturb"));
+    }
+    reader_.finish();
+    refuse_nonsense(claim);
+    return claim;
+  }
+
+ private:
+  template <class F>
+  void checked(const F& f) const {
+    try {
+      f();
+    } catch (const InputError& error) {
+      reader_.fail(error.what());
+    }
+  }
+
+  void read_rate(Claim& claim) {
+    const toml::node& node = reader_.require("rate");
+    if (node.is_string() && node.value_or(std::string()) == "round-off") {
+      claim.form = Form::round_off;
+      return;
+    }
+    Constants constants;
+    constants.insert_or_assign("k", Expression::parse(std::to_string(claim.method.k)));
+    constants.insert_or_assign("s", Expression::parse(std::to_string(claim.tableau ? claim.tableau->stages()
+                                                                                   : claim.method.s)));
+    checked([&] { claim.predicted = evaluate<double>(reader_.to_number(node, "'rate'"), constants); });
+    if (!(claim.predicted >= 0 && claim.predicted <= 2 * max_k + 1)) reader_.fail(node, "no such rate");
+  }
+
+  void refuse_nonsense(const Claim& claim) const {
+    const Quantity q = claim.quantity;
+    const std::string name(name_of(q));
+    if (q >= Quantity::hidden_constant) reader_.fail("quantity '" + name + "' has no rate to claim");
+    const bool of_one_step = q == Quantity::delta_lambda || q == Quantity::polynomials;
+    if (of_one_step && claim.span != Span::step) reader_.fail("quantity '" + name + "' is one of a step: over = \"step\"");
+    const bool conserved =
+        q == Quantity::g || q == Quantity::H || q == Quantity::angular_momentum || q == Quantity::reversal;
+    if (claim.form == Form::round_off && !conserved)
+      reader_.fail("only g, H, angular momentum and reversal can be 0 to round-off");
+    if (claim.form != Form::round_off && (q == Quantity::g || q == Quantity::reversal))
+      reader_.fail("quantity '" + name + "' is claimed with rate = \"round-off\"");
+    if (q == Quantity::angular_momentum && claim.form != Form::round_off && claim.span == Span::step)
+      reader_.fail("the angular momentum is looked at over an interval");
+    checked([&] { load_scene(claim.problem); });
+  }
+
+  TomlTable reader_;
+  const std::filesystem::path& folder_;
+};
+
+}  // namespace
+
+std::vector<Claim> read_claims(const std::string& path) {
+  const TomlSource source(read_file(path), path);
+  const toml::table root = source.parse();
+  TomlTable top(source, root, "claims");
+  std::vector<Claim> claims;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  for (const toml::table* const table : top.tables("claim"))
+    claims.push_back(ClaimReader(TomlTable(source, *table, "claim " + std::to_string(claims.size() + 1)), folder).read());
+  top.finish();
+  if (claims.empty()) source.fail(1, "there is no [[claim]]");
+  return claims;
+}
+
+}  // namespace hbvm

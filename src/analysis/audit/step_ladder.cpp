@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <limits>
+
+#include "hbvm/basis/gauss_legendre.hpp"
+#include "hbvm/reference/closed_form.hpp"
+#include "measurements.hpp"
+
+namespace hbvm {
+namespace {
+
+/// What a few hundred roundings add up to, at most, in units of the last digit, as log2.
+constexpr double roundings = 12;
+
+Mpfr distance(const Vector<Mpfr>& a, const Vector<Mpfr>& b) { return max_norm(Vector<Mpfr>(a - b)); }
+
+/// One step of the method from one state against the exact motion.
+template <Scalar S>
+class StepMeasurement {
+ public:
+  StepMeasurement(Laboratory& laboratory, const Cell& cell, double log2_epsilon)
+      : laboratory_(laboratory), subject_(cell.subject()), unit_(log2_epsilon + roundings), s_(cell.stages()) {}
+
+  void measure(Trial<S>& trial, const Laboratory::Start& start, double log2_h, Sizes& sizes) {
+    const Problem<Mpfr>& problem = laboratory_.problem();
+    Point<Mpfr>& point = laboratory_.point();
+    const Mpfr h = ldexp(Mpfr(1), static_cast<int>(log2_h));
+    trial.begin(start, h);
+    trial.step();
+    Vector<Mpfr> q = start.q, p = start.p;
+    trial.state(q, p);
+    const ReferenceMotion exact(problem, start.q, start.p, h, 1, s_ + 2);
+
+    const double q_unit = unit_ + log2_of(max_norm(start.q)), p_unit = unit_ + log2_of(max_norm(start.p));
+    const double margin = exact.error() + 4;
+    const auto add = [&](Quantity quantity, const Mpfr& error, double floor) {
+      raise(sizes, quantity, log2_of(error), floor);
+    };
+    Vector<Mpfr> exact_q = exact.q(), exact_p = exact.p(), exact_lambda = exact.lambda();
+    if (const auto point_there = closed_form(subject_.problem, h)) {
+      exact_q = point_there->q;
+      exact_p = point_there->p;
+      exact_lambda = point.multiplier(exact_q, exact_p);
+    }
+    add(Quantity::q, distance(q, exact_q), std::max({q_unit, p_unit + log2_h, margin}));
+    add(Quantity::p, distance(p, exact_p), std::max(p_unit, margin));
+    add(Quantity::H, abs(Mpfr(point.energy(q, p) - point.energy(start.q, start.p))),
+        unit_ + log2_of(point.energy_size(start.q, start.p)));
+    if (trial.has_polynomials()) add_polynomials(trial, start, h, p, exact, std::max({q_unit, p_unit, margin}), sizes);
+    if (problem.nu() == 0) return;
+
+    const Vector<Mpfr> tangential = point.tangential(q, p), output_lambda = point.multiplier(q, tangential);
+    Vector<Mpfr> lambda = output_lambda;
+    trial.multiplier(lambda);
+    const double lambda_unit = std::max({unit_ + log2_of(max_norm(exact_lambda)), p_unit, q_unit});
+    const Mpfr hidden = max_norm(point.hidden_constraints(q, p));
+    add(Quantity::tangential_p, distance(tangential, exact_p), std::max({p_unit, q_unit, margin}));
+    add(Quantity::output_lambda, distance(output_lambda, exact_lambda), std::max(lambda_unit, margin));
+    // Multipliers come from momenta divided by h.
+    add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(lambda_unit - log2_h, margin));
+    add(Quantity::hidden, hidden, q_unit + p_unit - unit_ + 4);
+    add_delta_lambda(trial, start, h, p, lambda_unit - log2_h, sizes);
+  }
+
+ private:
+  StepPolynomials polynomials(Trial<S>& trial, const Laboratory::Start& start, const Mpfr& h, const Vector<Mpfr>& p1) {
+    StepPolynomials result{h, start.q, p1, Matrix<Mpfr>(s_, start.q.size())};
+    lambda_.resize(s_, laboratory_.problem().nu());
+    trial.unknowns(result.gamma, lambda_);
+    return result;
+  }
+
+  void add_polynomials(Trial<S>& trial, const Laboratory::Start& start, const Mpfr& h, const Vector<Mpfr>& p1,
+                       const ReferenceMotion& exact, double floor, Sizes& sizes) {
+    constexpr int points = 8;
+    const Problem<Mpfr>& problem = laboratory_.problem();
+    const StepPolynomials own = polynomials(trial, start, h, p1);
+    Vector<Mpfr> u = start.q, v = start.p, exact_u = u, exact_v = v;
+    Mpfr error = 0;
+    for (int i = 1; i <= points; ++i) {
+      const Mpfr tau = Mpfr(i) / points;
+      own.at(problem, tau, u, v);
+      exact.polynomials().at(problem, tau, exact_u, exact_v);
+      raise_to(error, distance(u, exact_u));
+      raise_to(error, distance(v, exact_v));
+    }
+    raise(sizes, Quantity::polynomials, log2_of(error), floor);
+  }
+
+  void add_delta_lambda(Trial<S>& trial, const Laboratory::Start& start, const Mpfr& h, const Vector<Mpfr>& p1,
+                        double floor, Sizes& sizes) {
+    const StepPolynomials own = polynomials(trial, start, h, p1);
+    const Quadrature<Mpfr> gauss = gauss_legendre<Mpfr>(s_);
+    Vector<Mpfr> u = start.q, v = start.p;
+    Mpfr error = 0;
+    for (Index i = 0; i < s_; ++i) {
+      own.at(laboratory_.problem(), gauss.c[i], u, v);
+      const Vector<Mpfr>& there = laboratory_.point().multiplier(u, v);
+      for (Index a = 0; a < there.size(); ++a) raise_to(error, Mpfr(abs(Mpfr(there[a] - lambda_(i, a)))));
+    }
+    raise(sizes, Quantity::delta_lambda, log2_of(error), floor);
+  }
+
+  Laboratory& laboratory_;
+  const Claim& subject_;
+  double unit_;
+  int s_;
+  Matrix<Mpfr> lambda_;
+};
+
+}  // namespace
+
+template <Scalar S>
+Ladders step_ladder(const Cell& cell, const Enough& enough) {
+  const double log2_epsilon = 1 - significand_bits<S>();
+  Trial<S> trial(cell.subject());
+  const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
+  Laboratory laboratory(cell.subject().problem, cell.first_start, cell.starts);
+  StepMeasurement<S> measurement(laboratory, cell, log2_epsilon);
+  Ladders ladders;
+  for (int exponent = 2; exponent <= 128; exponent += exponent < 12 ? 1 : 4) {
+    Sizes sizes;
+    try {
+      for (const Laboratory::Start& start : laboratory.starts()) measurement.measure(trial, start, -exponent, sizes);
+    } catch (const StageFailure&) {
+      if (exponent >= 12 && ladders.empty()) break;
+      continue;  // the step is too large for the solver, or too small for the digits
+    }
+    for (const auto& [quantity, size] : sizes)
+      ladders[quantity].push_back({static_cast<double>(-exponent), size.error, size.floor});
+    if (enough(ladders)) break;
+  }
+  return ladders;
+}
+
+#define HBVM_DEFINE(S) template Ladders step_ladder<S>(const Cell&, const Enough&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,35 @@
+#include "hbvm/analysis/audit/claims.hpp"
+
+namespace hbvm {
+
+std::vector<Claim> tableau_claims(const std::shared_ptr<const Tableau>& tableau) {
+  const PrecisionScope scope(100);
+  const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(*tableau);
+  const Mpfr ten_digits = 1 / pow(Mpfr(10), 10);
+  const int nominal = tableau->order ? *tableau->order : order(method, ten_digits);
+  std::vector<Claim> claims;
+  const auto add = [&](const std::string& label, Quantity quantity, const std::string& problem, Form form,
+                       double predicted) {
+    Claim claim;
+    claim.label = label;
+    claim.quantity = quantity;
+    claim.problem = problem;
+    claim.tableau = tableau;
+    claim.form = form;
+    claim.predicted = predicted;
+    claims.push_back(std::move(claim));
+  };
+  const std::string stated = tableau->order ? "stated order" : "order to ten digits";
+  add(stated, Quantity::order_conditions, "tableau", Form::at_least, nominal);
+  add("row sums", Quantity::C, "tableau", Form::at_least, 1);
+  for (const char* const problem : {"kepler", "quartic_oscillator"}) {
+    for (const Quantity quantity : {Quantity::q, Quantity::p, Quantity::H})
+      add(stated, quantity, problem, Form::at_least, nominal);
+    if (symmetry_defect(method) <= ten_digits) add("symmetry", Quantity::reversal, problem, Form::round_off, 0);
+    if (symplecticity_defect(method) <= ten_digits)
+      add("symplecticity", Quantity::angular_momentum, problem, Form::round_off, 0);
+  }
+  return claims;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,62 @@
+#include <algorithm>
+
+#include "measurements.hpp"
+
+namespace hbvm {
+namespace {
+
+/// The same numbers in the digits of the scope.
+template <Scalar S, int columns>
+Eigen::Matrix<Mpfr, Eigen::Dynamic, columns> exact(const Eigen::Matrix<S, Eigen::Dynamic, columns>& a) {
+  Eigen::Matrix<Mpfr, Eigen::Dynamic, columns> r(a.rows(), a.cols());
+  copy_exactly(r, a);
+  return r;
+}
+
+Matrix<Mpfr> times(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b) { return a.lazyProduct(b); }
+
+}  // namespace
+
+template <Scalar S>
+std::map<Quantity, double> tableau_defects(const Claim& subject) {
+  Hbvm<S> method = make_hbvm<S>(subject.method.k, subject.method.s);
+  if (subject.perturbation) perturb(method, *subject.perturbation);
+  const int last_bit = 1 - significand_bits<S>();
+  // Twice the digits show the rounding of each entry, and nothing of the sums.
+  const PrecisionScope scope(2 * static_cast<unsigned>(digits10<S>()) + guard_digits);
+  const Mpfr unit = ldexp(Mpfr(1), last_bit);
+  const int k = method.k, s = method.s;
+  const Matrix<Mpfr> P = exact<S>(method.P_s), I = exact<S>(method.I_s), X = exact<S>(method.X_s),
+                     projection = exact<S>(method.projection);
+  const RungeKutta<Mpfr> gauss{exact<S>(method.A), exact<S>(method.b), exact<S>(method.c)};
+  const Matrix<Mpfr> I_hat = exact<S>(method.I_hat), projection_hat = exact<S>(method.projection_hat);
+  // The k-stage method that HBVM(k, s) is without constraints.
+  const RungeKutta<Mpfr> hat{times(I_hat, projection_hat), exact<S>(method.b_hat), exact<S>(method.c_hat)};
+
+  std::map<Quantity, double> result;
+  const auto add = [&](Quantity quantity, const Mpfr& defect) {
+    double& units = result[quantity];
+    units = std::max(units, approximately(Mpfr(defect / unit)));
+  };
+  add(Quantity::B, condition_B(gauss, 2 * s));
+  add(Quantity::B, condition_B(hat, 2 * k));
+  add(Quantity::C, condition_C(gauss, s));
+  add(Quantity::C, condition_C(hat, s));
+  add(Quantity::D, condition_D(gauss, s));
+  add(Quantity::D, condition_D(hat, k == s ? s : s - 1));
+  add(Quantity::X, max_norm(Matrix<Mpfr>(I - times(P, X))));
+  add(Quantity::X, max_norm(Matrix<Mpfr>(times(projection, P) - Matrix<Mpfr>::Identity(s, s))));
+  add(Quantity::X, max_norm(Matrix<Mpfr>(times(projection_hat, exact<S>(method.P_hat)) - Matrix<Mpfr>::Identity(s, s))));
+  add(Quantity::W, max_norm(Matrix<Mpfr>(times(times(projection, gauss.A), P) - X)));
+  for (const RungeKutta<Mpfr>* const part : {&gauss, &hat}) {
+    add(Quantity::symmetry, symmetry_defect(*part));
+    for (Index i = 0; i < part->c.size(); ++i)
+      add(Quantity::symmetry, abs(Mpfr(part->c[i] + part->c[part->c.size() - 1 - i] - 1)));
+  }
+  return result;
+}
+
+#define HBVM_DEFINE(S) template std::map<Quantity, double> tableau_defects<S>(const Claim&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

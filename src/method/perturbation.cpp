@@ -1,0 +1,111 @@
+#include "hbvm/method/perturbation.hpp"
+
+#include <cmath>
+
+#include "hbvm/basis/legendre.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/scalar/literal.hpp"
+
+namespace hbvm {
+namespace {
+
+/// One set of nodes and what hangs on it.
+template <Scalar S>
+struct Nodes {
+  Vector<S>&c, &b;
+  Matrix<S>&P, &I, &projection;
+};
+
+template <Scalar S>
+void change(S& x, const S& relative) {
+  if (x == 0) throw InputError("perturbation: the number is 0, which no relative change alters");
+  x *= 1 + relative;
+}
+
+void check(bool exists) {
+  if (!exists) throw InputError("perturbation: the method has no such number");
+}
+
+/// The coefficient of c^m in the shifted Legendre polynomial P_l: sqrt(2 l + 1) (-1)^(l + m) C(l, m) C(l + m, m).
+template <Scalar S>
+S legendre_coefficient(int l, int m) {
+  using std::sqrt;
+  S value = sqrt(S(2 * l + 1));
+  for (int i = 1; i <= m; ++i) value = value * (l - m + i) * (l + i) / (i * i);
+  return (l + m) % 2 == 0 ? value : S(-value);
+}
+
+/// P^T diag(b), (IsPs).
+template <Scalar S>
+void set_projection(Nodes<S>& nodes) {
+  for (Index i = 0; i < nodes.P.rows(); ++i)
+    for (Index j = 0; j < nodes.P.cols(); ++j) nodes.projection(j, i) = nodes.b[i] * nodes.P(i, j);
+}
+
+template <Scalar S>
+void perturb(Nodes<S> nodes, const Perturbation& p, const S& relative) {
+  const Index i = p.i, j = p.j, rows = nodes.P.rows(), columns = nodes.P.cols();
+  switch (p.part) {
+    case Perturbation::Part::node: {
+      check(i < rows);
+      change(nodes.c[i], relative);
+      const Vector<S> node = nodes.c.segment(i, 1);
+      nodes.P.row(i) = legendre_values<S>(node, static_cast<int>(columns));
+      nodes.I.row(i) = legendre_integrals<S>(node, static_cast<int>(columns));
+      break;
+    }
+    case Perturbation::Part::weight:
+      check(i < rows);
+      change(nodes.b[i], relative);
+      break;
+    case Perturbation::Part::integral:
+      check(i < rows && j < columns);
+      change(nodes.I(i, j), relative);
+      break;
+    case Perturbation::Part::legendre: {
+      check(i < columns && j <= i);
+      const S change_of_coefficient = relative * legendre_coefficient<S>(p.i, p.j);
+      for (Index row = 0; row < rows; ++row) {
+        S power = change_of_coefficient;
+        for (Index n = 0; n < j; ++n) power *= nodes.c[row];
+        nodes.P(row, i) += power;
+        nodes.I(row, i) += power * nodes.c[row] / (p.j + 1);
+      }
+      break;
+    }
+    case Perturbation::Part::X:
+      break;
+  }
+  set_projection(nodes);
+}
+
+}  // namespace
+
+template <Scalar S>
+void perturb(Hbvm<S>& m, const Perturbation& p) {
+  using std::sqrt;
+  using Part = Perturbation::Part;
+  check(p.i >= 0 && p.j >= 0);
+  const S relative = evaluate<S>(p.relative);
+  const bool both = m.k == m.s || p.part == Part::legendre;
+  if (p.part == Part::X) {
+    check(p.i < m.s && p.j < m.s);
+    change(m.X_s(p.i, p.j), relative);
+  }
+  if (both || !p.hat) perturb<S>(Nodes<S>{m.c, m.b, m.P_s, m.I_s, m.projection}, p, relative);
+  if (both || p.hat) perturb<S>(Nodes<S>{m.c_hat, m.b_hat, m.P_hat, m.I_hat, m.projection_hat}, p, relative);
+  m.A = m.I_s.lazyProduct(m.projection);
+  for (Index i = 0; i < m.s; ++i) {
+    m.lagrange_at_1[i] = 0;
+    for (int j = 0; j < m.s; ++j) {
+      S P_j_at_1 = sqrt(S(2 * j + 1));
+      if (p.part == Part::legendre && p.i == j) P_j_at_1 += relative * legendre_coefficient<S>(p.i, p.j);
+      m.lagrange_at_1[i] += P_j_at_1 * m.projection(j, i);
+    }
+  }
+}
+
+#define HBVM_DEFINE(S) template void perturb<S>(Hbvm<S>&, const Perturbation&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

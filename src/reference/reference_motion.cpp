@@ -1,0 +1,84 @@
+#include "hbvm/reference/reference_motion.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "hbvm/basis/legendre.hpp"
+#include "hbvm/integrate/stepper.hpp"
+
+namespace hbvm {
+
+double log2_of(const Mpfr& x) {
+  if (x == 0) return -std::numeric_limits<double>::infinity();
+  long exponent = 0;
+  const double fraction = mpfr_get_d_2exp(&exponent, raw(x), MPFR_RNDN);
+  return std::log2(std::abs(fraction)) + static_cast<double>(exponent);
+}
+
+void StepPolynomials::at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<Mpfr>& u, Vector<Mpfr>& v) const {
+  const int s = static_cast<int>(gamma.rows());
+  const Vector<Mpfr> here = Vector<Mpfr>::Constant(1, tau), end = Vector<Mpfr>::Constant(1, Mpfr(1));
+  const Matrix<Mpfr> P = legendre_values<Mpfr>(here, s + 1), I = legendre_integrals<Mpfr>(here, s),
+                     P_end = legendre_values<Mpfr>(end, s + 1);
+  Vector<Mpfr> sum(q0.size());
+  for (Index j = 0; j < q0.size(); ++j) {
+    Mpfr last = p1[j];
+    v[j] = 0;
+    sum[j] = 0;
+    for (int i = 0; i < s; ++i) {
+      last -= P_end(0, i) * gamma(i, j);
+      v[j] += P(0, i) * gamma(i, j);
+      sum[j] += I(0, i) * gamma(i, j);
+    }
+    v[j] += P(0, s) * last / P_end(0, s);
+  }
+  problem.mass.velocity(lanes(std::as_const(sum)), lanes(u));
+  for (Index j = 0; j < q0.size(); ++j) u[j] = q0[j] + h * u[j];
+}
+
+ReferenceMotion::ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,
+                                 const Mpfr& duration, long steps, int stages)
+    : problem_(problem),
+      q0_(q0),
+      p0_(p0),
+      duration_(duration),
+      steps_(steps),
+      stages_(stages),
+      point_(problem) {
+  run();
+  refine();
+}
+
+void ReferenceMotion::run() {
+  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(stages_, stages_);
+  const Mpfr h = duration_ / steps_;
+  Stepper<Mpfr> stepper(problem_, method, h, first_ ? SolverKind::newton : SolverKind::fixed_point);
+  State<Mpfr> state(q0_, p0_);
+  for (long n = 0; n < steps_; ++n) {
+    if (n + 1 == steps_) polynomials_.q0 = state.q;
+    stepper.step(state);
+  }
+  q_ = state.q;
+  p_ = point_.tangential(state.q, state.p);
+  lambda_ = point_.multiplier(q_, p_);
+  polynomials_.h = h;
+  polynomials_.p1 = state.p;
+  polynomials_.gamma = stepper.solver().unknowns().gamma;
+  first_ = false;
+}
+
+bool ReferenceMotion::refine() {
+  const double round_off = static_cast<double>(-mpfr_working_bits());
+  if (error_ < round_off + log2_of(Mpfr(1 + max_norm(q_) + max_norm(p_)))) return false;
+  const Vector<Mpfr> q = q_, p = p_, lambda = lambda_;
+  stages_ += 2;
+  run();
+  Mpfr change = max_norm(Vector<Mpfr>(q_ - q));
+  raise_to(change, max_norm(Vector<Mpfr>(p_ - p)));
+  raise_to(change, max_norm(Vector<Mpfr>(lambda_ - lambda)));
+  const double before = error_;
+  error_ = std::max(log2_of(change), round_off);
+  return before == 0 || error_ < before;
+}
+
+}  // namespace hbvm
