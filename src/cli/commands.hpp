@@ -10,5 +10,6 @@ void add_nodes_command(CLI::App& app);
 void add_scenes_command(CLI::App& app);
 void add_scene_command(CLI::App& app);
 void add_study_command(CLI::App& app);
+void add_audit_command(CLI::App& app);
 
 }  // namespace hbvm

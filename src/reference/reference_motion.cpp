@@ -38,13 +38,7 @@ void StepPolynomials::at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<M
 
 ReferenceMotion::ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,
                                  const Mpfr& duration, long steps, int stages)
-    : problem_(problem),
-      q0_(q0),
-      p0_(p0),
-      duration_(duration),
-      steps_(steps),
-      stages_(stages),
-      point_(problem) {
+    : problem_(problem), q0_(q0), p0_(p0), duration_(duration), steps_(steps), stages_(stages), point_(problem) {
   run();
   refine();
 }

@@ -38,6 +38,10 @@ std::string plot_of(const Panel& panel) {
                       quoted(panel.y_label) + "\n";
   if (space)
     setup += "set zlabel " + quoted(panel.z_label) + " rotate parallel\nset view 65,35\nset xyplane relative 0.05\n";
+  setup += panel.logarithms ? "set format x '2^{%g}'\nset format y '10^{%g}'\n" : "set format '% h'\n";
+  setup += "unset label\n";
+  for (const Label& label : panel.labels)
+    setup += "set label " + quoted(label.text) + " at " + label.at.at(0) + "," + label.at.at(1) + "\n";
   setup += panel.equal_axes && !space ? "set size ratio -1\n" : "set size noratio\n";
   std::vector<std::string> parts;
   for (const Curve& curve : panel.curves) {
@@ -46,7 +50,8 @@ std::string plot_of(const Panel& panel) {
                       columns(space ? "(0):(0):(0)" : "(0):(0)", {curve.x, curve.y, curve.z}) +
                       " with vectors nohead lw 0.5 lc rgb '#aaaaaa' notitle");
     parts.push_back(quoted(curve.csv) + " using " + columns("", {curve.x, curve.y, curve.z}) +
-                    " with lines lw 1.2 title " + quoted(curve.label));
+                    (curve.points ? " with linespoints pt 7 ps 0.5 lw 1.2 title " : " with lines lw 1.2 title ") +
+                    quoted(curve.label));
   }
   std::string data;
   const auto inline_part = [&](const std::vector<std::vector<std::string>>& points, const std::string& style) {
@@ -55,7 +60,8 @@ std::string plot_of(const Panel& panel) {
     parts.push_back(name + " using 1:2" + (space ? ":3 " : " ") + style);
   };
   for (const Polyline& line : panel.lines)
-    inline_part(line.points, "with linespoints pt 7 ps 0.8 lw 2 title " + quoted(line.label));
+    inline_part(line.points, line.label.empty() ? std::string("with lines lw 1 lc rgb 'black' notitle")
+                                                : "with linespoints pt 7 ps 0.8 lw 2 title " + quoted(line.label));
   for (const Mark& mark : panel.marks)
     inline_part({mark.at}, "with points pt 3 ps 1.2 lc rgb 'black' title " + quoted(mark.label));
   std::string plot = space ? "splot " : "plot ";

@@ -15,9 +15,10 @@ struct StepPolynomials {
   void at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<Mpfr>& u, Vector<Mpfr>& v) const;
 };
 
-/// The exact motion from a consistent state over a time, as Gauss methods of more and more stages give it, in the digits
-/// of the scope: a run by the fixed-point iteration, whose error is estimated by what changed from the run before with
-/// fewer stages, which Newton's iteration made. q, the projected p and the multiplier there converge with order 2s.
+/// The exact motion from a consistent state over a time, as Gauss methods of more and more stages give it, in the
+/// digits of the scope: a run by the fixed-point iteration, whose error is estimated by what changed from the run
+/// before with fewer stages, which Newton's iteration made. q, the projected p and the multiplier there converge with
+/// order 2s.
 class ReferenceMotion {
  public:
   /// \param stages of the first run; every further one has two more

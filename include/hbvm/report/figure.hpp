@@ -13,12 +13,13 @@ struct Curve {
   int z = 0;  ///< 0: a curve in the plane
   std::string label;
   bool spokes = false;  ///< thin lines from the origin to every fourth point, too
+  bool points = false;  ///< mark the points
 };
 
-/// A line through given points: a rod.
+/// A line through given points: a rod, or a triangle of a slope.
 struct Polyline {
   std::vector<std::vector<std::string>> points;
-  std::string label;
+  std::string label;  ///< if it is empty, a thin line without points
 };
 
 /// A point marked in a panel.
@@ -27,12 +28,20 @@ struct Mark {
   std::string label;
 };
 
+/// Words in a panel.
+struct Label {
+  std::vector<std::string> at;  ///< two coordinates
+  std::string text;
+};
+
 struct Panel {
   std::string title, x_label, y_label, z_label;
   std::vector<Curve> curves;
   std::vector<Mark> marks;
   std::vector<Polyline> lines;
+  std::vector<Label> labels{};
   bool equal_axes = false;
+  bool logarithms = false;  ///< x is a binary logarithm and y a decimal one: tics show the powers
 };
 
 /// Panels side by side in one SVG.

@@ -90,7 +90,8 @@ std::vector<Unit> units_of(const std::vector<Claim>& claims, const std::vector<b
 /// Works on one unit; findings go to their places.
 class Auditor {
  public:
-  Auditor(const std::vector<Claim>& claims, const Unit& unit, const AuditOptions& options, std::vector<Finding>& findings)
+  Auditor(const std::vector<Claim>& claims, const Unit& unit, const AuditOptions& options,
+          std::vector<Finding>& findings)
       : unit_(unit), options_(options), findings_(findings) {
     for (const std::size_t i : unit.members) cell_.claims.push_back(claims[i]);
     cell_.first_start = options.first_start;
@@ -108,12 +109,14 @@ class Auditor {
       case Kind::interval:
         climb(1, [&]<Scalar S>() {
           return interval_ladder<S>(cell_, options_.most_steps, [&](const Ladders& ladders) {
-            return cell_.is_lost(ladders) || std::all_of(cell_.claims.begin(), cell_.claims.end(), [&](const Claim& claim) {
-              const auto ladder = ladders.find(claim.quantity);
-              return ladder != ladders.end() && judge(claim, convergence_rate(ladder->second)) == Verdict::holds;
-            });
+            return cell_.is_lost(ladders) ||
+                   std::all_of(cell_.claims.begin(), cell_.claims.end(), [&](const Claim& claim) {
+                     const auto ladder = ladders.find(claim.quantity);
+                     return ladder != ladders.end() && judge(claim, convergence_rate(ladder->second)) == Verdict::holds;
+                   });
           });
         });
+        compare_with_one_step();
         break;
       case Kind::round_off:
         conserve();
@@ -200,7 +203,33 @@ class Auditor {
     f.uncertainty = rate->uncertainty;
     rate->value = f.measured;
     f.verdict = judge(f.claim, rate);
-    f.reason = f.verdict == Verdict::undecidable ? "the slope is not settled" : "";
+    f.reason = f.verdict == Verdict::undecidable ? "the slope is not settled"
+               : f.verdict == Verdict::fails     ? "the error has another rate"
+                                                 : "";
+  }
+
+  /// An error over an interval falls no faster than that of its first step, which can be followed far deeper: to where
+  /// a wrong 25th digit of a coefficient takes over.
+  void compare_with_one_step() {
+    const Precision precision = Precision::parse(precisions[deep - 1]);
+    const Ladders ladders = with_scalar(precision, [&]<Scalar S>() {
+      return step_ladder<S>(cell_, [&](const Ladders& so_far) { return cell_.is_lost(so_far); });
+    });
+    for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+      Finding& f = finding(c);
+      const auto ladder = ladders.find(f.claim.quantity);
+      if (f.verdict != Verdict::holds || ladder == ladders.end()) continue;
+      const std::optional<Rate> rate = convergence_rate(ladder->second);
+      Claim at_least = f.claim;
+      at_least.form = Form::at_least;
+      if (judge(at_least, rate) != Verdict::fails) continue;
+      f.verdict = Verdict::fails;
+      f.precision = precision.name();
+      f.measured = rate->value;
+      f.uncertainty = rate->uncertainty;
+      f.evidence.push_back({precision.name(), ladder->second});
+      f.reason = "the error of one step, at steps far smaller, has this rate only";
+    }
   }
 
   void conserve() {
@@ -230,8 +259,7 @@ class Auditor {
     const int stages = cell_.subject().method.k;
     for (std::size_t level = 0; level < deep; ++level) {
       const Precision precision = Precision::parse(precisions[level]);
-      const auto defects =
-          with_scalar(precision, [&]<Scalar S>() { return tableau_defects<S>(cell_.subject()); });
+      const auto defects = with_scalar(precision, [&]<Scalar S>() { return tableau_defects<S>(cell_.subject()); });
       for (std::size_t c = 0; c < cell_.claims.size(); ++c)
         settle(c, precision, defects.at(finding(c).claim.quantity), {}, allowed_ulps_a_stage * stages);
     }
@@ -247,10 +275,11 @@ class Auditor {
       return;
     }
     f.uncertainty = f.claim.tolerance;
-    const double miss = f.claim.form == Form::at_least ? f.claim.predicted - f.measured
-                                                       : std::abs(f.measured - f.claim.predicted);
+    const double miss =
+        f.claim.form == Form::at_least ? f.claim.predicted - f.measured : std::abs(f.measured - f.claim.predicted);
     f.verdict = miss <= f.claim.tolerance ? Verdict::holds : Verdict::fails;
-    if (f.verdict == Verdict::fails && f.claim.quantity == Quantity::C) f.reason = "c is not the sum of the rows of A";
+    if (f.verdict == Verdict::fails)
+      f.reason = f.claim.quantity == Quantity::C ? "c is not the sum of the rows of A" : "the value is another";
   }
 
   /// The worst of all precisions counts.
@@ -268,6 +297,7 @@ class Auditor {
     f.uncertainty = allowed;
     f.measured = std::max(f.measured, *units);
     f.verdict = f.measured <= allowed ? Verdict::holds : Verdict::fails;
+    f.reason = f.verdict == Verdict::fails ? "it is more than round-off" : "";
   }
 
   Cell cell_;
@@ -284,9 +314,8 @@ int Cell::stages() const {
 }
 
 bool Cell::is_lost(const Ladders& ladders) const {
-  return std::none_of(ladders.begin(), ladders.end(), [&](const auto& ladder) {
-    return asks_for(ladder.first) && ladder.second.back().is_clean();
-  });
+  return std::none_of(ladders.begin(), ladders.end(),
+                      [&](const auto& ladder) { return asks_for(ladder.first) && ladder.second.back().is_clean(); });
 }
 
 bool Cell::asks_for(Quantity quantity) const {

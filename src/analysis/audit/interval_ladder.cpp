@@ -16,7 +16,8 @@ Mpfr distance(const Vector<Mpfr>& a, const Vector<Mpfr>& b) { return max_norm(Ve
 /// The exact motion from one start, at the end of the interval.
 class Destination {
  public:
-  Destination(Laboratory& laboratory, const Laboratory::Start& start, const std::string& scene, const Mpfr& until, int s)
+  Destination(Laboratory& laboratory, const Laboratory::Start& start, const std::string& scene, const Mpfr& until,
+              int s)
       : laboratory_(laboratory), start_(start), until_(until), s_(s), known_(closed_form(scene, until)) {}
 
   /// At least so exact if that can be had: log2 of the error wanted.
@@ -87,8 +88,7 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
           if (constrained && cell.asks_for(Quantity::hidden))
             add(Quantity::hidden, max_norm(point.hidden_constraints(q, p)), q_unit + p_unit - unit + 4);
           for (std::size_t c = 0; c < momenta.size(); ++c)
-            add(Quantity::angular_momentum,
-                abs(Mpfr(momentum(problem, momenta[c], q, p).value - momentum_0[c].value)),
+            add(Quantity::angular_momentum, abs(Mpfr(momentum(problem, momenta[c], q, p).value - momentum_0[c].value)),
                 unit + log2_of(momentum_0[c].size));
         }
         if (!end_errors) continue;

@@ -22,8 +22,8 @@ struct Cell {
 /// Asked after every rung whether finer ones are not needed.
 using Enough = std::function<bool(const Ladders&)>;
 
-/// The errors of one step, of every quantity, at h = 2^-2, 2^-3, …, 2^-12 and then every fourth power down to 2^-128, until
-/// it is enough. Steps that cannot be made are left out; if none of the coarse ones can be made, nothing is.
+/// The errors of one step, of every quantity, at h = 2^-2, 2^-3, …, 2^-12 and then every fourth power down to 2^-128,
+/// until it is enough. Steps that cannot be made are left out; if none of the coarse ones can be made, nothing is.
 /// \throws InputError, IntegrationError
 template <Scalar S>
 Ladders step_ladder(const Cell& cell, const Enough& enough);
@@ -33,8 +33,8 @@ Ladders step_ladder(const Cell& cell, const Enough& enough);
 template <Scalar S>
 Ladders interval_ladder(const Cell& cell, long most, const Enough& enough);
 
-/// What an exactly conserved quantity was off by over 16 steps of 1/16, in units of round-off; of Quantity::reversal, what
-/// the start was missed by after as many steps back.
+/// What an exactly conserved quantity was off by over 16 steps of 1/16, in units of round-off; of Quantity::reversal,
+/// what the start was missed by after as many steps back.
 struct RoundOff {
   double units = 0;
   Rung rung;  ///< the step; log2 of the error and of one unit
@@ -49,10 +49,10 @@ std::map<Quantity, double> tableau_defects(const Claim& subject);
 /// Of hidden_constant, hidden_drift or sweeps; of a tableau its order, or the greatest q for which it fulfils C(q).
 double special_value(const Claim& claim);
 
-#define HBVM_DECLARE(S)                                                                \
-  extern template Ladders step_ladder<S>(const Cell&, const Enough&);                  \
-  extern template Ladders interval_ladder<S>(const Cell&, long, const Enough&);        \
-  extern template std::map<Quantity, RoundOff> round_off<S>(const Cell&);              \
+#define HBVM_DECLARE(S)                                                         \
+  extern template Ladders step_ladder<S>(const Cell&, const Enough&);           \
+  extern template Ladders interval_ladder<S>(const Cell&, long, const Enough&); \
+  extern template std::map<Quantity, RoundOff> round_off<S>(const Cell&);       \
   extern template std::map<Quantity, double> tableau_defects<S>(const Claim& subject);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

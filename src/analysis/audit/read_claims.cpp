@@ -18,7 +18,8 @@ std::string located(const std::string& name, const std::filesystem::path& folder
 
 int counted_from_one(TomlTable& reader, const char* key) {
   const long value = reader.has(key) ? reader.integer(key) : 1;
-  if (value < 1 || value > max_k) reader.fail(std::string("'") + key + "' must be between 1 and " + std::to_string(max_k));
+  if (value < 1 || value > max_k)
+    reader.fail(std::string("'") + key + "' must be between 1 and " + std::to_string(max_k));
   return static_cast<int>(value) - 1;
 }
 
@@ -26,8 +27,11 @@ Perturbation perturbation(TomlTable reader) {
   using Part = Perturbation::Part;
   const std::string name = reader.string("part");
   std::optional<Part> part;
-  for (const auto& [own, value] : {std::pair("node", Part::node), {"weight", Part::weight}, {"integral", Part::integral},
-                                   {"X", Part::X}, {"legendre", Part::legendre}})
+  for (const auto& [own, value] : {std::pair("node", Part::node),
+                                   {"weight", Part::weight},
+                                   {"integral", Part::integral},
+                                   {"X", Part::X},
+                                   {"legendre", Part::legendre}})
     if (name == own) part = value;
   if (!part) reader.fail("unknown part '" + name + "': use node, weight, integral, X or legendre");
   bool hat = false;
@@ -63,7 +67,8 @@ class ClaimReader {
     if (over != "interval" && over != "step") reader_.fail("unknown 'over' \"" + over + "\": use interval or step");
     claim.span = over == "step" ? Span::step : Span::interval;
     const std::string form = reader_.has("form") ? reader_.string("form") : "at least";
-    if (form != "at least" && form != "exactly") reader_.fail("unknown form '" + form + "': use 'at least' or 'exactly'");
+    if (form != "at least" && form != "exactly")
+      reader_.fail("unknown form '" + form + "': use 'at least' or 'exactly'");
     claim.form = form == "exactly" ? Form::exactly : Form::at_least;
     read_rate(claim);
     if (const toml::node* const node = reader_.take("perturb")) {
@@ -94,8 +99,8 @@ class ClaimReader {
     }
     Constants constants;
     constants.insert_or_assign("k", Expression::parse(std::to_string(claim.method.k)));
-    constants.insert_or_assign("s", Expression::parse(std::to_string(claim.tableau ? claim.tableau->stages()
-                                                                                   : claim.method.s)));
+    constants.insert_or_assign(
+        "s", Expression::parse(std::to_string(claim.tableau ? claim.tableau->stages() : claim.method.s)));
     checked([&] { claim.predicted = evaluate<double>(reader_.to_number(node, "'rate'"), constants); });
     if (!(claim.predicted >= 0 && claim.predicted <= 2 * max_k + 1)) reader_.fail(node, "no such rate");
   }
@@ -105,7 +110,8 @@ class ClaimReader {
     const std::string name(name_of(q));
     if (q >= Quantity::hidden_constant) reader_.fail("quantity '" + name + "' has no rate to claim");
     const bool of_one_step = q == Quantity::delta_lambda || q == Quantity::polynomials;
-    if (of_one_step && claim.span != Span::step) reader_.fail("quantity '" + name + "' is one of a step: over = \"step\"");
+    if (of_one_step && claim.span != Span::step)
+      reader_.fail("quantity '" + name + "' is one of a step: over = \"step\"");
     const bool conserved =
         q == Quantity::g || q == Quantity::H || q == Quantity::angular_momentum || q == Quantity::reversal;
     if (claim.form == Form::round_off && !conserved)
@@ -130,7 +136,8 @@ std::vector<Claim> read_claims(const std::string& path) {
   std::vector<Claim> claims;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   for (const toml::table* const table : top.tables("claim"))
-    claims.push_back(ClaimReader(TomlTable(source, *table, "claim " + std::to_string(claims.size() + 1)), folder).read());
+    claims.push_back(
+        ClaimReader(TomlTable(source, *table, "claim " + std::to_string(claims.size() + 1)), folder).read());
   top.finish();
   if (claims.empty()) source.fail(1, "there is no [[claim]]");
   return claims;

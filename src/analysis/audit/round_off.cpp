@@ -20,7 +20,8 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell) {
   const auto add = [&](Quantity quantity, const Mpfr& error, const Mpfr& size) {
     if (!cell.asks_for(quantity)) return;
     const Mpfr unit = size * epsilon_of_S;
-    RoundOff& entry = result.try_emplace(quantity, RoundOff{0, {log2_of(h), log2_of(error), log2_of(unit)}}).first->second;
+    RoundOff& entry =
+        result.try_emplace(quantity, RoundOff{0, {log2_of(h), log2_of(error), log2_of(unit)}}).first->second;
     const double units = error == 0 ? 0 : approximately(Mpfr(error / unit));
     if (units <= entry.units) return;
     entry = {units, {log2_of(h), log2_of(error), log2_of(unit)}};

@@ -7,8 +7,8 @@
 namespace hbvm {
 namespace {
 
-/// The derivative of order `order` of q at the start of a step, from the polynomial u: u' = M^-1 sum_j P_j gamma_j, where
-/// on [0, 1] P_j^(r)(0) = sqrt(2 j + 1) (-1)^(j - r) (j + r)! / ((j - r)! r!).
+/// The derivative of order `order` of q at the start of a step, from the polynomial u: u' = M^-1 sum_j P_j gamma_j,
+/// where on [0, 1] P_j^(r)(0) = sqrt(2 j + 1) (-1)^(j - r) (j + r)! / ((j - r)! r!).
 Vector<Mpfr> derivative(const Problem<Mpfr>& problem, const StepPolynomials& step, int order) {
   const int r = order - 1, s = static_cast<int>(step.gamma.rows());
   Vector<Mpfr> momentum = Vector<Mpfr>::Zero(problem.m()), velocity = momentum;
@@ -53,8 +53,7 @@ LeadingTerm leading_term(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, co
   const Vector<Mpfr> first = derivative(problem, motion.polynomials(), 1),
                      next = derivative(problem, motion.polynomials(), s + 1),
                      after = derivative(problem, motion.polynomials(), s + 2);
-  return {along(problem, q, next),
-          second_derivative(problem, first, next) + along(problem, q, after)};
+  return {along(problem, q, next), second_derivative(problem, first, next) + along(problem, q, after)};
 }
 
 /// The hidden constraint at t = 1/4 in steps of 2^-8 over what its leading term says:

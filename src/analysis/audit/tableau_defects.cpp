@@ -46,7 +46,8 @@ std::map<Quantity, double> tableau_defects(const Claim& subject) {
   add(Quantity::D, condition_D(hat, k == s ? s : s - 1));
   add(Quantity::X, max_norm(Matrix<Mpfr>(I - times(P, X))));
   add(Quantity::X, max_norm(Matrix<Mpfr>(times(projection, P) - Matrix<Mpfr>::Identity(s, s))));
-  add(Quantity::X, max_norm(Matrix<Mpfr>(times(projection_hat, exact<S>(method.P_hat)) - Matrix<Mpfr>::Identity(s, s))));
+  add(Quantity::X,
+      max_norm(Matrix<Mpfr>(times(projection_hat, exact<S>(method.P_hat)) - Matrix<Mpfr>::Identity(s, s))));
   add(Quantity::W, max_norm(Matrix<Mpfr>(times(times(projection, gauss.A), P) - X)));
   for (const RungeKutta<Mpfr>* const part : {&gauss, &hat}) {
     add(Quantity::symmetry, symmetry_defect(*part));

@@ -22,12 +22,11 @@ struct AuditOptions {
 /// What makes two claims the same: everything but the label.
 std::string key_of(const Claim& claim);
 
-/// Decides each claim. Those about one method on one problem share their runs; precision is raised from double over quad
-/// to mpfr:50, 100, 200 and 400 as long as a claim is undecided. Errors of one step are always looked at down to 100
-/// digits, so that a coefficient wrong in its 25th shows. The error is measured against a closed form or a run with at
-/// least four more stages, by another solver, in 24 more digits, whose own error is estimated.
-/// \return a finding a claim, in order
-/// \throws InputError for a problem that cannot be read, or a claim that makes no sense for it
+/// Decides each claim. Those about one method on one problem share their runs; precision is raised from double over
+/// quad to mpfr:50, 100, 200 and 400 as long as a claim is undecided. Errors of one step are always looked at down to
+/// 100 digits, so that a coefficient wrong in its 25th shows. The error is measured against a closed form or a run with
+/// at least four more stages, by another solver, in 24 more digits, whose own error is estimated. \return a finding a
+/// claim, in order \throws InputError for a problem that cannot be read, or a claim that makes no sense for it
 std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions& options);
 
 }  // namespace hbvm

@@ -67,9 +67,9 @@ struct Claim {
   MethodName method;
   Span span = Span::interval;
   Form form = Form::at_least;
-  double predicted = 0;  ///< rate, or value
-  double tolerance = 0;  ///< of Form::near
-  unsigned least_digits = 0;  ///< with which it must be looked at
+  double predicted = 0;                      ///< rate, or value
+  double tolerance = 0;                      ///< of Form::near
+  unsigned least_digits = 0;                 ///< with which it must be looked at
   std::shared_ptr<const Tableau> tableau{};  ///< in place of HBVM(k, s)
   std::optional<Perturbation> perturbation{};
 
@@ -90,7 +90,8 @@ struct Ladder {
 struct Finding {
   Claim claim;
   Verdict verdict = Verdict::undecidable;
-  double measured = 0, uncertainty = 0;  ///< rate, NaN if there is only round-off; of Form::round_off, units of round-off and how many are allowed
+  double measured = 0, uncertainty = 0;  ///< rate, NaN if there is only round-off; of Form::round_off, units of
+                                         ///< round-off and how many are allowed
   std::string precision;                 ///< the last one used
   std::string reference;                 ///< what errors are measured against
   std::string reason;                    ///< of a verdict that is not "holds"

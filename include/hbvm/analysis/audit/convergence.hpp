@@ -20,10 +20,9 @@ struct Rate {
   double decades = 0;   ///< of the error, likewise
 };
 
-/// The slope over the five finest clean rungs by least squares. Its uncertainty is the half-width of the 95 % confidence
-/// interval (Student's t with three degrees of freedom) or, if that is greater, how far the slope between the two finest
-/// rungs is from it: before the asymptotic regime slopes vary smoothly.
-/// \param rungs from coarse to fine
+/// The slope over the five finest clean rungs by least squares. Its uncertainty is the half-width of the 95 %
+/// confidence interval (Student's t with three degrees of freedom) or, if that is greater, how far the slope between
+/// the two finest rungs is from it: before the asymptotic regime slopes vary smoothly. \param rungs from coarse to fine
 /// \return nothing if there are fewer than five clean rungs, or less than four halvings between them
 std::optional<Rate> convergence_rate(const std::vector<Rung>& rungs);
 

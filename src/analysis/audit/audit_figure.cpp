@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "hbvm/analysis/audit/report.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/scalar/with_scalar.hpp"
+#include "measurements.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr double log10_of_2 = std::numbers::ln2 / std::numbers::ln10;
+
+/// One curve: errors over an interval of the modified pendulum, in one precision.
+struct Line {
+  Quantity quantity;
+  MethodName method;
+  std::string precision, label;
+};
+
+std::vector<Rung> rungs_of(const Line& line) {
+  Cell cell;
+  cell.claims.resize(1);
+  cell.claims[0].quantity = line.quantity;
+  cell.claims[0].problem = "modified_pendulum";
+  cell.claims[0].method = line.method;
+  const Ladders ladders = with_scalar(Precision::parse(line.precision), [&]<Scalar S>() {
+    return interval_ladder<S>(cell, 8'192, [](const Ladders&) { return false; });
+  });
+  return ladders.at(line.quantity);
+}
+
+std::string text_of(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : ""; }
+
+/// A triangle of this slope a little below a curve, over two halvings that end at rung `at`.
+void add_triangle(Panel& panel, const std::vector<Rung>& rungs, std::size_t at, int slope) {
+  const double decades_below = (1 + slope) / double{4};
+  const double right = rungs.at(at - 2).step, left = rungs.at(at).step;
+  const double low = rungs[at].error * log10_of_2 - decades_below, high = low + slope * (right - left) * log10_of_2;
+  const auto point = [](double x, double y) { return std::vector<std::string>{text_of(x), text_of(y)}; };
+  panel.lines.push_back({{point(left, low), point(right, low), point(right, high), point(left, low)}, ""});
+  panel.labels.push_back({point(right + (right - left) / 8, (low + high) / 2), std::to_string(slope)});
+}
+
+/// A panel of some lines; `slopes`: of which line, its slope.
+Panel panel_of(const std::string& title, const std::vector<Line>& lines,
+               const std::vector<std::pair<std::size_t, int>>& slopes, const std::string& csv) {
+  Panel panel;
+  panel.title = title;
+  panel.x_label = "step h";
+  panel.y_label = "error over [0, 1/2]";
+  panel.logarithms = true;
+  std::vector<std::vector<Rung>> curves;
+  std::string head = "# log2 h";
+  for (const Line& line : lines) {
+    curves.push_back(rungs_of(line));
+    head += ",log10 of the error of " + line.label;
+    Curve curve{csv, 1, static_cast<int>(curves.size()) + 1, 0, line.label};
+    curve.points = true;
+    panel.curves.push_back(curve);
+  }
+  std::ofstream file(csv);
+  file << head << '\n';
+  for (std::size_t i = 0; i < curves.front().size(); ++i) {
+    file << text_of(curves.front()[i].step);
+    for (const auto& curve : curves) file << ',' << text_of(curve.at(i).error * log10_of_2);
+    file << '\n';
+  }
+  file.close();
+  if (!file) throw InputError("cannot write '" + csv + "'");
+  for (const auto& [line, slope] : slopes) add_triangle(panel, curves[line], curves[line].size() - 3, slope);
+  return panel;
+}
+
+}  // namespace
+
+Figure audit_figure(const std::string& folder) {
+  const std::filesystem::path path(folder);
+  const auto in_all_precisions = [](Quantity quantity, MethodName method) {
+    return std::vector<Line>{{quantity, method, "mpfr:50", "50 digits"},
+                             {quantity, method, "quad", "quad"},
+                             {quantity, method, "double", "double"}};
+  };
+  Figure figure;
+  figure.name = "orders";
+  figure.panels.push_back(panel_of("Position, HBVM(4,4): order 8", in_all_precisions(Quantity::q, {4, 4}), {{0, 8}},
+                                   (path / "position.csv").string()));
+  figure.panels.push_back(panel_of("Energy, HBVM(4,2): order 8", in_all_precisions(Quantity::H, {4, 2}), {{0, 8}},
+                                   (path / "energy.csv").string()));
+  const MethodName method{2, 2};
+  figure.panels.push_back(panel_of("HBVM(2,2), 50 digits: what converges how",
+                                   {{Quantity::lagmul, method, "mpfr:50", "multiplier (lagmul)"},
+                                    {Quantity::p, method, "mpfr:50", "raw p"},
+                                    {Quantity::tangential_p, method, "mpfr:50", "tangential p"},
+                                    {Quantity::q, method, "mpfr:50", "q"}},
+                                   {{0, 1}, {1, 2}, {3, 4}}, (path / "components.csv").string()));
+  return figure;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,171 @@
+#include "hbvm/analysis/audit/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "hbvm/version.hpp"
+
+namespace hbvm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view name_of(Form form) {
+  constexpr std::string_view names[] = {"at least", "exactly", "round-off", "near"};
+  return names[static_cast<int>(form)];
+}
+std::string_view name_of(Span span) { return span == Span::step ? "step" : "interval"; }
+
+/// A number that JSON has, or null.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+double number(const Json& json) {
+  return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// To three decimals, or a power of ten.
+std::string short_text(double x) {
+  if (!std::isfinite(x)) return "---";
+  return std::abs(x) < 10'000 ? fmt::format("{:.3f}", x) : fmt::format("{:.1e}", x);
+}
+
+/// Commas separate the cells of the CSV, bars those of Markdown.
+std::string in_one_cell(std::string text) {
+  for (char& c : text)
+    if (c == ',' || c == '|') c = ';';
+  return text;
+}
+
+std::string predicted_text(const Claim& claim) {
+  if (claim.form == Form::round_off) return "round-off";
+  const std::string value = fmt::format("{}", claim.predicted);
+  return claim.form == Form::at_least ? ">= " + value : value;
+}
+
+Json evidence_of(const Finding& finding) {
+  Json evidence = Json::array();
+  for (const Ladder& ladder : finding.evidence) {
+    Json steps = Json::array(), errors = Json::array(), floors = Json::array();
+    for (const Rung& rung : ladder.rungs) {
+      steps.push_back(rung.step);
+      errors.push_back(number(rung.error));
+      floors.push_back(number(rung.floor));
+    }
+    evidence.push_back(
+        {{"precision", ladder.precision}, {"log2_h", steps}, {"log2_error", errors}, {"log2_floor", floors}});
+  }
+  return evidence;
+}
+
+Json json_of(const Finding& f) {
+  const Claim& c = f.claim;
+  Json json{{"claim", c.label},
+            {"quantity", hbvm::name_of(c.quantity)},
+            {"problem", c.problem},
+            {"method", c.method_text()},
+            {"k", c.tableau ? Json(nullptr) : Json(c.method.k)},
+            {"s", c.tableau ? Json(nullptr) : Json(c.method.s)},
+            {"over", name_of(c.span)},
+            {"form", name_of(c.form)},
+            {"predicted", c.predicted},
+            {"measured", number(f.measured)},
+            {"uncertainty", number(f.uncertainty)},
+            {"precision", f.precision},
+            {"verdict", hbvm::name_of(f.verdict)},
+            {"reason", f.reason},
+            {"reference", f.reference}};
+  json["evidence"] = evidence_of(f);
+  return json;
+}
+
+/// What json_of wrote, but the claim.
+Finding finding_of(const Json& j) {
+  Finding f;
+  f.measured = number(j.at("measured"));
+  f.uncertainty = number(j.at("uncertainty"));
+  f.precision = j.at("precision");
+  f.reason = j.at("reason");
+  f.reference = j.at("reference");
+  for (const Verdict verdict : {Verdict::holds, Verdict::fails, Verdict::undecidable})
+    if (j.at("verdict") == hbvm::name_of(verdict)) f.verdict = verdict;
+  for (const Json& ladder : j.at("evidence")) {
+    Ladder read{ladder.at("precision"), {}};
+    for (std::size_t i = 0; i < ladder.at("log2_h").size(); ++i) {
+      const Json& error = ladder.at("log2_error").at(i);
+      read.rungs.push_back({ladder.at("log2_h").at(i),
+                            error.is_null() ? -std::numeric_limits<double>::infinity() : error.get<double>(),
+                            number(ladder.at("log2_floor").at(i))});
+    }
+    f.evidence.push_back(std::move(read));
+  }
+  return f;
+}
+
+}  // namespace
+
+Table audit_table(const std::vector<Finding>& findings) {
+  const bool tableaux =
+      std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.claim.tableau != nullptr; });
+  Table table;
+  table.caption = "Claims and what was measured";
+  table.key_columns = {"problem"};
+  table.columns = {"claim", "quantity", "over"};
+  for (const char* const column : tableaux ? std::vector{"method"} : std::vector{"k", "s"})
+    table.columns.emplace_back(column);
+  for (const char* const column : {"predicted", "measured", "+-", "precision", "verdict"})
+    table.columns.emplace_back(column);
+  std::map<std::string, std::size_t> places;
+  for (const Finding& f : findings) {
+    const Claim& c = f.claim;
+    const auto [place, is_new] = places.try_emplace(c.problem, table.groups.size());
+    if (is_new) table.groups.push_back({c.problem == "tableau" ? "coefficients" : c.problem, {c.problem}, {}});
+    const bool rate = (c.form == Form::at_least || c.form == Form::exactly) && c.problem != "tableau";
+    std::vector<std::string> row{in_one_cell(c.label), std::string(hbvm::name_of(c.quantity)),
+                                 rate ? std::string(name_of(c.span)) : ""};
+    if (tableaux)
+      row.push_back(in_one_cell(c.method_text()));
+    else
+      row.insert(row.end(), {std::to_string(c.method.k), std::to_string(c.method.s)});
+    row.insert(row.end(), {predicted_text(c), short_text(f.measured), short_text(f.uncertainty), f.precision,
+                           std::string(hbvm::name_of(f.verdict))});
+    table.groups[place->second].rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string summary(const std::vector<Finding>& findings) {
+  int counts[3] = {};
+  for (const Finding& f : findings) ++counts[static_cast<int>(f.verdict)];
+  return fmt::format("{} claims: {} hold, {} fail, {} are undecidable", findings.size(), counts[0], counts[1],
+                     counts[2]);
+}
+
+std::string to_json(const std::vector<Finding>& findings, const std::string& command) {
+  Json claims = Json::array();
+  for (const Finding& f : findings) claims.push_back(json_of(f));
+  return Json{{"version", version()}, {"command", command}, {"summary", summary(findings)}, {"claims", claims}}.dump(1);
+}
+
+std::string to_line(const Finding& finding, const std::string& key) {
+  return Json{{"key", key}, {"version", version()}, {"finding", json_of(finding)}}.dump();
+}
+
+std::map<std::string, Finding> read_lines(const std::string& path) {
+  std::map<std::string, Finding> result;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    try {
+      const Json json = Json::parse(line);
+      if (json.at("version") == version()) result.insert_or_assign(json.at("key"), finding_of(json.at("finding")));
+    } catch (const Json::exception&) {
+      continue;  // cut off
+    }
+  }
+  return result;
+}
+
+}  // namespace hbvm

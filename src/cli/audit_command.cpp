@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "commands.hpp"
+#include "hbvm/analysis/audit/audit.hpp"
+#include "hbvm/analysis/audit/claims.hpp"
+#include "hbvm/analysis/audit/report.hpp"
+#include "hbvm/analysis/read_tableau.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/version.hpp"
+#include "progress_bar.hpp"
+
+namespace hbvm {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::optional<std::string> claims, method, out;
+  bool quick = false, full = false, json = false;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+};
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::vector<Claim> filtered(std::vector<Claim> claims, const std::string& filter) {
+  const std::string wanted = lower(filter);
+  std::string labels;
+  for (const Claim& claim : claims)
+    if (labels.find(claim.label + "; ") == std::string::npos) labels += claim.label + "; ";
+  std::erase_if(claims, [&](const Claim& c) {
+    const std::string all =
+        c.label + "\n" + std::string(name_of(c.quantity)) + "\n" + c.problem + "\n" + c.method_text();
+    return lower(all).find(wanted) == std::string::npos;
+  });
+  if (claims.empty())
+    throw InputError("--claims: '" + filter + "' is no file and occurs in no claim; the claims are: " + labels);
+  return claims;
+}
+
+std::vector<Claim> claims_of(const Options& o) {
+  std::vector<Claim> claims;
+  const bool from_file = o.claims && fs::is_regular_file(*o.claims);
+  if (from_file) {
+    if (o.method) throw InputError("--method: a file of claims names its methods itself");
+    return read_claims(*o.claims);
+  }
+  if (o.claims && (o.claims->ends_with(".toml") || o.claims->find('/') != std::string::npos))
+    throw InputError("--claims: there is no file '" + *o.claims + "'");
+  if (o.method)
+    claims = tableau_claims(std::make_shared<const Tableau>(read_tableau(*o.method)));
+  else
+    claims = paper_claims(o.full ? Extent::full : Extent::quick);
+  return o.claims ? filtered(std::move(claims), *o.claims) : claims;
+}
+
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw InputError("--out: cannot write '" + path.string() + "'");
+}
+
+/// Where results go; with --json nowhere unless it is said.
+std::optional<fs::path> folder_of(const Options& o) {
+  if (o.json && !o.out) return std::nullopt;
+  const fs::path folder = o.out.value_or("audit-results");
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  write(folder / "audit.csv", "# this audit is not finished\n");
+  return folder;
+}
+
+/// The rows in columns, for a terminal.
+std::string aligned(const Table& table) {
+  std::vector<std::size_t> widths;
+  for (const std::string& column : table.columns) widths.push_back(column.size());
+  for (const auto& group : table.groups)
+    for (const auto& row : group.rows)
+      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string text;
+  const auto line = [&](const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += "  " + cells[i] + std::string(widths[i] - cells[i].size(), ' ');
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  };
+  for (const auto& group : table.groups) {
+    text += group.heading + "\n";
+    line(table.columns);
+    for (const auto& row : group.rows) line(row);
+    text += '\n';
+  }
+  return text;
+}
+
+void audit_command(const Options& o) {
+  if (o.jobs < 1 || o.jobs > 1024) throw InputError("--jobs " + std::to_string(o.jobs) + " is not between 1 and 1024");
+  const std::vector<Claim> claims = claims_of(o);
+  std::string command = "hbvm audit";
+  if (o.method) command += " --method " + *o.method;
+  if (o.claims) command += " --claims '" + *o.claims + "'";
+  if (!o.method) command += o.full ? " --full" : " --quick";
+
+  const std::optional<fs::path> folder = folder_of(o);
+  std::map<std::string, Finding> known;
+  std::ofstream store;
+  if (folder && o.full) {
+    const std::string path = (*folder / "findings.jsonl").string();
+    known = read_lines(path);
+    store.open(path, std::ios::app);
+    // The last line may have been cut off.
+    store << std::endl;
+    if (!store) throw InputError("--out: cannot write to '" + folder->string() + "'");
+  }
+
+  AuditOptions options;
+  options.jobs = o.jobs;
+  options.starts = o.full ? 3 : 2;
+  options.known = [&](const std::string& key) -> const Finding* {
+    const auto place = known.find(std::to_string(options.starts) + key);
+    return place == known.end() ? nullptr : &place->second;
+  };
+  options.found = [&](const Finding& finding) {
+    if (store.is_open()) store << to_line(finding, std::to_string(options.starts) + key_of(finding.claim)) << std::endl;
+  };
+  std::vector<Finding> findings;
+  {
+    ProgressBar bar("audit");
+    options.progress = [&](long done, long total) { bar.update(done, total); };
+    findings = audit(claims, options);
+  }
+  Table table = audit_table(findings);
+  table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
+  if (folder) {
+    write(*folder / "audit.csv", to_csv(table));
+    write(*folder / "audit.md", to_markdown(table));
+    write(*folder / "audit.tex", to_latex(table));
+    draw(audit_figure(folder->string()), (*folder / "orders.svg").string());
+  }
+  if (o.json) {
+    std::cout << to_json(findings, command) << std::endl;
+  } else {
+    fmt::print("{}", aligned(table));
+    for (const Finding& f : findings)
+      if (f.verdict != Verdict::holds)
+        fmt::print("{}: {} of {} on {}, {}\n", name_of(f.verdict), name_of(f.claim.quantity), f.claim.method_text(),
+                   f.claim.problem, f.reason);
+    fmt::print("{}\n", summary(findings));
+    if (folder) fmt::print("written to {}\n", folder->string());
+    std::fflush(stdout);
+  }
+  if (std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.verdict == Verdict::fails; }))
+    throw CLI::RuntimeError(1);
+}
+
+}  // namespace
+
+void add_audit_command(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  CLI::App* const command =
+      app.add_subcommand("audit", "Decide the paper's claims, or your own, in as many digits as it takes");
+  command->add_option("--claims", o->claims,
+                      "Only claims whose label, quantity, problem or method holds this text; or a TOML file of claims");
+  auto* const quick = command->add_flag("--quick", o->quick, "s = 1, 2, 3 (default): well under two minutes");
+  command->add_flag("--full", o->full, "s = 1 .. 8, 12 and 20, every problem: may take an hour, see --out")
+      ->excludes(quick);
+  command->add_option("--method", o->method, "Audit the Runge-Kutta tableau in this TOML file: A, b, c as exact text");
+  command->add_option(
+      "--out", o->out,
+      "Folder for table (CSV, Markdown, LaTeX) and figure, audit-results if absent (with --json: none); "
+      "--full goes on from what it finds there");
+  command->add_option("--jobs", o->jobs, "Threads")->capture_default_str();
+  command->add_flag("--json", o->json, "Print one JSON object and nothing else");
+  command->footer(
+      "A claim: quantity, problem, method, rate; see studies/orders_beyond_round_off. Exit code 1 if one fails.\n"
+      "Example: hbvm audit --claims evaik --out audit");
+  command->callback([o] { audit_command(*o); });
+}
+
+}  // namespace hbvm
