@@ -39,9 +39,9 @@ struct Panel {
   std::vector<Curve> curves;
   std::vector<Mark> marks;
   std::vector<Polyline> lines;
-  std::vector<Label> labels{};
   bool equal_axes = false;
   bool logarithms = false;  ///< x is a binary logarithm and y a decimal one: tics show the powers
+  std::vector<Label> labels{};
 };
 
 /// Panels side by side in one SVG.

@@ -96,6 +96,7 @@ class Auditor {
     for (const std::size_t i : unit.members) cell_.claims.push_back(claims[i]);
     cell_.first_start = options.first_start;
     cell_.starts = options.starts;
+    cell_.log2_interval = options.log2_interval;
   }
 
   void work() {

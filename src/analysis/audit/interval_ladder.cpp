@@ -51,7 +51,7 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
   Laboratory laboratory(subject.problem, cell.first_start, cell.starts);
   const Problem<Mpfr>& problem = laboratory.problem();
   Point<Mpfr>& point = laboratory.point();
-  const Mpfr until = Mpfr(1) / 2;
+  const Mpfr until = ldexp(Mpfr(1), cell.log2_interval);
   const bool constrained = problem.nu() > 0;
   const bool end_errors = cell.asks_for(Quantity::q) || cell.asks_for(Quantity::p) ||
                           cell.asks_for(Quantity::tangential_p) || cell.asks_for(Quantity::lagmul) ||

@@ -10,6 +10,7 @@ namespace hbvm {
 struct Cell {
   std::vector<Claim> claims;
   int first_start = 0, starts = 1;
+  int log2_interval = -1;
 
   const Claim& subject() const { return claims.front(); }
   bool asks_for(Quantity quantity) const;
@@ -28,7 +29,7 @@ using Enough = std::function<bool(const Ladders&)>;
 template <Scalar S>
 Ladders step_ladder(const Cell& cell, const Enough& enough);
 
-/// The errors over [0, 1/2] in 4, 8, …, `most` steps, of what is asked for, until it is enough.
+/// The errors over the interval in 4, 8, …, `most` steps, of what is asked for, until it is enough.
 /// \throws InputError, IntegrationError
 template <Scalar S>
 Ladders interval_ladder(const Cell& cell, long most, const Enough& enough);

@@ -12,6 +12,7 @@ struct AuditOptions {
   int jobs = 1;             ///< threads
   int starts = 2;           ///< consistent states over which the greatest error is taken
   int first_start = 0;      ///< which states: 0, 1, … lie on the motion one after the other
+  int log2_interval = -1;   ///< errors over an interval are those over [0, 2^log2_interval]
   long most_steps = 1'024;  ///< of an interval
   /// Findings known from before, by their claims' keys, and what is told of new ones (by one thread at a time).
   std::function<const Finding*(const std::string& key)> known;

@@ -36,7 +36,7 @@ enum class Quantity {
   B,                 ///< condition B(2k) of the tableau, and B(2s) of the constraints' nodes
   C,                 ///< condition C(s)
   D,                 ///< condition D(s), D(s - 1) for k > s
-  X,                 ///< X_s = P_s^-1 I_s, (IsPs)
+  X,                 ///< X_s = P_s^-1 I_s, (IsPs), P_s^T Omega = P_s^-1, and P_0 = 1
   symmetry,          ///< c_i + c_{s+1-i} = 1, b_i = b_{s+1-i}, and A likewise
   W                  ///< P_s^-1 A P_s = X_s, the W-transformation
 };

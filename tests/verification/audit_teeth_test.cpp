@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hbvm/analysis/audit/audit.hpp"
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+Claim claim(Quantity quantity, const std::string& problem, MethodName method, Span span, Form form, double predicted) {
+  Claim c;
+  c.label = "test";
+  c.quantity = quantity;
+  c.problem = problem;
+  c.method = method;
+  c.span = span;
+  c.form = form;
+  c.predicted = predicted;
+  return c;
+}
+
+/// What the errors of one step must show.
+std::vector<Claim> order_claims(const std::string& problem, MethodName method) {
+  const int k = method.k, s = method.s;
+  std::vector<Claim> claims;
+  for (const auto& [quantity, rate] : {std::pair(Quantity::q, 2 * s + 1),
+                                       {Quantity::p, s + 1},
+                                       {Quantity::tangential_p, 2 * s + 1},
+                                       {Quantity::output_lambda, 2 * s + 1},
+                                       {Quantity::lagmul, s},
+                                       {Quantity::delta_lambda, s},
+                                       {Quantity::hidden, s + 1},
+                                       {Quantity::polynomials, s + 1},
+                                       {Quantity::H, 2 * k + 1}})
+    claims.push_back(claim(quantity, problem, method, Span::step, Form::at_least, rate));
+  return claims;
+}
+
+std::vector<Claim> coefficient_claims(MethodName method) {
+  std::vector<Claim> claims;
+  for (const Quantity quantity : {Quantity::B, Quantity::C, Quantity::D, Quantity::X, Quantity::symmetry, Quantity::W})
+    claims.push_back(claim(quantity, "tableau", method, Span::interval, Form::round_off, 0));
+  return claims;
+}
+
+int count(const std::vector<Finding>& findings, Verdict verdict) {
+  return static_cast<int>(
+      std::count_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.verdict == verdict; }));
+}
+
+AuditOptions one_start() {
+  AuditOptions options;
+  options.starts = 1;
+  return options;
+}
+
+int failures(std::vector<Claim> claims, const Perturbation& perturbation) {
+  for (Claim& c : claims) c.perturbation = perturbation;
+  return count(audit(claims, one_start()), Verdict::fails);
+}
+
+/// One number of the method wrong by a relative 1e-11, 1e-16 or 1e-25, or with its sign flipped, is caught by the
+/// errors of one step, with the coefficients never looked at; and by the coefficients' conditions, too.
+class Teeth : public ::testing::TestWithParam<std::tuple<MethodName, const char*>> {
+ protected:
+  void expect_caught(Perturbation::Part part, bool hat, int i, int j) {
+    const auto& [method, relative] = GetParam();
+    const Perturbation perturbation{part, hat, i, j, Expression::parse(relative)};
+    SCOPED_TRACE("part " + std::to_string(static_cast<int>(part)) + (hat ? " hat " : " ") + std::to_string(i) + "," +
+                 std::to_string(j));
+    EXPECT_GE(failures(order_claims("modified_pendulum", method), perturbation), 1);
+    EXPECT_GE(failures(coefficient_claims(method), perturbation), 1);
+  }
+  int s() const { return std::get<MethodName>(GetParam()).s; }
+  int k() const { return std::get<MethodName>(GetParam()).k; }
+};
+
+using Part = Perturbation::Part;
+
+TEST_P(Teeth, CatchAWrongNode) {
+  for (const bool hat : {false, true})
+    for (const int i : {0, (hat ? k() : s()) - 1}) expect_caught(Part::node, hat, i, 0);
+}
+TEST_P(Teeth, CatchAWrongWeight) {
+  for (const bool hat : {false, true})
+    for (const int i : {0, (hat ? k() : s()) - 1}) expect_caught(Part::weight, hat, i, 0);
+}
+TEST_P(Teeth, CatchAWrongIntegral) {
+  for (const bool hat : {false, true}) expect_caught(Part::integral, hat, 0, s() - 1);
+}
+TEST_P(Teeth, CatchAWrongEntryOfX) {
+  expect_caught(Part::X, false, 0, 0);
+  if (s() > 1) expect_caught(Part::X, false, s() - 1, s() - 2);
+}
+TEST_P(Teeth, CatchAWrongLegendreCoefficient) {
+  expect_caught(Part::legendre, false, s() - 1, 0);
+  expect_caught(Part::legendre, false, s() - 1, s() - 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Audit, Teeth,
+                         ::testing::Combine(::testing::Values(MethodName{1, 1}, MethodName{3, 2}, MethodName{4, 4}),
+                                            ::testing::Values("1e-11", "1e-16", "1e-25", "-2")),
+                         [](const auto& parameter) {
+                           const MethodName method = std::get<MethodName>(parameter.param);
+                           const std::string relative = std::get<const char*>(parameter.param);
+                           return "k" + std::to_string(method.k) + "s" + std::to_string(method.s) +
+                                  (relative == "-2" ? "sign" : "e" + relative.substr(3));
+                         });
+
+/// Nothing is held against the method as it is: ten problems, methods, intervals and states at a time.
+class NoFalseAlarm : public ::testing::TestWithParam<int> {};
+
+TEST_P(NoFalseAlarm, OnRandomConfigurations) {
+  std::mt19937 random(static_cast<unsigned>(GetParam()));
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const char* const problems[] = {"modified_pendulum",   "double_pendulum",  "bead_on_ellipsoid",
+                                  "spherical_pendulum",  "four_bar_linkage", "bead_on_paraboloid",
+                                  "tethered_satellites", "heavy_top"};
+  int undecidable = 0;
+  for (int n = 0; n < 10; ++n) {
+    const std::string problem = problems[below(8)];
+    const bool large = problem == "tethered_satellites" || problem == "heavy_top" || problem == "four_bar_linkage";
+    const int s = 1 + below(large ? 2 : 4), k = s + below(3);
+    const int r = s % 2 == 0 ? s : s + 1;
+    std::vector<Claim> claims = order_claims(problem, {k, s});
+    for (const auto& [quantity, rate] : {std::pair(Quantity::q, 2 * s),
+                                         {Quantity::p, r},
+                                         {Quantity::tangential_p, 2 * s},
+                                         {Quantity::output_lambda, 2 * s},
+                                         {Quantity::lagmul, r - 1},
+                                         {Quantity::hidden, r},
+                                         {Quantity::H, 2 * k}})
+      claims.push_back(claim(quantity, problem, {k, s}, Span::interval, Form::at_least, rate));
+    for (const Quantity quantity : {Quantity::g, Quantity::reversal})
+      claims.push_back(claim(quantity, problem, {k, s}, Span::interval, Form::round_off, 0));
+    AuditOptions options = one_start();
+    options.first_start = below(20);
+    options.log2_interval = -3 + below(4);
+    for (const Finding& f : audit(claims, options)) {
+      EXPECT_NE(f.verdict, Verdict::fails)
+          << problem << " " << f.claim.method_text() << " start " << options.first_start << " interval 2^"
+          << options.log2_interval << ": " << name_of(f.claim.quantity) << " measured " << f.measured << " +- "
+          << f.uncertainty << " for " << f.claim.predicted << " in " << f.precision << ", " << f.reason;
+      undecidable += f.verdict == Verdict::undecidable;
+    }
+  }
+  EXPECT_EQ(undecidable, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Audit, NoFalseAlarm, ::testing::Range(0, 10));
+
+/// Statements that are false end in "fails", not in "undecidable".
+TEST(Audit, RefusesFalseClaims) {
+  std::vector<Claim> claims;
+  for (const int s : {1, 2, 3}) {
+    const MethodName method{s, s};
+    if (s > 1) claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::interval, Form::at_least, 2 * s));
+    if (s % 2 == 1)  // (ord2s) for one step
+      claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::step, Form::at_least, s + 2));
+    claims.push_back(claim(Quantity::H, "modified_pendulum", method, Span::interval, Form::round_off, 0));
+    claims.push_back(claim(Quantity::hidden, "double_pendulum", method, Span::interval, Form::round_off, 0));
+    claims.back().quantity = Quantity::angular_momentum;
+    claims.back().problem = "tethered_satellites";
+    claims.back().method.k = s + 2;
+  }
+  // (dlamj) with one order more, and an order claimed "exactly" that is exceeded.
+  claims.push_back(claim(Quantity::delta_lambda, "modified_pendulum", {2, 2}, Span::step, Form::at_least, 3));
+  claims.push_back(claim(Quantity::q, "modified_pendulum", {2, 2}, Span::interval, Form::exactly, 2));
+  for (const Finding& f : audit(claims, one_start()))
+    EXPECT_EQ(f.verdict, Verdict::fails) << name_of(f.claim.quantity) << " of " << f.claim.method_text() << " on "
+                                         << f.claim.problem << ", measured " << f.measured << " " << f.reason;
+}
+
+/// Over an interval an error of 1e-25 in a node cannot be seen; the error of one step shows it.
+TEST(Audit, HoldsAnIntervalAgainstItsSteps) {
+  Claim c = claim(Quantity::q, "modified_pendulum", {2, 2}, Span::interval, Form::at_least, 4);
+  EXPECT_EQ(audit({c}, one_start()).front().verdict, Verdict::holds);
+  c.perturbation = Perturbation{Part::node, false, 0, 0, Expression::parse("1e-25")};
+  EXPECT_EQ(audit({c}, one_start()).front().verdict, Verdict::fails);
+}
+
+/// The evidence falls with the precision: what is round-off in double is an error in more digits.
+TEST(Audit, ShowsItsEvidence) {
+  const Finding f =
+      audit({claim(Quantity::H, "modified_pendulum", {4, 2}, Span::step, Form::at_least, 9)}, one_start()).front();
+  ASSERT_EQ(f.verdict, Verdict::holds);
+  EXPECT_EQ(f.precision, "mpfr:100");
+  EXPECT_NEAR(f.measured, 9, 0.1);
+  ASSERT_EQ(f.evidence.size(), 4u);
+  EXPECT_EQ(f.evidence.front().precision, "double");
+  const auto clean = [](const Ladder& ladder) {
+    return std::count_if(ladder.rungs.begin(), ladder.rungs.end(), [](const Rung& r) { return r.is_clean(); });
+  };
+  for (std::size_t i = 1; i < f.evidence.size(); ++i) EXPECT_GT(clean(f.evidence[i]), clean(f.evidence[i - 1]));
+}
+
+TEST(Audit, KnowsWhatDoesNotExist) {
+  const Finding f =
+      audit({claim(Quantity::hidden, "kepler", {2, 2}, Span::step, Form::at_least, 3)}, one_start()).front();
+  EXPECT_EQ(f.verdict, Verdict::undecidable);
+  EXPECT_NE(f.reason.find("does not exist"), std::string::npos);
+}
+
+TEST(Audit, GivesTheSameOnSeveralThreads) {
+  std::vector<Claim> claims;
+  for (const char* const problem : {"modified_pendulum", "double_pendulum", "kepler"})
+    claims.push_back(claim(Quantity::q, problem, {2, 2}, Span::step, Form::at_least, 5));
+  AuditOptions options = one_start();
+  const std::vector<Finding> alone = audit(claims, options);
+  options.jobs = 3;
+  const std::vector<Finding> together = audit(claims, options);
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    EXPECT_EQ(alone[i].measured, together[i].measured);
+    EXPECT_EQ(alone[i].evidence.back().rungs.back().error, together[i].evidence.back().rungs.back().error);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
