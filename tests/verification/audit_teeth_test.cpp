@@ -158,6 +158,8 @@ TEST(Audit, RefusesFalseClaims) {
     if (s > 1) claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::interval, Form::at_least, 2 * s));
     if (s % 2 == 1)  // (ord2s) for one step
       claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::step, Form::at_least, s + 2));
+    if (s % 2 == 0)  // (dlamj) for propagated states
+      claims.push_back(claim(Quantity::delta_lambda, "modified_pendulum", method, Span::interval, Form::at_least, s));
     claims.push_back(claim(Quantity::H, "modified_pendulum", method, Span::interval, Form::round_off, 0));
     claims.push_back(claim(Quantity::hidden, "double_pendulum", method, Span::interval, Form::round_off, 0));
     claims.back().quantity = Quantity::angular_momentum;

@@ -82,8 +82,12 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
         for (const auto& component : momenta) momentum_0.push_back(momentum(problem, component, q, p));
         trial.begin(start, h);
         for (long step = 1; step <= n; ++step) {
+          const Vector<Mpfr> before = q;
           trial.step();
           trial.state(q, p);
+          if (constrained && cell.asks_for(Quantity::delta_lambda))
+            add(Quantity::delta_lambda, delta_lambda(laboratory, trial, before, p, h, subject.method.s),
+                std::max(q_unit, p_unit) - log2_h);
           if (cell.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), H_unit);
           if (constrained && cell.asks_for(Quantity::hidden))
             add(Quantity::hidden, max_norm(point.hidden_constraints(q, p)), q_unit + p_unit - unit + 4);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hbvm/basis/gauss_legendre.hpp"
 #include "hbvm/reference/closed_form.hpp"
 
 namespace hbvm {
@@ -87,10 +88,34 @@ void Trial<S>::multiplier(Vector<Mpfr>& lambda) const {
 }
 
 template <Scalar S>
-void Trial<S>::unknowns(Matrix<Mpfr>& gamma, Matrix<Mpfr>& lambda) {
+void Trial<S>::unknowns(Matrix<Mpfr>* gamma, Matrix<Mpfr>* lambda) {
   const StageUnknowns<S>& x = stepper_->solver().unknowns();
-  copy_exactly(gamma, x.gamma);
-  copy_exactly(lambda, x.lambda);
+  if (gamma) copy_exactly(*gamma, x.gamma);
+  if (lambda) copy_exactly(*lambda, x.lambda);
+}
+
+template <Scalar S>
+StepPolynomials polynomials(Trial<S>& trial, const Vector<Mpfr>& q0, const Vector<Mpfr>& p1, const Mpfr& h, Index s) {
+  StepPolynomials result{h, q0, p1, Matrix<Mpfr>(s, q0.size())};
+  trial.unknowns(&result.gamma, nullptr);
+  return result;
+}
+
+template <Scalar S>
+Mpfr delta_lambda(Laboratory& laboratory, Trial<S>& trial, const Vector<Mpfr>& q0, const Vector<Mpfr>& p1,
+                  const Mpfr& h, Index s) {
+  const StepPolynomials step = polynomials(trial, q0, p1, h, s);
+  Matrix<Mpfr> lambda(s, laboratory.problem().nu());
+  trial.unknowns(nullptr, &lambda);
+  const Quadrature<Mpfr> gauss = gauss_legendre<Mpfr>(static_cast<int>(s));
+  Vector<Mpfr> u = q0, v = p1;
+  Mpfr greatest = 0;
+  for (Index i = 0; i < s; ++i) {
+    step.at(laboratory.problem(), gauss.c[i], u, v);
+    const Vector<Mpfr>& there = laboratory.point().multiplier(u, v);
+    for (Index a = 0; a < there.size(); ++a) raise_to(greatest, Mpfr(abs(Mpfr(there[a] - lambda(i, a)))));
+  }
+  return greatest;
 }
 
 void raise(Sizes& sizes, Quantity quantity, double error, double floor) {
@@ -100,7 +125,10 @@ void raise(Sizes& sizes, Quantity quantity, double error, double floor) {
   place->second.floor = std::max(place->second.floor, floor);
 }
 
-#define HBVM_DEFINE(S) template class Trial<S>;
+#define HBVM_DEFINE(S)                                                                                              \
+  template class Trial<S>;                                                                                          \
+  template StepPolynomials polynomials<S>(Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&, Index); \
+  template Mpfr delta_lambda<S>(Laboratory&, Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -64,8 +64,8 @@ class Trial {
   void state(Vector<Mpfr>& q, Vector<Mpfr>& p) const;
   /// (lagmul) of the last step.
   void multiplier(Vector<Mpfr>& lambda) const;
-  /// Coefficients of the last step; not for a tableau.
-  void unknowns(Matrix<Mpfr>& gamma, Matrix<Mpfr>& lambda);
+  /// Coefficients and multipliers of the last step, each if asked for; not for a tableau.
+  void unknowns(Matrix<Mpfr>* gamma, Matrix<Mpfr>* lambda);
   bool has_polynomials() const { return method_.has_value(); }
 
  private:
@@ -79,7 +79,21 @@ class Trial {
   std::optional<State<S>> state_;
 };
 
-#define HBVM_DECLARE(S) extern template class Trial<S>;
+/// The solution polynomials of the trial's last step, which went from q0 to p1 in h.
+template <Scalar S>
+StepPolynomials polynomials(Trial<S>& trial, const Vector<Mpfr>& q0, const Vector<Mpfr>& p1, const Mpfr& h, Index s);
+
+/// The greatest |lambda(u(c_j h), v(c_j h)) - lambda_j| of (dli) in that step.
+template <Scalar S>
+Mpfr delta_lambda(Laboratory& laboratory, Trial<S>& trial, const Vector<Mpfr>& q0, const Vector<Mpfr>& p1,
+                  const Mpfr& h, Index s);
+
+#define HBVM_DECLARE(S)                                                                                               \
+  extern template class Trial<S>;                                                                                     \
+  extern template StepPolynomials polynomials<S>(Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&,    \
+                                                 Index);                                                              \
+  extern template Mpfr delta_lambda<S>(Laboratory&, Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&, \
+                                       Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

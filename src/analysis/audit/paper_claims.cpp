@@ -74,6 +74,8 @@ void orders(List& list, const Witness& witness, int k, int s) {
   list.rate("hidcons", Q::hidden, Span::step, s + 1, form);
   list.rate("ordlam" + further, Q::lagmul, Span::interval, r - 1);
   list.rate("dlamj", Q::delta_lambda, Span::step, s);
+  // Later steps start from an O(h^r) hidden constraint.
+  list.rate("dlamj, propagated", Q::delta_lambda, Span::interval, r - 1, form);
   list.rate("norm" + further, Q::polynomials, Span::step, s + 1);
 }
 
@@ -135,10 +137,19 @@ void unconstrained(std::vector<Claim>& all, int s) {
       if (k == s) list.zero("angular momentum, k = s", Q::angular_momentum);
       list.append_to(all);
     }
-  // U of degree 4 <= 2k/s.
-  List quartic("quartic_oscillator", 2 * s, s);
-  quartic.zero("evaik, polynomial", Q::H);
-  quartic.append_to(all);
+}
+
+/// U of degree 4: exact from 4 <= 2k/s on.
+void quartic(std::vector<Claim>& all, int s) {
+  for (const char* const problem : {"quartic_oscillator", "quartic_pendulum"}) {
+    List exact(problem, 2 * s, s);
+    exact.zero("evaik, polynomial", Q::H);
+    exact.append_to(all);
+    if (s == 1) continue;
+    List inexact(problem, 2 * s - 1, s);
+    inexact.rate("evaik", Q::H, Span::step, 4 * s - 1);
+    inexact.append_to(all);
+  }
 }
 
 void coefficients(std::vector<Claim>& all, int k, int s) {
@@ -172,6 +183,7 @@ std::vector<Claim> paper_claims(Extent extent) {
     conical(all, s, s);
     simple(all, s);
     unconstrained(all, s);
+    quartic(all, s);
     for (int k = s; k <= s + (full ? 4 : 1); ++k) coefficients(all, k, s);
     if (s >= 2 && s <= (full ? 4 : 3)) drift(all, s);
   }

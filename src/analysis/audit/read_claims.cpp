@@ -109,8 +109,7 @@ class ClaimReader {
     const Quantity q = claim.quantity;
     const std::string name(name_of(q));
     if (q >= Quantity::hidden_constant) reader_.fail("quantity '" + name + "' has no rate to claim");
-    const bool of_one_step = q == Quantity::delta_lambda || q == Quantity::polynomials;
-    if (of_one_step && claim.span != Span::step)
+    if (q == Quantity::polynomials && claim.span != Span::step)
       reader_.fail("quantity '" + name + "' is one of a step: over = \"step\"");
     const bool conserved =
         q == Quantity::g || q == Quantity::H || q == Quantity::angular_momentum || q == Quantity::reversal;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "hbvm/basis/gauss_legendre.hpp"
 #include "hbvm/reference/closed_form.hpp"
 #include "measurements.hpp"
 
@@ -58,22 +57,15 @@ class StepMeasurement {
     // Multipliers come from momenta divided by h.
     add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(lambda_unit - log2_h, margin));
     add(Quantity::hidden, hidden, q_unit + p_unit - unit_ + 4);
-    add_delta_lambda(trial, start, h, p, lambda_unit - log2_h, sizes);
+    add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, start.q, p, h, s_), lambda_unit - log2_h);
   }
 
  private:
-  StepPolynomials polynomials(Trial<S>& trial, const Laboratory::Start& start, const Mpfr& h, const Vector<Mpfr>& p1) {
-    StepPolynomials result{h, start.q, p1, Matrix<Mpfr>(s_, start.q.size())};
-    lambda_.resize(s_, laboratory_.problem().nu());
-    trial.unknowns(result.gamma, lambda_);
-    return result;
-  }
-
   void add_polynomials(Trial<S>& trial, const Laboratory::Start& start, const Mpfr& h, const Vector<Mpfr>& p1,
                        const ReferenceMotion& exact, double floor, Sizes& sizes) {
     constexpr int points = 8;
     const Problem<Mpfr>& problem = laboratory_.problem();
-    const StepPolynomials own = polynomials(trial, start, h, p1);
+    const StepPolynomials own = polynomials(trial, start.q, p1, h, s_);
     Vector<Mpfr> u = start.q, v = start.p, exact_u = u, exact_v = v;
     Mpfr error = 0;
     for (int i = 1; i <= points; ++i) {
@@ -86,25 +78,10 @@ class StepMeasurement {
     raise(sizes, Quantity::polynomials, log2_of(error), floor);
   }
 
-  void add_delta_lambda(Trial<S>& trial, const Laboratory::Start& start, const Mpfr& h, const Vector<Mpfr>& p1,
-                        double floor, Sizes& sizes) {
-    const StepPolynomials own = polynomials(trial, start, h, p1);
-    const Quadrature<Mpfr> gauss = gauss_legendre<Mpfr>(s_);
-    Vector<Mpfr> u = start.q, v = start.p;
-    Mpfr error = 0;
-    for (Index i = 0; i < s_; ++i) {
-      own.at(laboratory_.problem(), gauss.c[i], u, v);
-      const Vector<Mpfr>& there = laboratory_.point().multiplier(u, v);
-      for (Index a = 0; a < there.size(); ++a) raise_to(error, Mpfr(abs(Mpfr(there[a] - lambda_(i, a)))));
-    }
-    raise(sizes, Quantity::delta_lambda, log2_of(error), floor);
-  }
-
   Laboratory& laboratory_;
   const Claim& subject_;
   double unit_;
   int s_;
-  Matrix<Mpfr> lambda_;
 };
 
 }  // namespace
