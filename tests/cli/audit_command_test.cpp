@@ -1,0 +1,121 @@
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/program.hpp"
+
+namespace hbvm {
+namespace {
+
+using Json = nlohmann::json;
+
+const char* const gauss = R"(name = "Gauss"
+A = [["1/4", "1/4-sqrt(3)/6"], ["1/4+sqrt(3)/6", "1/4"]]
+b = ["1/2", "1/2"]
+)";
+const char* const wrong_digit = R"toml(name = "Gauss, a digit wrong"
+A = [["1/4", "1/4-sqrt(3)/6"], ["1/4+sqrt(3)/6+10^(-25)", "1/4"]]
+b = ["1/2", "1/2"]
+c = ["1/2-sqrt(3)/6", "1/2+sqrt(3)/6"]
+)toml";
+
+Json json_of(const Arguments& arguments, int code) {
+  const Outcome outcome = hbvm(Arguments{"audit", "--json"} + arguments, 600);
+  EXPECT_EQ(outcome.code, code) << outcome.err;
+  return Json::parse(outcome.out, nullptr, false);
+}
+
+TEST(AuditCommand, QuickHoldsForEveryClaim) {
+  const Json json = json_of({"--quick"}, 0);
+  const Json& claims = json.at("claims");
+  EXPECT_GE(claims.size(), 40u);
+  std::set<std::string> precisions;
+  for (const Json& claim : claims) {
+    EXPECT_EQ(claim.at("verdict"), "holds") << claim.dump();
+    for (const char* const key : {"claim", "quantity", "problem", "precision"})
+      EXPECT_TRUE(claim.at(key).is_string()) << key;
+    for (const char* const key : {"k", "s", "predicted"}) EXPECT_TRUE(claim.at(key).is_number()) << key;
+    for (const char* const key : {"measured", "uncertainty"})
+      EXPECT_TRUE(claim.at(key).is_number() || claim.at(key).is_null()) << key;
+    precisions.insert(claim.at("precision"));
+  }
+  EXPECT_TRUE(precisions.contains("double"));
+  EXPECT_TRUE(precisions.contains("mpfr:100"));
+}
+
+TEST(AuditCommand, WritesTablesAndTheFigure) {
+  const Folder folder;
+  const Outcome outcome = hbvm({"audit", "--claims", "simple_pendulum", "--out", folder / "out"}, 600);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("0 fail, 0 are undecidable"), std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+  for (const char* const file : {"audit.csv", "audit.md", "audit.tex", "orders.svg"})
+    EXPECT_FALSE(text_of(folder / ("out/" + std::string(file))).empty()) << file;
+  const auto lines = lines_of(text_of(folder / "out/audit.csv"));
+  EXPECT_EQ(lines.at(0), "# problem,claim,quantity,over,k,s,predicted,measured,+-,precision,verdict");
+  EXPECT_NE(text_of(folder / "out/audit.csv").find("command hbvm audit --claims 'simple_pendulum' --quick"),
+            std::string::npos);
+}
+
+TEST(AuditCommand, AuditsATableau) {
+  const Folder folder;
+  const Json json = json_of({"--method", folder.write("gauss.toml", gauss)}, 0);
+  for (const Json& claim : json.at("claims")) {
+    EXPECT_EQ(claim.at("verdict"), "holds") << claim.dump();
+    EXPECT_TRUE(claim.at("k").is_null());
+    EXPECT_EQ(claim.at("method"), "Gauss");
+  }
+  const Json bad = json_of({"--method", folder.write("wrong.toml", wrong_digit)}, 1);
+  int failing = 0;
+  for (const Json& claim : bad.at("claims")) failing += claim.at("verdict") == "fails";
+  EXPECT_GE(failing, 4);
+}
+
+/// Each false, each alone.
+TEST(AuditCommand, RefusesFalseClaims) {
+  const Folder folder;
+  folder.write("wrong.toml", wrong_digit);
+  const char* const claims[] = {
+      "quantity = \"raw p\"\nproblem = \"modified_pendulum\"\nmethod = \"hbvm:3,3\"\nrate = \"2*s\"\n",
+      "quantity = \"raw p\"\nproblem = \"modified_pendulum\"\nmethod = \"hbvm:1,1\"\nover = \"step\"\nrate = \"s+2\"\n",
+      "quantity = \"delta lambda\"\nproblem = \"modified_pendulum\"\nmethod = \"hbvm:2,2\"\nrate = \"s\"\n",
+      "quantity = \"H\"\nproblem = \"modified_pendulum\"\nmethod = \"hbvm:2,2\"\nrate = \"round-off\"\n",
+      "quantity = \"q\"\nproblem = \"kepler\"\nmethod = \"wrong.toml\"\nrate = \"2*s\"\n"};
+  for (const char* const claim : claims) {
+    const Json json = json_of({"--claims", folder.write("claims.toml", "[[claim]]\n" + std::string(claim))}, 1);
+    EXPECT_EQ(json.at("claims").at(0).at("verdict"), "fails") << claim;
+  }
+}
+
+TEST(AuditCommand, FullGoesOnFromWhatItFound) {
+  const Folder folder;
+  const Arguments arguments{"audit", "--full", "--claims", "conical_pendulum", "--out", folder / "out"};
+  const Outcome first = hbvm(arguments, 600);
+  EXPECT_EQ(first.code, 0) << first.err;
+  // As if it had been ended in the middle of a line.
+  const std::string store = folder / "out/findings.jsonl";
+  const std::string all = text_of(store);
+  std::ofstream(store, std::ios::binary) << all.substr(0, all.size() / 2);
+  const Outcome second = hbvm(arguments, 600), third = hbvm(arguments, 600);
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_EQ(first.out, second.out);
+  EXPECT_EQ(first.out, third.out);
+  EXPECT_LT(third.cpu_seconds, first.cpu_seconds);
+}
+
+TEST(AuditCommand, RefusesBadInput) {
+  const Folder folder;
+  expect_refused({"audit", "--claims", "no such claim"}, {"no such claim", "evaik"});
+  expect_refused({"audit", "--claims", folder / "absent.toml"}, {"absent.toml"});
+  expect_refused({"audit", "--method", folder / "absent.toml"}, {"absent.toml"});
+  expect_refused({"audit", "--method", folder.write("bad.toml", "A = [[1, 2]]\nb = [1]\n")}, {"bad.toml", "A"});
+  expect_refused({"audit", "--jobs", "0"}, {"--jobs"});
+  expect_refused({"audit", "--quick", "--full"}, {"--full"});
+  expect_refused({"audit", "--out", "/proc/nowhere"}, {"/proc/nowhere"});
+  const std::string constrained =
+      "[[claim]]\nquantity = \"q\"\nproblem = \"double_pendulum\"\nmethod = \"gauss.toml\"\nrate = 4\n";
+  folder.write("gauss.toml", gauss);
+  expect_refused({"audit", "--json", "--claims", folder.write("claims.toml", constrained)}, {"constraint"});
+}
+
+}  // namespace
+}  // namespace hbvm
