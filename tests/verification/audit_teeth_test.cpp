@@ -197,6 +197,19 @@ TEST(Audit, ShowsItsEvidence) {
   for (std::size_t i = 1; i < f.evidence.size(); ++i) EXPECT_GT(clean(f.evidence[i]), clean(f.evidence[i - 1]));
 }
 
+/// In double all errors of a high order are round-off: that shows nothing, and more digits must be asked.
+TEST(Audit, TakesRoundOffOfDoubleForNoAnswer) {
+  const Finding f =
+      audit({claim(Quantity::q, "modified_pendulum", {8, 8}, Span::interval, Form::at_least, 16)}, one_start()).front();
+  EXPECT_EQ(f.verdict, Verdict::holds);
+  EXPECT_NEAR(f.measured, 16, 0.5);
+  EXPECT_EQ(f.precision, "mpfr:50");
+  EXPECT_EQ(audit({claim(Quantity::q, "modified_pendulum", {8, 8}, Span::interval, Form::at_least, 18)}, one_start())
+                .front()
+                .verdict,
+            Verdict::fails);
+}
+
 TEST(Audit, KnowsWhatDoesNotExist) {
   const Finding f =
       audit({claim(Quantity::hidden, "kepler", {2, 2}, Span::step, Form::at_least, 3)}, one_start()).front();
