@@ -111,7 +111,7 @@ void audit_command(const Options& o) {
   std::string command = "hbvm audit";
   if (o.method) command += " --method " + *o.method;
   if (o.claims) command += " --claims '" + *o.claims + "'";
-  if (!o.method) command += o.full ? " --full" : " --quick";
+  if (o.full || o.quick) command += o.full ? " --full" : " --quick";
 
   const std::optional<fs::path> folder = folder_of(o);
   std::map<std::string, Finding> known;

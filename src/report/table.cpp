@@ -9,6 +9,26 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sep
   return line;
 }
 
+std::vector<std::string> each(std::vector<std::string> cells, std::string (*shown)(const std::string&)) {
+  for (std::string& cell : cells) cell = shown(cell);
+  return cells;
+}
+
+/// In quotes if it holds what separates cells (RFC 4180).
+std::string csv_cell(const std::string& cell) {
+  if (cell.find_first_of(",\"") == std::string::npos) return cell;
+  std::string quoted = "\"";
+  for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// A bar would end the cell.
+std::string markdown_cell(const std::string& cell) {
+  std::string text;
+  for (const char c : cell) text += c == '|' ? std::string("\\|") : std::string(1, c);
+  return text;
+}
+
 /// Names like e_H and rate_lambda as formulas.
 std::string latex_name(const std::string& name) {
   if (name.starts_with("rate")) return "rate";
@@ -28,8 +48,8 @@ std::string latex_name(const std::string& name) {
 std::string latex_text(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '_')
-      result += "\\_";
+    if (c == '_' || c == '&' || c == '%' || c == '#')
+      result += std::string("\\") + c;
     else if (c == '<' || c == '>')
       result += std::string("$") + c + "$";
     else
@@ -41,8 +61,9 @@ std::string latex_text(const std::string& text) {
 }  // namespace
 
 std::string to_csv(const Table& table) {
-  const auto line = [](const std::vector<std::string>& keys, const std::vector<std::string>& cells) {
-    return joined(keys, ",") + (keys.empty() ? "" : ",") + joined(cells, ",") + "\n";
+  const auto line = [](std::vector<std::string> cells, const std::vector<std::string>& further) {
+    cells.insert(cells.end(), further.begin(), further.end());
+    return joined(each(std::move(cells), csv_cell), ",") + "\n";
   };
   std::string text = "# " + line(table.key_columns, table.columns) + "# " + table.caption + "\n";
   for (const std::string& note : table.provenance) text += "# " + note + "\n";
@@ -58,7 +79,7 @@ std::string to_markdown(const Table& table) {
     text += "\n| " + joined(table.columns, " | ") + " |\n|";
     for (std::size_t i = 0; i < table.columns.size(); ++i) text += "---:|";
     text += "\n";
-    for (const auto& row : group.rows) text += "| " + joined(row, " | ") + " |\n";
+    for (const auto& row : group.rows) text += "| " + joined(each(row, markdown_cell), " | ") + " |\n";
   }
   text += "\n";
   for (const std::string& line : table.provenance) text += "<!-- " + line + " -->\n";
@@ -76,7 +97,7 @@ std::string to_latex(const Table& table) {
   for (const auto& group : table.groups) {
     if (!group.heading.empty()) text += "\\multicolumn{" + span + "}{|c|}{$" + group.heading + "$}\\\\\n\\hline\n";
     text += joined(names, " & ") + "\\\\\n\\hline\n";
-    for (const auto& row : group.rows) text += latex_text(joined(row, " & ")) + "\\\\\n";
+    for (const auto& row : group.rows) text += joined(each(row, latex_text), " & ") + "\\\\\n";
     text += "\\hline\n\\hline\n";
   }
   return text + "\\end{tabular}}\n\\end{table}\n";

@@ -33,13 +33,6 @@ std::string short_text(double x) {
   return std::abs(x) < 10'000 ? fmt::format("{:.3f}", x) : fmt::format("{:.1e}", x);
 }
 
-/// Commas separate the cells of the CSV, bars those of Markdown.
-std::string in_one_cell(std::string text) {
-  for (char& c : text)
-    if (c == ',' || c == '|') c = ';';
-  return text;
-}
-
 std::string predicted_text(const Claim& claim) {
   if (claim.form == Form::round_off) return "round-off";
   const std::string value = fmt::format("{}", claim.predicted);
@@ -124,10 +117,10 @@ Table audit_table(const std::vector<Finding>& findings) {
     const auto [place, is_new] = places.try_emplace(c.problem, table.groups.size());
     if (is_new) table.groups.push_back({c.problem == "tableau" ? "coefficients" : c.problem, {c.problem}, {}});
     const bool rate = (c.form == Form::at_least || c.form == Form::exactly) && c.problem != "tableau";
-    std::vector<std::string> row{in_one_cell(c.label), std::string(hbvm::name_of(c.quantity)),
+    std::vector<std::string> row{c.label, std::string(hbvm::name_of(c.quantity)),
                                  rate ? std::string(name_of(c.span)) : ""};
     if (tableaux)
-      row.push_back(in_one_cell(c.method_text()));
+      row.push_back(c.method_text());
     else
       row.insert(row.end(), {std::to_string(c.method.k), std::to_string(c.method.s)});
     row.insert(row.end(), {predicted_text(c), short_text(f.measured), short_text(f.uncertainty), f.precision,
