@@ -176,14 +176,15 @@ std::vector<Claim> paper_claims(Extent extent) {
     if (s >= 2 && s <= (full ? 4 : 3)) drift(all, s);
   }
   if (full)
-    for (const int s : {12, 20})
+    for (const int s : {12, 20}) {
       for (const Witness& witness : {witnesses[0], witnesses[2]}) {
         List list(witness.name, s, s);
         orders(list, witness, s, s);
         list.in_digits(200);
         list.append_to(all);
-        coefficients(all, s, s);
       }
+      coefficients(all, s, s);
+    }
   return all;
 }
 
