@@ -49,8 +49,8 @@ TEST_F(Jacobi, SquaresSumToOne) {
     }
 }
 
-/// sn(u + v) = (sn u cn v dn v + sn v cn u dn u) / (1 - kappa^2 sn^2 u sn^2 v), Abramowitz and Stegun 16.17; which
-/// sn, of all functions, is the one with the right derivative at 0.
+/// sn(u + v) = (sn u cn v dn v + sn v cn u dn u) / (1 - kappa^2 sn^2 u sn^2 v) and its like, Abramowitz and
+/// Stegun 16.17.
 TEST_F(Jacobi, FulfilAdditionTheorem) {
   for (const Mpfr& u : arguments)
     for (const Mpfr& v : arguments)
@@ -140,8 +140,7 @@ TEST_P(ClosedForm, StaysOnTheManifoldWithItsEnergy) {
   }
 }
 
-/// Both have unit mass. With energy, constraints and the direction of motion this leaves no other motion in the plane;
-/// in space p' says the rest.
+/// Both bobs have unit mass.
 TEST_P(ClosedForm, MomentumIsTheDerivative) {
   const Mpfr step = literal<Mpfr>("1e-15");
   for (const Mpfr& t : times) {
@@ -152,7 +151,7 @@ TEST_P(ClosedForm, MomentumIsTheDerivative) {
   }
 }
 
-/// p' is gravity, (0, -1) or (0, 0, -1), and the rod's force, which is parallel to q.
+/// p' is gravity, (0, -1) or (0, 0, -1), and the force of the rod, parallel to q.
 TEST_P(ClosedForm, ForceIsGravityAndAlongTheRod) {
   const Mpfr step = literal<Mpfr>("1e-15");
   for (const Mpfr& t : times) {
