@@ -1,6 +1,7 @@
 #include "hbvm/method/perturbation.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "hbvm/basis/legendre.hpp"
 #include "hbvm/error.hpp"
@@ -76,25 +77,16 @@ void perturb(Nodes<S> nodes, const Perturbation& p, const S& relative) {
     case Perturbation::Part::X:
       break;
   }
-  set_projection(nodes);
+  if (p.part != Perturbation::Part::integral) set_projection(nodes);
 }
 
-}  // namespace
-
+/// A and l_i(1) from the values and integrals at the s nodes.
 template <Scalar S>
-void perturb(Hbvm<S>& m, const Perturbation& p) {
+void follow(Hbvm<S>& m, const Perturbation& p, const S& relative) {
   using std::sqrt;
   using Part = Perturbation::Part;
-  check(p.i >= 0 && p.j >= 0);
-  const S relative = evaluate<S>(p.relative);
-  const bool both = m.k == m.s || p.part == Part::legendre;
-  if (p.part == Part::X) {
-    check(p.i < m.s && p.j < m.s);
-    change(m.X_s(p.i, p.j), relative);
-  }
-  if (both || !p.hat) perturb<S>(Nodes<S>{m.c, m.b, m.P_s, m.I_s, m.projection}, p, relative);
-  if (both || p.hat) perturb<S>(Nodes<S>{m.c_hat, m.b_hat, m.P_hat, m.I_hat, m.projection_hat}, p, relative);
   m.A = m.I_s.lazyProduct(m.projection);
+  if (p.part == Part::integral) return;
   for (Index i = 0; i < m.s; ++i) {
     m.lagrange_at_1[i] = 0;
     for (int j = 0; j < m.s; ++j) {
@@ -103,6 +95,29 @@ void perturb(Hbvm<S>& m, const Perturbation& p) {
       m.lagrange_at_1[i] += P_j_at_1 * m.projection(j, i);
     }
   }
+}
+
+}  // namespace
+
+template <Scalar S>
+void perturb(Hbvm<S>& method, const Perturbation& p) {
+  using Part = Perturbation::Part;
+  check(p.i >= 0 && p.j >= 0);
+  const S relative = evaluate<S>(p.relative);
+  if (p.part == Part::X) {
+    check(p.i < method.s && p.j < method.s);
+    change(method.X_s(p.i, p.j), relative);
+    return;
+  }
+  Hbvm<S> m = method;
+  const bool both = m.k == m.s || p.part == Part::legendre;
+  if (both || p.hat) perturb<S>(Nodes<S>{m.c_hat, m.b_hat, m.P_hat, m.I_hat, m.projection_hat}, p, relative);
+  if (both || !p.hat) {
+    perturb<S>(Nodes<S>{m.c, m.b, m.P_s, m.I_s, m.projection}, p, relative);
+    follow(m, p, relative);
+  }
+  // Else no number is another, and what follows from it would only be rounded once more.
+  if (S(1 + relative) != 1) method = std::move(m);
 }
 
 #define HBVM_DEFINE(S) template void perturb<S>(Hbvm<S>&, const Perturbation&);

@@ -51,5 +51,15 @@ TEST(Figure, ScriptQuotesItsTexts) {
   EXPECT_NE(script.find("set size ratio -1"), std::string::npos);
 }
 
+TEST(Tables, KeepWhatSeparatesCellsInsideThem) {
+  const Table separators{"", {}, {}, {"a", "b"}, {{"", {}, {{"HBVM(3,2) \"Gauss\"", "x | y & 5 %"}}}}};
+  EXPECT_NE(to_csv(separators).find("\n\"HBVM(3,2) \"\"Gauss\"\"\",x | y & 5 %\n"), std::string::npos)
+      << to_csv(separators);
+  EXPECT_NE(to_markdown(separators).find("| HBVM(3,2) \"Gauss\" | x \\| y & 5 % |"), std::string::npos)
+      << to_markdown(separators);
+  EXPECT_NE(to_latex(separators).find("HBVM(3,2) \"Gauss\" & x | y \\& 5 \\%\\\\"), std::string::npos)
+      << to_latex(separators);
+}
+
 }  // namespace
 }  // namespace hbvm

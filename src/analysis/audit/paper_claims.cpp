@@ -75,7 +75,7 @@ void orders(List& list, const Witness& witness, int k, int s) {
   list.rate("ordlam" + further, Q::lagmul, Span::interval, r - 1);
   list.rate("dlamj", Q::delta_lambda, Span::step, s);
   // Later steps start from an O(h^r) hidden constraint.
-  list.rate("dlamj, propagated", Q::delta_lambda, Span::interval, r - 1, form);
+  list.rate("dlamj, propagated", Q::delta_lambda, Span::interval, r - 1);
   list.rate("norm" + further, Q::polynomials, Span::step, s + 1);
 }
 
@@ -188,14 +188,15 @@ std::vector<Claim> paper_claims(Extent extent) {
     if (s >= 2 && s <= (full ? 4 : 3)) drift(all, s);
   }
   if (full)
-    for (const int s : {12, 20})
+    for (const int s : {12, 20}) {
       for (const Witness& witness : {witnesses[0], witnesses[2]}) {
         List list(witness.name, s, s);
         orders(list, witness, s, s);
         list.in_digits(200);
         list.append_to(all);
-        coefficients(all, s, s);
       }
+      coefficients(all, s, s);
+    }
   return all;
 }
 

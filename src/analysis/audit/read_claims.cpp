@@ -17,7 +17,7 @@ std::string located(const std::string& name, const std::filesystem::path& folder
 }
 
 int counted_from_one(TomlTable& reader, const char* key) {
-  const long value = reader.has(key) ? reader.integer(key) : 1;
+  const long value = reader.take(key) ? reader.integer(key) : 1;
   if (value < 1 || value > max_k)
     reader.fail(std::string("'") + key + "' must be between 1 and " + std::to_string(max_k));
   return static_cast<int>(value) - 1;
@@ -51,8 +51,9 @@ class ClaimReader {
 
   Claim read() {
     Claim claim;
-    claim.label = reader_.has("label") ? reader_.string("label") : "stated";
-    checked([&] { claim.quantity = parse_quantity(reader_.string("quantity")); });
+    claim.label = string_or("label", "stated");
+    const std::string quantity = reader_.string("quantity");
+    checked([&] { claim.quantity = parse_quantity(quantity); });
     claim.problem = located(reader_.string("problem"), folder_);
     const std::string method = reader_.string("method");
     checked([&] {
@@ -63,10 +64,10 @@ class ClaimReader {
         claim.tableau = std::make_shared<const Tableau>(read_tableau(located(method, folder_)));
       }
     });
-    const std::string over = reader_.has("over") ? reader_.string("over") : "interval";
+    const std::string over = string_or("over", "interval");
     if (over != "interval" && over != "step") reader_.fail("unknown 'over' \"" + over + "\": use interval or step");
     claim.span = over == "step" ? Span::step : Span::interval;
-    const std::string form = reader_.has("form") ? reader_.string("form") : "at least";
+    const std::string form = string_or("form", "at least");
     if (form != "at least" && form != "exactly")
       reader_.fail("unknown form '" + form + "': use 'at least' or 'exactly'");
     claim.form = form == "exactly" ? Form::exactly : Form::at_least;
@@ -75,6 +76,12 @@ class ClaimReader {
       if (!node->is_table()) reader_.fail(*node, "'perturb' is a table");
       if (claim.tableau) reader_.fail(*node, "'perturb' is for hbvm:K,S; a tableau is changed in its own file");
       claim.perturbation = perturbation(TomlTable(reader_.source(), *node->as_table(), "perturb"));
+      checked(
+          [&] {
+            auto method_in_double = make_hbvm<double>(claim.method.k, claim.method.s);
+            perturb(method_in_double, *claim.perturbation);
+          },
+          node);
     }
     reader_.finish();
     refuse_nonsense(claim);
@@ -82,13 +89,19 @@ class ClaimReader {
   }
 
  private:
+  /// With the line of what is wrong, or that of the claim.
   template <class F>
-  void checked(const F& f) const {
+  void checked(const F& f, const toml::node* node = nullptr) const {
     try {
       f();
     } catch (const InputError& error) {
+      if (node) reader_.fail(*node, error.what());
       reader_.fail(error.what());
     }
+  }
+
+  std::string string_or(const char* key, const char* absent) {
+    return reader_.take(key) ? reader_.string(key) : absent;
   }
 
   void read_rate(Claim& claim) {
@@ -98,10 +111,11 @@ class ClaimReader {
       return;
     }
     Constants constants;
-    constants.insert_or_assign("k", Expression::parse(std::to_string(claim.method.k)));
+    if (!claim.tableau) constants.insert_or_assign("k", Expression::parse(std::to_string(claim.method.k)));
     constants.insert_or_assign(
         "s", Expression::parse(std::to_string(claim.tableau ? claim.tableau->stages() : claim.method.s)));
-    checked([&] { claim.predicted = evaluate<double>(reader_.to_number(node, "'rate'"), constants); });
+    const Expression rate = reader_.to_number(node, "'rate'");
+    checked([&] { claim.predicted = evaluate<double>(rate, constants); }, &node);
     if (!(claim.predicted >= 0 && claim.predicted <= 2 * max_k + 1)) reader_.fail(node, "no such rate");
   }
 

@@ -24,13 +24,24 @@ std::string_view name_of(Span span) { return span == Span::step ? "step" : "inte
 /// A number that JSON has, or null.
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 double number(const Json& json) {
-  return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+/// Names of files may hold bytes that are no text.
+std::string dumped(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 /// To three decimals, or a power of ten.
 std::string short_text(double x) {
   if (!std::isfinite(x)) return "---";
   return std::abs(x) < 10'000 ? fmt::format("{:.3f}", x) : fmt::format("{:.1e}", x);
+}
+
+/// Lines would end the rows of a table.
+std::string on_one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return text;
 }
 
 std::string predicted_text(const Claim& claim) {
@@ -83,8 +94,9 @@ Finding finding_of(const Json& j) {
   f.precision = j.at("precision");
   f.reason = j.at("reason");
   f.reference = j.at("reference");
+  const std::string verdict_text = j.at("verdict");
   for (const Verdict verdict : {Verdict::holds, Verdict::fails, Verdict::undecidable})
-    if (j.at("verdict") == hbvm::name_of(verdict)) f.verdict = verdict;
+    if (verdict_text == hbvm::name_of(verdict)) f.verdict = verdict;
   for (const Json& ladder : j.at("evidence")) {
     Ladder read{ladder.at("precision"), {}};
     for (std::size_t i = 0; i < ladder.at("log2_h").size(); ++i) {
@@ -115,12 +127,13 @@ Table audit_table(const std::vector<Finding>& findings) {
   for (const Finding& f : findings) {
     const Claim& c = f.claim;
     const auto [place, is_new] = places.try_emplace(c.problem, table.groups.size());
-    if (is_new) table.groups.push_back({c.problem == "tableau" ? "coefficients" : c.problem, {c.problem}, {}});
+    if (is_new)
+      table.groups.push_back({c.problem == "tableau" ? "coefficients" : c.problem, {on_one_line(c.problem)}, {}});
     const bool rate = (c.form == Form::at_least || c.form == Form::exactly) && c.problem != "tableau";
-    std::vector<std::string> row{c.label, std::string(hbvm::name_of(c.quantity)),
+    std::vector<std::string> row{on_one_line(c.label), std::string(hbvm::name_of(c.quantity)),
                                  rate ? std::string(name_of(c.span)) : ""};
     if (tableaux)
-      row.push_back(c.method_text());
+      row.push_back(on_one_line(c.method_text()));
     else
       row.insert(row.end(), {std::to_string(c.method.k), std::to_string(c.method.s)});
     row.insert(row.end(), {predicted_text(c), short_text(f.measured), short_text(f.uncertainty), f.precision,
@@ -140,11 +153,11 @@ std::string summary(const std::vector<Finding>& findings) {
 std::string to_json(const std::vector<Finding>& findings, const std::string& command) {
   Json claims = Json::array();
   for (const Finding& f : findings) claims.push_back(json_of(f));
-  return Json{{"version", version()}, {"command", command}, {"summary", summary(findings)}, {"claims", claims}}.dump(1);
+  return dumped({{"version", version()}, {"command", command}, {"summary", summary(findings)}, {"claims", claims}}, 1);
 }
 
 std::string to_line(const Finding& finding, const std::string& key) {
-  return Json{{"key", key}, {"version", version()}, {"finding", json_of(finding)}}.dump();
+  return dumped({{"key", key}, {"version", version()}, {"finding", json_of(finding)}}, -1);
 }
 
 std::map<std::string, Finding> read_lines(const std::string& path) {

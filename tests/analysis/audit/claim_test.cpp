@@ -1,0 +1,142 @@
+#include "hbvm/analysis/audit/claim.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr double half = double{1} / 2, quarter = half / 2;
+
+Verdict judged(Form form, double predicted, double measured, double uncertainty) {
+  Claim claim;
+  claim.form = form;
+  claim.predicted = predicted;
+  return judge(claim, Rate{measured, uncertainty, 4, 4});
+}
+
+TEST(Judge, RatesNearThePredictedHold) {
+  for (const Form form : {Form::at_least, Form::exactly}) {
+    EXPECT_EQ(judged(form, 4, 4, 0), Verdict::holds);
+    EXPECT_EQ(judged(form, 4, 4 - quarter, quarter / 2), Verdict::holds);
+    EXPECT_EQ(judged(form, 4, 4 + quarter, quarter / 2), Verdict::holds);
+  }
+}
+
+TEST(Judge, SmallerRatesFail) {
+  for (const Form form : {Form::at_least, Form::exactly}) {
+    EXPECT_EQ(judged(form, 4, 3, 0), Verdict::fails);
+    EXPECT_EQ(judged(form, 4, 3, quarter), Verdict::fails);
+    EXPECT_EQ(judged(form, 4, -1, 2), Verdict::fails);
+  }
+}
+
+TEST(Judge, GreaterRatesFailOnlyIfClaimedExactly) {
+  EXPECT_EQ(judged(Form::at_least, 4, 5, 0), Verdict::holds);
+  EXPECT_EQ(judged(Form::at_least, 4, 40, 10), Verdict::holds);
+  EXPECT_EQ(judged(Form::exactly, 4, 5, 0), Verdict::fails);
+  EXPECT_EQ(judged(Form::exactly, 4, 5, quarter), Verdict::fails);
+}
+
+TEST(Judge, IntervalsThatStraddleTheLowerBoundAreUndecidable) {
+  for (const Form form : {Form::at_least, Form::exactly}) {
+    EXPECT_EQ(judged(form, 4, 4, 1), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 4, 3, 1), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 4, 4 - half, quarter), Verdict::undecidable);
+  }
+}
+
+TEST(Judge, IntervalsThatStraddleTheUpperBoundAreUndecidableIfClaimedExactly) {
+  EXPECT_EQ(judged(Form::exactly, 4, 4 + half, quarter), Verdict::undecidable);
+  EXPECT_EQ(judged(Form::exactly, 4, 5, 1), Verdict::undecidable);
+  EXPECT_EQ(judged(Form::at_least, 4, 4 + half, quarter), Verdict::holds);
+  EXPECT_EQ(judged(Form::at_least, 4, 5, 1), Verdict::holds);
+}
+
+/// Half-way between two whole numbers a rate is neither.
+TEST(Judge, BoundItselfDecidesNothing) {
+  EXPECT_EQ(judged(Form::at_least, 4, 4 - half, 0), Verdict::undecidable);
+  EXPECT_EQ(judged(Form::exactly, 4, 4 - half, 0), Verdict::undecidable);
+  EXPECT_EQ(judged(Form::exactly, 4, 4 + half, 0), Verdict::undecidable);
+}
+
+TEST(Judge, WithoutARateNothingIsDecided) {
+  for (const Form form : {Form::at_least, Form::exactly}) {
+    Claim claim;
+    claim.form = form;
+    EXPECT_EQ(judge(claim, std::nullopt), Verdict::undecidable);
+  }
+}
+
+TEST(Judge, WhatIsNotANumberDecidesNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Form form : {Form::at_least, Form::exactly}) {
+    EXPECT_EQ(judged(form, 4, nan, 0), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 4, 4, nan), Verdict::undecidable);
+  }
+}
+
+std::vector<Quantity> all_quantities() {
+  std::vector<Quantity> all;
+  for (int n = 0; n <= static_cast<int>(Quantity::W); ++n) all.push_back(static_cast<Quantity>(n));
+  return all;
+}
+
+TEST(Quantities, NamesAreReadBack) {
+  std::set<std::string_view> names;
+  for (const Quantity quantity : all_quantities()) {
+    const std::string name(name_of(quantity));
+    EXPECT_FALSE(name.empty()) << static_cast<int>(quantity);
+    EXPECT_TRUE(names.insert(name_of(quantity)).second) << name << " twice";
+    EXPECT_EQ(parse_quantity(name), quantity) << name;
+  }
+}
+
+TEST(Quantities, BlanksMayBeUnderscoresOrHyphens) {
+  for (const Quantity quantity : all_quantities())
+    for (const char separator : {'_', '-'}) {
+      std::string name(name_of(quantity));
+      std::replace(name.begin(), name.end(), ' ', separator);
+      EXPECT_EQ(parse_quantity(name), quantity) << name;
+    }
+  EXPECT_EQ(parse_quantity("tangential_p"), Quantity::tangential_p);
+  EXPECT_EQ(parse_quantity("angular-momentum"), Quantity::angular_momentum);
+}
+
+TEST(Quantities, MomentumIsTheRawOne) { EXPECT_EQ(parse_quantity("p"), Quantity::p); }
+
+TEST(Quantities, UnknownAreRefusedWithTheKnown) {
+  for (const char* const unknown : {"energy", "", "Q", "raw  p", "raw p ", "u"}) {
+    try {
+      parse_quantity(unknown);
+      ADD_FAILURE() << unknown << " is no quantity";
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("'" + std::string(unknown) + "'"), std::string::npos) << message;
+      for (const Quantity quantity : all_quantities())
+        EXPECT_NE(message.find(name_of(quantity)), std::string::npos) << name_of(quantity) << " is not in " << message;
+    }
+  }
+}
+
+TEST(Verdicts, HaveNames) {
+  EXPECT_EQ(name_of(Verdict::holds), "holds");
+  EXPECT_EQ(name_of(Verdict::fails), "fails");
+  EXPECT_EQ(name_of(Verdict::undecidable), "undecidable");
+}
+
+TEST(Claims, NameTheirMethod) {
+  Claim claim;
+  claim.method = {12, 3};
+  EXPECT_EQ(claim.method_text(), "HBVM(12,3)");
+  claim.tableau = std::make_shared<const Tableau>(Tableau{"Gauss, two stages", {}, {}, {}, {}});
+  EXPECT_EQ(claim.method_text(), "Gauss, two stages");
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,324 @@
+#include "hbvm/analysis/audit/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace hbvm {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+Finding finding(const std::string& label = "ord2s", const std::string& problem = "kepler") {
+  Finding f;
+  f.claim.label = label;
+  f.claim.quantity = Quantity::tangential_p;
+  f.claim.problem = problem;
+  f.claim.method = {3, 2};
+  f.claim.span = Span::step;
+  f.claim.predicted = 5;
+  f.verdict = Verdict::fails;
+  f.measured = double{10} / 3;
+  f.uncertainty = double{1} / 7;
+  f.precision = "mpfr:50";
+  f.reference = "closed form";
+  f.reason = "the error has another rate";
+  f.evidence = {{"double", {{-1, -10, -50}, {-2, double{-40} / 3, -50}, {-3, -infinity, -50}}},
+                {"mpfr:50", {{-1, -1'000'000, -2'000'000}}}};
+  return f;
+}
+Finding of_tableau(const std::string& name) {
+  Finding f = finding();
+  f.claim.tableau = std::make_shared<const Tableau>(Tableau{name, {}, {}, {}, {}});
+  return f;
+}
+
+class Lines : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ = fs::temp_directory_path() / (std::string("hbvm_lines_") + test->name());
+    fs::remove(path_);
+  }
+  void TearDown() override { fs::remove(path_); }
+
+  std::map<std::string, Finding> read(const std::string& text) const {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read_lines(path_.string());
+  }
+  static void expect_same(const Finding& a, const Finding& b) {
+    const auto expect_number = [](double x, double y, const char* what) {
+      EXPECT_TRUE(x == y || (std::isnan(x) && std::isnan(y))) << what << ": " << x << " and " << y;
+    };
+    EXPECT_EQ(a.verdict, b.verdict);
+    expect_number(a.measured, b.measured, "measured");
+    expect_number(a.uncertainty, b.uncertainty, "uncertainty");
+    EXPECT_EQ(a.precision, b.precision);
+    EXPECT_EQ(a.reference, b.reference);
+    EXPECT_EQ(a.reason, b.reason);
+    ASSERT_EQ(a.evidence.size(), b.evidence.size());
+    for (std::size_t n = 0; n < a.evidence.size(); ++n) {
+      EXPECT_EQ(a.evidence[n].precision, b.evidence[n].precision);
+      ASSERT_EQ(a.evidence[n].rungs.size(), b.evidence[n].rungs.size());
+      for (std::size_t r = 0; r < a.evidence[n].rungs.size(); ++r) {
+        const Rung &x = a.evidence[n].rungs[r], &y = b.evidence[n].rungs[r];
+        expect_number(x.step, y.step, "step");
+        expect_number(x.error, y.error, "error");
+        expect_number(x.floor, y.floor, "floor");
+      }
+    }
+  }
+
+  fs::path path_;
+};
+
+TEST_F(Lines, AreReadBackToTheLastBit) {
+  Finding round_off = finding();
+  round_off.measured = round_off.uncertainty = nan_value;
+  round_off.verdict = Verdict::holds;
+  Finding open = of_tableau("Radau \"IIA\", two\nstages \xC3\xA9");
+  open.verdict = Verdict::undecidable;
+  open.evidence.clear();
+  const std::vector<std::pair<std::string, Finding>> findings{
+      {"first", finding()}, {"round-off", round_off}, {"a \"key\", with \\ and\nlines \xC3\xA9", open}};
+  std::string text;
+  for (const auto& [key, f] : findings) {
+    const std::string line = to_line(f, key);
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    text += line + "\n";
+  }
+  const auto found = read(text);
+  ASSERT_EQ(found.size(), findings.size());
+  for (const auto& [key, f] : findings) {
+    ASSERT_TRUE(found.contains(key)) << key;
+    expect_same(found.at(key), f);
+  }
+}
+
+/// A program that was stopped may have written any part of its last line.
+TEST_F(Lines, ThatAreCutOffAreLeftOut) {
+  const std::string whole = to_line(finding(), "whole") + "\n", last = to_line(finding(), "last");
+  for (std::size_t length = 0; length < last.size(); ++length) {
+    const auto found = read(whole + last.substr(0, length));
+    EXPECT_EQ(found.size(), 1u) << length;
+    EXPECT_TRUE(found.contains("whole")) << length;
+  }
+  EXPECT_EQ(read(whole + last).size(), 2u) << "a line that lacks only its end is whole";
+}
+
+TEST_F(Lines, AfterOneThatWasCutOffAreRead) {
+  const std::string line = to_line(finding(), "key");
+  EXPECT_TRUE(read(line.substr(0, line.size() / 2) + "\n" + line + "\n").contains("key"));
+}
+
+TEST_F(Lines, LastOfOneKeyCounts) {
+  Finding later = finding();
+  later.measured = 9;
+  const auto found = read(to_line(finding(), "key") + "\n" + to_line(later, "key") + "\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.at("key").measured, 9);
+}
+
+TEST_F(Lines, OfAnotherVersionAreLeftOut) {
+  Json line = Json::parse(to_line(finding(), "key"));
+  EXPECT_EQ(read(line.dump()).size(), 1u);
+  line["version"] = "0.0.0-other";
+  EXPECT_TRUE(read(line.dump()).empty());
+  line["version"] = 1;
+  EXPECT_TRUE(read(line.dump()).empty());
+  line.erase("version");
+  EXPECT_TRUE(read(line.dump()).empty());
+}
+
+TEST_F(Lines, OfWrongTypesAreLeftOut) {
+  const Json good = Json::parse(to_line(finding(), "key"));
+  const auto expect_left_out = [&](const Json& line) { EXPECT_TRUE(read(line.dump()).empty()) << line.dump(); };
+  for (const Json& other : {Json(), Json(1), Json("text"), Json::array(), Json::array({1}), Json::object()}) {
+    expect_left_out(other);
+    Json line = good;
+    line["finding"] = other;
+    expect_left_out(line);
+  }
+  Json line = good;
+  line["key"] = 5;
+  expect_left_out(line);
+  for (const char* const key : {"precision", "reason", "reference", "verdict"}) {
+    line = good;
+    line["finding"][key] = 5;
+    expect_left_out(line);
+  }
+  for (const char* const key : {"measured", "uncertainty"}) {
+    line = good;
+    line["finding"][key] = "5";
+    expect_left_out(line);
+  }
+  line = good;
+  line["finding"]["evidence"] = 5;
+  expect_left_out(line);
+  for (const char* const key : {"log2_h", "log2_error", "log2_floor"}) {
+    line = good;
+    line["finding"]["evidence"][0][key] = "text";
+    expect_left_out(line);
+    line["finding"]["evidence"][0][key] = Json::array({"-1", "-2", "-3"});
+    expect_left_out(line);
+    line["finding"]["evidence"][0].erase(key);
+    expect_left_out(line);
+  }
+  line = good;
+  line["finding"]["evidence"][0]["log2_error"].erase(2);
+  expect_left_out(line);
+}
+
+TEST_F(Lines, EachKeyIsNeeded) {
+  for (const char* const key : {"measured", "uncertainty", "precision", "reason", "reference", "verdict", "evidence"}) {
+    Json line = Json::parse(to_line(finding(), "key"));
+    line["finding"].erase(key);
+    EXPECT_TRUE(read(line.dump()).empty()) << key;
+  }
+}
+
+TEST_F(Lines, OfNoFileAreNone) { EXPECT_TRUE(read_lines((path_ / "none").string()).empty()); }
+
+TEST(AuditJson, HasTheFieldsOfEachClaim) {
+  const Json json = Json::parse(to_json({finding(), finding()}, "hbvm audit --full"));
+  EXPECT_EQ(json.at("command"), "hbvm audit --full");
+  EXPECT_FALSE(json.at("version").get<std::string>().empty());
+  EXPECT_EQ(json.at("summary"), "2 claims: 0 hold, 2 fail, 0 are undecidable");
+  ASSERT_EQ(json.at("claims").size(), 2u);
+  const Json& claim = json.at("claims").at(0);
+  EXPECT_EQ(claim.at("claim"), "ord2s");
+  EXPECT_EQ(claim.at("quantity"), "tangential p");
+  EXPECT_EQ(claim.at("problem"), "kepler");
+  EXPECT_EQ(claim.at("method"), "HBVM(3,2)");
+  EXPECT_EQ(claim.at("k"), 3);
+  EXPECT_EQ(claim.at("s"), 2);
+  EXPECT_EQ(claim.at("over"), "step");
+  EXPECT_EQ(claim.at("form"), "at least");
+  EXPECT_EQ(claim.at("predicted"), 5);
+  EXPECT_EQ(claim.at("measured"), double{10} / 3);
+  EXPECT_EQ(claim.at("uncertainty"), double{1} / 7);
+  EXPECT_EQ(claim.at("precision"), "mpfr:50");
+  EXPECT_EQ(claim.at("verdict"), "fails");
+  EXPECT_EQ(claim.at("reason"), "the error has another rate");
+  EXPECT_EQ(claim.at("reference"), "closed form");
+  const Json& evidence = claim.at("evidence");
+  ASSERT_EQ(evidence.size(), 2u);
+  EXPECT_EQ(evidence.at(0).at("precision"), "double");
+  EXPECT_EQ(evidence.at(0).at("log2_h"), Json({-1.0, -2.0, -3.0}));
+  EXPECT_TRUE(evidence.at(0).at("log2_error").at(2).is_null()) << "JSON has no infinity";
+  EXPECT_EQ(evidence.at(0).at("log2_floor").at(1), -50);
+}
+
+TEST(AuditJson, HasNullForWhatIsNotThere) {
+  Finding f = of_tableau("midpoint");
+  f.measured = f.uncertainty = nan_value;
+  const Json claim = Json::parse(to_json({f}, "")).at("claims").at(0);
+  EXPECT_EQ(claim.at("method"), "midpoint");
+  for (const char* const key : {"k", "s", "measured", "uncertainty"}) EXPECT_TRUE(claim.at(key).is_null()) << key;
+}
+
+TEST(AuditJson, NamesFormsAndSpans) {
+  const auto field = [](const char* key, const auto& change) {
+    Finding f = finding();
+    change(f.claim);
+    return Json::parse(to_json({f}, "")).at("claims").at(0).at(key).get<std::string>();
+  };
+  EXPECT_EQ(field("form", [](Claim& c) { c.form = Form::exactly; }), "exactly");
+  EXPECT_EQ(field("form", [](Claim& c) { c.form = Form::round_off; }), "round-off");
+  EXPECT_EQ(field("form", [](Claim& c) { c.form = Form::near; }), "near");
+  EXPECT_EQ(field("over", [](Claim& c) { c.span = Span::interval; }), "interval");
+}
+
+/// Names of files may hold any byte.
+TEST(AuditJson, IsJsonWhateverTheNames) {
+  for (const char* const name : {"\xFF.toml", "a\"b\\c\n", "\x01"}) {
+    const std::string text = to_json({finding("ord2s", name)}, name);
+    EXPECT_EQ(Json::parse(text).at("claims").size(), 1u);
+    EXPECT_TRUE(Json::accept(to_line(finding("ord2s", name), name)));
+  }
+}
+
+TEST(AuditJson, OfNothingIsEmpty) { EXPECT_TRUE(Json::parse(to_json({}, "")).at("claims").empty()); }
+
+TEST(AuditTable, HasOneGroupAProblem) {
+  const Table table = audit_table({finding("a", "kepler"), finding("b", "tableau"), finding("c", "kepler")});
+  ASSERT_EQ(table.groups.size(), 2u);
+  EXPECT_EQ(table.key_columns, std::vector<std::string>{"problem"});
+  EXPECT_EQ(table.groups[0].heading, "kepler");
+  EXPECT_EQ(table.groups[0].keys, std::vector<std::string>{"kepler"});
+  ASSERT_EQ(table.groups[0].rows.size(), 2u);
+  EXPECT_EQ(table.groups[0].rows[0][0], "a");
+  EXPECT_EQ(table.groups[0].rows[1][0], "c");
+  EXPECT_EQ(table.groups[1].heading, "coefficients");
+  EXPECT_EQ(table.groups[1].rows.size(), 1u);
+}
+
+TEST(AuditTable, HasKAndS) {
+  const Table table = audit_table({finding()});
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"claim", "quantity", "over", "k", "s", "predicted", "measured",
+                                                     "+-", "precision", "verdict"}));
+  EXPECT_EQ(table.groups.at(0).rows.at(0), (std::vector<std::string>{"ord2s", "tangential p", "step", "3", "2", ">= 5",
+                                                                     "3.333", "0.143", "mpfr:50", "fails"}));
+}
+
+TEST(AuditTable, HasMethodsIfOneIsATableau) {
+  const Table table = audit_table({of_tableau("midpoint"), finding()});
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"claim", "quantity", "over", "method", "predicted", "measured",
+                                                     "+-", "precision", "verdict"}));
+  EXPECT_EQ(table.groups.at(0).rows.at(0).at(3), "midpoint");
+  EXPECT_EQ(table.groups.at(0).rows.at(1).at(3), "HBVM(3,2)");
+  for (const auto& row : table.groups[0].rows) EXPECT_EQ(row.size(), table.columns.size());
+}
+
+TEST(AuditTable, ShowsEachForm) {
+  const auto row = [](Form form, double predicted, double measured) {
+    Finding f = finding();
+    f.claim.form = form;
+    f.claim.predicted = predicted;
+    f.measured = measured;
+    const Table table = audit_table({f});
+    return table.groups.at(0).rows.at(0);
+  };
+  EXPECT_EQ(row(Form::exactly, 4, 4).at(5), "4");
+  EXPECT_EQ(row(Form::round_off, 0, 12).at(5), "round-off");
+  EXPECT_EQ(row(Form::round_off, 0, 12).at(2), "") << "it is looked at over an interval only";
+  EXPECT_EQ(row(Form::near, 1, 1).at(5), "1");
+  EXPECT_EQ(row(Form::at_least, 4, nan_value).at(6), "---");
+  EXPECT_EQ(row(Form::at_least, 4, infinity).at(6), "---");
+  EXPECT_EQ(row(Form::round_off, 0, 123'456).at(6), "1.2e+05");
+}
+
+TEST(AuditTable, CellsHoldNoLines) {
+  Finding f = of_tableau("Gauss, two | stages\nof order 4");
+  f.claim.label = "one, two | three\nfour";
+  f.claim.problem = "a,b.toml";
+  const Table table = audit_table({f});
+  for (const auto& group : table.groups) {
+    for (const std::string& key : group.keys) EXPECT_EQ(key.find('\n'), std::string::npos) << key;
+    for (const auto& row : group.rows)
+      for (const std::string& cell : row) EXPECT_EQ(cell.find('\n'), std::string::npos) << cell;
+  }
+  EXPECT_NE(to_csv(table).find("\n\"a,b.toml\",\"one, two | three four\","), std::string::npos) << to_csv(table);
+}
+
+TEST(AuditTable, OfNothingHasNoGroups) { EXPECT_TRUE(audit_table({}).groups.empty()); }
+
+TEST(AuditSummary, CountsVerdicts) {
+  EXPECT_EQ(summary({}), "0 claims: 0 hold, 0 fail, 0 are undecidable");
+  std::vector<Finding> findings(6);
+  findings[0].verdict = findings[1].verdict = findings[2].verdict = Verdict::holds;
+  findings[3].verdict = findings[4].verdict = Verdict::fails;
+  EXPECT_EQ(summary(findings), "6 claims: 3 hold, 2 fail, 1 are undecidable");
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,150 @@
+#include "hbvm/reference/reference_motion.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/reference/closed_form.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+class ReferenceMotionTest : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+  const Assembled<Mpfr> pendulum = assemble<Mpfr>(load_scene("simple_pendulum"));
+  const Mpfr duration = literal<Mpfr>("1/2");
+
+  ReferenceMotion motion(long steps, int stages) const {
+    return {pendulum.problem, pendulum.q0, pendulum.p0, duration, steps, stages};
+  }
+  /// log2 of the error of q, p and lambda.
+  double true_error(const ReferenceMotion& m) const {
+    const ExactPoint exact = *closed_form("simple_pendulum", duration);
+    Point<Mpfr> point(pendulum.problem);
+    Mpfr error = max_norm(Vector<Mpfr>(m.q() - exact.q));
+    raise_to(error, max_norm(Vector<Mpfr>(m.p() - exact.p)));
+    raise_to(error, max_norm(Vector<Mpfr>(m.lambda() - point.multiplier(exact.q, exact.p))));
+    return log2_of(error);
+  }
+  /// Of some thousand operations in the digits of the scope.
+  static double round_off() { return 10.0 - mpfr_working_bits(); }
+};
+
+TEST_F(ReferenceMotionTest, ErrorIsAtLeastTheTrueOneAndNotFarAbove) {
+  for (const auto& [steps, stages] : {std::pair(2, 1), {4, 2}, {2, 4}, {1, 6}, {4, 6}}) {
+    const ReferenceMotion m = motion(steps, stages);
+    const double error = true_error(m);
+    EXPECT_LT(m.error(), 0);
+    EXPECT_GE(std::max(m.error(), round_off()), error) << steps << " steps, " << stages << " stages";
+    // It is that of two stages less, greater by h^-4, 2^12 at most, and by constants that fall about as much.
+    EXPECT_LE(m.error(), std::max(error, round_off()) + 24) << steps << " steps, " << stages << " stages";
+  }
+}
+
+TEST_F(ReferenceMotionTest, RefiningLowersTheErrorDownToRoundOff) {
+  ReferenceMotion m = motion(2, 2);
+  double error = m.error(), truth = true_error(m);
+  int runs = 0;
+  while (m.refine()) {
+    ASSERT_LT(++runs, 40);
+    EXPECT_LT(m.error(), error);
+    EXPECT_LE(true_error(m), std::max(truth, round_off()));
+    error = m.error();
+    truth = true_error(m);
+  }
+  EXPECT_GE(runs, 3);
+  EXPECT_LE(m.error(), round_off());
+  EXPECT_LE(truth, round_off());
+}
+
+TEST_F(ReferenceMotionTest, MoreDigitsGoDeeper) {
+  const PrecisionScope more(100);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("simple_pendulum"));
+  ReferenceMotion m(scene.problem, scene.q0, scene.p0, literal<Mpfr>("1/2"), 2, 10);
+  for (int n = 0; n < 40 && m.refine(); ++n) {
+  }
+  const ExactPoint exact = *closed_form("simple_pendulum", literal<Mpfr>("1/2"));
+  EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(m.q() - exact.q))), round_off());
+}
+
+TEST_F(ReferenceMotionTest, EndsOnTheManifold) {
+  const ReferenceMotion m = motion(2, 3);
+  Point<Mpfr> point(pendulum.problem);
+  EXPECT_LE(log2_of(max_norm(point.constraints(m.q()))), round_off());
+  EXPECT_LE(log2_of(max_norm(point.hidden_constraints(m.q(), m.p()))), round_off());
+}
+
+TEST_F(ReferenceMotionTest, PolynomialsOfOneStepGoFromStartToEnd) {
+  const ReferenceMotion m = motion(1, 12);
+  const StepPolynomials& step = m.polynomials();
+  EXPECT_EQ(step.h, duration);
+  Vector<Mpfr> u(2), v(2);
+  step.at(pendulum.problem, Mpfr(0), u, v);
+  EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(u - pendulum.q0))), round_off());
+  EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(v - pendulum.p0))), round_off());
+  step.at(pendulum.problem, Mpfr(1), u, v);
+  EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(u - m.q()))), round_off());
+  EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(v - step.p1))), round_off());
+  // p is v(h), of order s only, after its projection.
+  Point<Mpfr> point(pendulum.problem);
+  EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(point.tangential(u, v) - m.p()))), round_off());
+}
+
+TEST_F(ReferenceMotionTest, PolynomialsAreOfTheLastStep) {
+  const ReferenceMotion m = motion(4, 8);
+  EXPECT_EQ(m.polynomials().h, Mpfr(duration / 4));
+  Vector<Mpfr> u(2), v(2);
+  m.polynomials().at(pendulum.problem, Mpfr(0), u, v);
+  const ExactPoint before = *closed_form("simple_pendulum", Mpfr(duration * 3 / 4));
+  EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(u - before.q))), m.error());
+  Point<Mpfr> point(pendulum.problem);
+  EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(point.tangential(u, v) - before.p))), m.error());
+}
+
+/// Inside a step the polynomials are the motion up to O(h^(s+1)), (norm).
+TEST_F(ReferenceMotionTest, PolynomialsFollowTheMotion) {
+  const auto worst = [&](const char* length, int stages) {
+    const Mpfr time = literal<Mpfr>(length);
+    const ReferenceMotion m(pendulum.problem, pendulum.q0, pendulum.p0, time, 1, stages);
+    EXPECT_EQ(m.polynomials().gamma.rows(), stages + 2) << "it has been refined once";
+    Vector<Mpfr> u(2), v(2);
+    Mpfr error = 0;
+    for (int n = 1; n < 8; ++n) {
+      const Mpfr tau = Mpfr(n) / 8;
+      m.polynomials().at(pendulum.problem, tau, u, v);
+      const ExactPoint exact = *closed_form("simple_pendulum", Mpfr(tau * time));
+      raise_to(error, max_norm(Vector<Mpfr>(u - exact.q)));
+      raise_to(error, max_norm(Vector<Mpfr>(v - exact.p)));
+    }
+    return log2_of(error);
+  };
+  const double rate = (worst("1/64", 4) - worst("1/1024", 4)) / 4;
+  EXPECT_NEAR(rate, 7, double{1} / 2) << "six stages";
+}
+
+TEST(Log2, IsOfTheMagnitude) {
+  const PrecisionScope digits(50);
+  EXPECT_EQ(log2_of(Mpfr(1)), 0);
+  EXPECT_EQ(log2_of(Mpfr(-8)), 3);
+  EXPECT_EQ(log2_of(Mpfr(1) / 4), -2);
+  EXPECT_DOUBLE_EQ(log2_of(Mpfr(10)), std::log2(10));
+}
+
+TEST(Log2, OfZeroIsMinusInfinity) {
+  const PrecisionScope digits(50);
+  EXPECT_EQ(log2_of(Mpfr(0)), -std::numeric_limits<double>::infinity());
+}
+
+/// Far outside the range of double.
+TEST(Log2, OfAnyNumberIsADouble) {
+  const PrecisionScope digits(50);
+  EXPECT_DOUBLE_EQ(log2_of(pow(Mpfr(2), -1'000'000)), -1'000'000);
+  EXPECT_DOUBLE_EQ(log2_of(pow(Mpfr(10), 5'000)), 5'000 * std::log2(10));
+}
+
+}  // namespace
+}  // namespace hbvm
