@@ -116,7 +116,8 @@ void audit_command(const Options& o) {
   const std::optional<fs::path> folder = folder_of(o);
   std::map<std::string, Finding> known;
   std::ofstream store;
-  if (folder && o.full) {
+  // The paper's claims alone: files that others name may have changed.
+  if (folder && o.full && !o.method && !(o.claims && fs::is_regular_file(*o.claims))) {
     const std::string path = (*folder / "findings.jsonl").string();
     known = read_lines(path);
     store.open(path, std::ios::app);
