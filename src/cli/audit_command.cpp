@@ -175,7 +175,7 @@ void add_audit_command(CLI::App& app) {
   command->add_option("--claims", o->claims,
                       "Only claims whose label, quantity, problem or method holds this text; or a TOML file of claims");
   auto* const quick = command->add_flag("--quick", o->quick, "s = 1, 2, 3 (default): well under two minutes");
-  command->add_flag("--full", o->full, "s = 1 .. 8, 12 and 20, every problem: may take an hour, see --out")
+  command->add_flag("--full", o->full, "s = 1 .. 8, 12 and 20, every problem: a quarter of an hour, see --out")
       ->excludes(quick);
   command->add_option("--method", o->method, "Audit the Runge-Kutta tableau in this TOML file: A, b, c as exact text");
   command->add_option(
@@ -185,7 +185,11 @@ void add_audit_command(CLI::App& app) {
   command->add_option("--jobs", o->jobs, "Threads")->capture_default_str();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
-      "A claim: quantity, problem, method, rate; see studies/orders_beyond_round_off. Exit code 1 if one fails.\n"
+      "Exit code 1 if a claim fails. A file of claims: tables [[claim]] with quantity, problem, method and rate, as\n"
+      "  quantity = \"raw p\", problem = \"double_pendulum\", method = \"hbvm:3,2\", rate = \"2*s\"; a tableau:\n"
+      "  A = [[\"1/4\", \"1/4-sqrt(3)/6\"], [\"1/4+sqrt(3)/6\", \"1/4\"]], b = [\"1/2\", \"1/2\"], c if it is not the "
+      "row sums.\n"
+      "See studies/orders_beyond_round_off.\n"
       "Example: hbvm audit --claims evaik --out audit");
   command->callback([o] { audit_command(*o); });
 }

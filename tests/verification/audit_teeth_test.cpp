@@ -9,14 +9,8 @@ namespace hbvm {
 namespace {
 
 Claim claim(Quantity quantity, const std::string& problem, MethodName method, Span span, Form form, double predicted) {
-  Claim c;
-  c.label = "test";
-  c.quantity = quantity;
-  c.problem = problem;
+  Claim c = make_claim("test", quantity, problem, span, form, predicted);
   c.method = method;
-  c.span = span;
-  c.form = form;
-  c.predicted = predicted;
   return c;
 }
 

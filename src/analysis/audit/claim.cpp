@@ -64,6 +64,18 @@ std::string_view name_of(Verdict verdict) {
   return names[static_cast<int>(verdict)];
 }
 
+Claim make_claim(const std::string& label, Quantity quantity, const std::string& problem, Span span, Form form,
+                 double predicted) {
+  Claim claim;
+  claim.label = label;
+  claim.quantity = quantity;
+  claim.problem = problem;
+  claim.span = span;
+  claim.form = form;
+  claim.predicted = predicted;
+  return claim;
+}
+
 std::string Claim::method_text() const {
   if (tableau) return tableau->name;
   return "HBVM(" + std::to_string(method.k) + "," + std::to_string(method.s) + ")";

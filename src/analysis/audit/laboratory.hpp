@@ -104,7 +104,4 @@ struct Size {
 using Sizes = std::map<Quantity, Size>;
 void raise(Sizes& sizes, Quantity quantity, double error, double floor);
 
-/// Ladders of some quantities, by precision.
-using Ladders = std::map<Quantity, std::vector<Rung>>;
-
 }  // namespace hbvm

@@ -42,15 +42,8 @@ class List {
 
  private:
   void add(const std::string& label, Quantity quantity, Span span, Form form, double predicted) {
-    Claim claim;
-    claim.label = label;
-    claim.quantity = quantity;
-    claim.problem = problem_;
-    claim.method = method_;
-    claim.span = span;
-    claim.form = form;
-    claim.predicted = predicted;
-    claims_.push_back(std::move(claim));
+    claims_.push_back(make_claim(label, quantity, problem_, span, form, predicted));
+    claims_.back().method = method_;
   }
 
   std::string problem_;

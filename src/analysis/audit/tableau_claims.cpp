@@ -10,14 +10,8 @@ std::vector<Claim> tableau_claims(const std::shared_ptr<const Tableau>& tableau)
   std::vector<Claim> claims;
   const auto add = [&](const std::string& label, Quantity quantity, const std::string& problem, Form form,
                        double predicted) {
-    Claim claim;
-    claim.label = label;
-    claim.quantity = quantity;
-    claim.problem = problem;
-    claim.tableau = tableau;
-    claim.form = form;
-    claim.predicted = predicted;
-    claims.push_back(std::move(claim));
+    claims.push_back(make_claim(label, quantity, problem, Span::interval, form, predicted));
+    claims.back().tableau = tableau;
   };
   const std::string stated = tableau->order ? "stated order" : "order to ten digits";
   add(stated, Quantity::order_conditions, "tableau", Form::at_least, nominal);

@@ -77,6 +77,10 @@ struct Claim {
   std::string method_text() const;
 };
 
+/// A claim whose method is still to be said.
+Claim make_claim(const std::string& label, Quantity quantity, const std::string& problem, Span span, Form form,
+                 double predicted);
+
 enum class Verdict { holds, fails, undecidable };
 std::string_view name_of(Verdict verdict);
 

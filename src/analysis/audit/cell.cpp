@@ -1,0 +1,21 @@
+#include "cell.hpp"
+
+#include <algorithm>
+
+namespace hbvm {
+
+int Cell::stages() const {
+  const Claim& claim = subject();
+  return claim.tableau ? std::min(claim.tableau->stages(), 20) : claim.method.s;
+}
+
+bool Cell::is_lost(const Ladders& ladders) const {
+  return std::none_of(ladders.begin(), ladders.end(),
+                      [&](const auto& ladder) { return asks_for(ladder.first) && ladder.second.back().is_clean(); });
+}
+
+bool Cell::asks_for(Quantity quantity) const {
+  return std::any_of(claims.begin(), claims.end(), [&](const Claim& claim) { return claim.quantity == quantity; });
+}
+
+}  // namespace hbvm
