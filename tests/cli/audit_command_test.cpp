@@ -65,6 +65,7 @@ TEST(AuditCommand, AuditsATableau) {
     EXPECT_EQ(claim.at("method"), "Gauss");
   }
   const Json bad = json_of({"--method", folder.write("wrong.toml", wrong_digit)}, 1);
+  EXPECT_EQ(bad.at("claims").at(0).at("reason"), "the conditions of order 2 are off by 5.0e-26");
   int failing = 0;
   for (const Json& claim : bad.at("claims")) failing += claim.at("verdict") == "fails";
   EXPECT_GE(failing, 4);

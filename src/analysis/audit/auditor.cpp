@@ -236,7 +236,10 @@ void Auditor::measure_special() {
       f.claim.form == Form::at_least ? f.claim.predicted - f.measured : std::abs(f.measured - f.claim.predicted);
   f.verdict = miss <= f.claim.tolerance ? Verdict::holds : Verdict::fails;
   if (f.verdict == Verdict::fails)
-    f.reason = f.claim.quantity == Quantity::C ? "c is not the sum of the rows of A" : "the value is another";
+    f.reason = f.claim.quantity == Quantity::C ? "c is not the sum of the rows of A"
+               : f.claim.quantity == Quantity::order_conditions
+                   ? order_flaw(*f.claim.tableau, static_cast<int>(f.measured))
+                   : "the value is another";
 }
 
 void Auditor::settle(std::size_t c, const Precision& precision, std::optional<double> units, const std::string& reason,

@@ -37,6 +37,9 @@ std::map<Quantity, double> tableau_defects(const Claim& subject);
 /// Of hidden_constant, hidden_drift or sweeps; of a tableau its order, or the greatest q for which it fulfils C(q).
 double special_value(const Claim& claim);
 
+/// Which conditions keep a tableau from having more than this order, and by how much they are missed.
+std::string order_flaw(const Tableau& tableau, int order);
+
 #define HBVM_DECLARE(S)                                                         \
   extern template Ladders step_ladder<S>(const Cell&, const Enough&);           \
   extern template Ladders interval_ladder<S>(const Cell&, long, const Enough&); \

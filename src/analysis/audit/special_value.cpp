@@ -2,6 +2,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/problem/constraint.hpp"
+#include "hbvm/scalar/text.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {
@@ -129,6 +130,14 @@ double tableau_value(const Claim& claim) {
 }
 
 }  // namespace
+
+std::string order_flaw(const Tableau& tableau, int order) {
+  if (order < 0 || order >= max_tree_order) return "the conditions show another order";
+  const PrecisionScope scope(100);
+  const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau);
+  const std::vector<Mpfr> defects = order_defects(method, order + 1);
+  return "the conditions of order " + std::to_string(order + 1) + " are off by " + to_scientific(defects.back(), 2);
+}
 
 double special_value(const Claim& claim) {
   if (claim.tableau) return tableau_value(claim);
