@@ -32,6 +32,7 @@ std::string markdown_cell(const std::string& cell) {
 /// Names like e_H and rate_lambda as formulas.
 std::string latex_name(const std::string& name) {
   if (name.starts_with("rate")) return "rate";
+  if (name == "+-") return "$\\pm$";
   const auto underscore = name.find('_');
   if (underscore == std::string::npos) return name.size() == 1 ? "$" + name + "$" : name;
   std::string index = name.substr(underscore + 1);
@@ -46,6 +47,7 @@ std::string latex_name(const std::string& name) {
 
 /// Text as LaTeX shows it.
 std::string latex_text(const std::string& text) {
+  if (text.starts_with(">= ")) return "$\\ge$ " + latex_text(text.substr(3));
   std::string result;
   for (const char c : text) {
     if (c == '_' || c == '&' || c == '%' || c == '#')
@@ -92,15 +94,25 @@ std::string to_latex(const Table& table) {
   const std::string span = std::to_string(names.size());
   std::string text;
   for (const std::string& line : table.provenance) text += "% " + line + "\n";
-  text += "\\begin{table}[t]\n\\caption{" + table.caption + "}\n\\smallskip\\small\n\\centerline{\n\\begin{tabular}{|" +
-          std::string(names.size(), 'c') + "|}\n\\hline\n";
+  // What does not fit on a page is set by the package longtable.
+  constexpr std::size_t rows_of_a_page = 50;
+  std::size_t rows = 0;
+  for (const auto& group : table.groups) rows += group.rows.size();
+  const bool fits = rows <= rows_of_a_page;
+  const std::string columns = "{|" + std::string(names.size(), 'c') + "|}\n",
+                    caption = "\\caption{" + table.caption + "}";
+  text += fits ? "\\begin{table}[t]\n" + caption + "\n\\smallskip\\small\n\\centerline{\n\\begin{tabular}" + columns
+               : "\\begin{longtable}" + columns + caption + "\\\\\n";
+  text += "\\hline\n";
   for (const auto& group : table.groups) {
-    if (!group.heading.empty()) text += "\\multicolumn{" + span + "}{|c|}{$" + group.heading + "$}\\\\\n\\hline\n";
+    const bool formula = group.heading.find('=') != std::string::npos;
+    const std::string heading = formula ? "$" + group.heading + "$" : latex_text(group.heading);
+    if (!heading.empty()) text += "\\multicolumn{" + span + "}{|c|}{" + heading + "}\\\\\n\\hline\n";
     text += joined(names, " & ") + "\\\\\n\\hline\n";
     for (const auto& row : group.rows) text += joined(each(row, latex_text), " & ") + "\\\\\n";
     text += "\\hline\n\\hline\n";
   }
-  return text + "\\end{tabular}}\n\\end{table}\n";
+  return text + (fits ? "\\end{tabular}}\n\\end{table}\n" : "\\end{longtable}\n");
 }
 
 }  // namespace hbvm

@@ -51,7 +51,20 @@ TEST(Figure, ScriptQuotesItsTexts) {
   EXPECT_NE(script.find("set size ratio -1"), std::string::npos);
 }
 
-TEST(Tables, KeepWhatSeparatesCellsInsideThem) {
+TEST(Table, LatexOfManyRowsMayBreakAcrossPages) {
+  Table many{"Many", {}, {}, {"a", "+-"}, {{"heavy_top", {}, {{">= 2", "1"}}}}};
+  const std::string one = to_latex(many);
+  EXPECT_NE(one.find("\\multicolumn{2}{|c|}{heavy\\_top}\\\\"), std::string::npos) << one;
+  EXPECT_NE(one.find("\n$a$ & $\\pm$\\\\"), std::string::npos) << one;
+  EXPECT_NE(one.find("\n$\\ge$ 2 & 1\\\\"), std::string::npos) << one;
+  EXPECT_TRUE(one.ends_with("\\end{table}\n"));
+  many.groups[0].rows.resize(51, {"x", "y"});
+  const std::string text = to_latex(many);
+  EXPECT_EQ(text.find("\\begin{longtable}{|cc|}\n\\caption{Many}\\\\\n\\hline"), 0u) << text;
+  EXPECT_TRUE(text.ends_with("\\end{longtable}\n"));
+}
+
+TEST(Table, KeepsWhatSeparatesCells) {
   const Table separators{"", {}, {}, {"a", "b"}, {{"", {}, {{"HBVM(3,2) \"Gauss\"", "x | y & 5 %"}}}}};
   EXPECT_NE(to_csv(separators).find("\n\"HBVM(3,2) \"\"Gauss\"\"\",x | y & 5 %\n"), std::string::npos)
       << to_csv(separators);
