@@ -46,7 +46,7 @@ ReferenceMotion::ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr
 void ReferenceMotion::run() {
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(stages_, stages_);
   const Mpfr h = duration_ / steps_;
-  Stepper<Mpfr> stepper(problem_, method, h, first_ ? SolverKind::newton : SolverKind::fixed_point);
+  Stepper<Mpfr> stepper(problem_, method, h, stages_ == first_stages_ ? SolverKind::newton : SolverKind::fixed_point);
   State<Mpfr> state(q0_, p0_);
   for (long n = 0; n < steps_; ++n) {
     if (n + 1 == steps_) polynomials_.q0 = state.q;
@@ -58,21 +58,26 @@ void ReferenceMotion::run() {
   polynomials_.h = h;
   polynomials_.p1 = state.p;
   polynomials_.gamma = stepper.solver().unknowns().gamma;
-  first_ = false;
+}
+
+bool ReferenceMotion::is_exact() const {
+  const double round_off = static_cast<double>(-mpfr_working_bits()),
+               size = log2_of(Mpfr(1 + max_norm(q_) + max_norm(p_)));
+  return std::max(errors_.q, errors_.p) < round_off + size;
 }
 
 bool ReferenceMotion::refine() {
-  const double round_off = static_cast<double>(-mpfr_working_bits());
-  if (error_ < round_off + log2_of(Mpfr(1 + max_norm(q_) + max_norm(p_)))) return false;
+  if (is_exact()) return false;
   const Vector<Mpfr> q = q_, p = p_, lambda = lambda_;
+  const bool first = stages_ == first_stages_;
   stages_ += 2;
   run();
-  Mpfr change = max_norm(Vector<Mpfr>(q_ - q));
-  raise_to(change, max_norm(Vector<Mpfr>(p_ - p)));
-  raise_to(change, max_norm(Vector<Mpfr>(lambda_ - lambda)));
-  const double before = error_;
-  error_ = std::max(log2_of(change), round_off);
-  return before == 0 || error_ < before;
+  const auto change = [](const Vector<Mpfr>& now, const Vector<Mpfr>& before) {
+    return std::max(log2_of(max_norm(Vector<Mpfr>(now - before))), static_cast<double>(-mpfr_working_bits()));
+  };
+  const Errors before = errors_;
+  errors_ = {change(q_, q), change(p_, p), change(lambda_, lambda)};
+  return first || std::max(errors_.q, errors_.p) < std::max(before.q, before.p);
 }
 
 }  // namespace hbvm

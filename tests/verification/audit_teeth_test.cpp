@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "analysis/audit/cell.hpp"
 #include "hbvm/analysis/audit/audit.hpp"
 #include "hbvm/error.hpp"
 
@@ -202,6 +203,16 @@ TEST(Audit, TakesRoundOffOfDoubleForNoAnswer) {
                 .front()
                 .verdict,
             Verdict::fails);
+}
+
+/// A rung that is lost in the error of the reference is no proof that the error is small.
+TEST(Audit, TakesTheReferencesErrorForNoAnswer) {
+  const Rung lost{-3, -20, -18, true};
+  EXPECT_FALSE(lost.is_clean());
+  Cell cell;
+  cell.claims.push_back(claim(Quantity::q, "kepler", {1, 1}, Span::interval, Form::at_least, 2));
+  EXPECT_FALSE(cell.is_lost({{Quantity::q, {lost}}}));
+  EXPECT_TRUE(cell.is_lost({{Quantity::q, {{-3, -20, -18}}}}));
 }
 
 TEST(Audit, KnowsWhatDoesNotExist) {

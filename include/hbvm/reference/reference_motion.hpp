@@ -30,11 +30,16 @@ class ReferenceMotion {
   const Vector<Mpfr>& q() const { return q_; }
   const Vector<Mpfr>& p() const { return p_; }
   const Vector<Mpfr>& lambda() const { return lambda_; }
-  /// log2 of the estimated error of q, p and lambda: of those one run earlier, so that it errs on the safe side.
-  double error() const { return error_; }
+  /// log2 of the estimated errors: of those one run earlier, so that they err on the safe side.
+  struct Errors {
+    double q = 0, p = 0, lambda = 0;
+  };
+  const Errors& errors() const { return errors_; }
   /// Of the last step.
   const StepPolynomials& polynomials() const { return polynomials_; }
 
+  /// Whether the errors of q and p are round-off.
+  bool is_exact() const;
   /// One more run, unless the last one changed nothing but round-off. \return whether it was made
   bool refine();
 
@@ -45,12 +50,11 @@ class ReferenceMotion {
   Vector<Mpfr> q0_, p0_;
   Mpfr duration_;
   long steps_;
-  int stages_;
-  bool first_ = true;
+  int first_stages_, stages_;
   Point<Mpfr> point_;
   Vector<Mpfr> q_, p_, lambda_;
   StepPolynomials polynomials_;
-  double error_ = 0;
+  Errors errors_;
 };
 
 /// log2 |x|, -infinity for 0: a double holds that of any number.

@@ -101,9 +101,13 @@ void Auditor::climb(std::size_t at_least, const Measure& measure) {
       const auto ladder = ladders.find(f.claim.quantity);
       if (ladder == ladders.end()) {
         f.precision = precision.name();
-        f.verdict = ladders.empty() ? Verdict::fails : Verdict::undecidable;
-        f.reason = ladders.empty() ? "no step can be made: the stage equations have no solution that is found"
-                                   : "the quantity does not exist on this problem";
+        f.verdict = Verdict::undecidable;
+        f.reason = "the quantity does not exist on this problem";
+        if (!ladders.empty()) continue;
+        // Steps that are all too long for a fast motion say nothing; but the shortest one step must be possible.
+        f.verdict = unit_.kind == Kind::step ? Verdict::fails : Verdict::undecidable;
+        f.reason = unit_.kind == Kind::step ? "no step can be made: the stage equations have no solution that is found"
+                                            : "all steps are too long for the motion: no run could be made";
         continue;
       }
       f.evidence.push_back({precision.name(), ladder->second});
@@ -151,7 +155,8 @@ void Auditor::take(Finding& f, const std::vector<Rung>& rungs, const Precision& 
   std::optional<Rate> rate = convergence_rate(rungs);
   if (!rate) {
     // An error that no step brings above the round-off of so many digits is O(h^rate) for any rate.
-    const bool none = std::none_of(rungs.begin(), rungs.end(), [](const Rung& r) { return r.is_clean(); });
+    const bool none =
+        std::none_of(rungs.begin(), rungs.end(), [](const Rung& r) { return r.is_clean() || r.by_reference; });
     const bool vanishes = none && !rungs.empty() && f.claim.form == Form::at_least && precision.digits() >= 100;
     f.verdict = vanishes ? Verdict::holds : Verdict::undecidable;
     f.measured = f.uncertainty = std::numeric_limits<double>::quiet_NaN();

@@ -10,8 +10,9 @@ int Cell::stages() const {
 }
 
 bool Cell::is_lost(const Ladders& ladders) const {
-  return std::none_of(ladders.begin(), ladders.end(),
-                      [&](const auto& ladder) { return asks_for(ladder.first) && ladder.second.back().is_clean(); });
+  return std::none_of(ladders.begin(), ladders.end(), [&](const auto& ladder) {
+    return asks_for(ladder.first) && (ladder.second.back().is_clean() || ladder.second.back().by_reference);
+  });
 }
 
 bool Cell::asks_for(Quantity quantity) const {

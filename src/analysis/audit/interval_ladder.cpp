@@ -20,22 +20,40 @@ class Destination {
               int s)
       : laboratory_(laboratory), start_(start), until_(until), s_(s), known_(closed_form(scene, until)) {}
 
-  /// At least so exact if that can be had: log2 of the error wanted.
-  void sharpen(double wanted) {
+  /// At least so exact if that can be had: log2 of the errors wanted. More stages are tried first, then shorter steps.
+  /// \throws StageFailure
+  void sharpen(double wanted_q, double wanted_p) {
     if (known_) return;
-    if (!motion_) motion_.emplace(laboratory_.problem(), start_.q, start_.p, until_, 16, s_ + 2);
-    while (motion_->error() > wanted && motion_->refine()) {
+    for (int refinements = 0;; ++refinements) {
+      try {
+        if (!motion_) motion_.emplace(laboratory_.problem(), start_.q, start_.p, until_, steps_, s_ + 2);
+        if (motion_->errors().q <= wanted_q && motion_->errors().p <= wanted_p) return;
+        if (refinements < most_refinements && motion_->refine()) continue;
+        if (motion_->is_exact() || steps_ >= most_steps) return;
+      } catch (const StageFailure&) {
+        if (steps_ >= most_steps) throw;
+      }
+      motion_.reset();
+      steps_ *= 8;
+      refinements = 0;
     }
   }
   const Vector<Mpfr>& q() const { return known_ ? known_->q : motion_->q(); }
   const Vector<Mpfr>& p() const { return known_ ? known_->p : motion_->p(); }
-  double error() const { return known_ ? static_cast<double>(-mpfr_working_bits()) : motion_->error(); }
+  ReferenceMotion::Errors errors() const {
+    const double round_off = static_cast<double>(-mpfr_working_bits());
+    return known_ ? ReferenceMotion::Errors{round_off, round_off, round_off} : motion_->errors();
+  }
 
  private:
+  static constexpr int most_refinements = 8;
+  static constexpr long most_steps = 8'192;
+
   Laboratory& laboratory_;
   const Laboratory::Start& start_;
   Mpfr until_;
   int s_;
+  long steps_ = 16;
   std::optional<ExactPoint> known_;
   std::optional<ReferenceMotion> motion_;
 };
@@ -65,6 +83,7 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
   Ladders ladders;
   for (long n = 4; n <= most; n *= 2) {
     Sizes sizes;
+    Margins margins;
     const Mpfr h = until / n;
     const double log2_h = log2_of(h);
     try {
@@ -97,27 +116,32 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
         }
         if (!end_errors) continue;
         const Vector<Mpfr> tangential = point.tangential(q, p);
-        exact.sharpen(0);
-        // The reference must be better than what is measured by four bits; its momentum decides, too.
-        const double least = log2_of(std::max(distance(q, exact.q()), distance(tangential, exact.p())));
-        exact.sharpen(std::max(least, q_unit) - 8);
-        const double margin = exact.error() + 4;
-        add(Quantity::q, distance(q, exact.q()), std::max({q_unit, p_unit, margin}));
-        add(Quantity::p, distance(p, exact.p()), std::max({q_unit, p_unit, margin}));
+        // The reference must be better than what is measured, which it takes a reference to know.
+        exact.sharpen(0, 0);
+        for (double before = 1; std::max(exact.errors().q, exact.errors().p) < before;) {
+          before = std::max(exact.errors().q, exact.errors().p);
+          exact.sharpen(std::max(log2_of(distance(q, exact.q())), q_unit) - 8,
+                        std::max(log2_of(distance(tangential, exact.p())), p_unit) - 8);
+        }
+        const Margins margin(exact.errors());
+        margins.raise(margin);
+        add(Quantity::q, distance(q, exact.q()), std::max({q_unit, p_unit, margin.q}));
+        add(Quantity::p, distance(p, exact.p()), std::max({q_unit, p_unit, margin.p}));
         if (!constrained) continue;
-        add(Quantity::tangential_p, distance(tangential, exact.p()), std::max({q_unit, p_unit, margin}));
+        add(Quantity::tangential_p, distance(tangential, exact.p()), std::max({q_unit, p_unit, margin.p}));
         const Vector<Mpfr> exact_lambda = point.multiplier(exact.q(), exact.p());
         const double lambda_unit = std::max({unit + log2_of(max_norm(exact_lambda)), q_unit, p_unit});
         Vector<Mpfr> lambda = exact_lambda;
         trial.multiplier(lambda);
         add(Quantity::output_lambda, distance(point.multiplier(q, tangential), exact_lambda),
-            std::max(lambda_unit, margin));
-        add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(lambda_unit - log2_h, margin));
+            std::max(lambda_unit, margin.lambda));
+        add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(lambda_unit - log2_h, margin.lambda));
       }
     } catch (const StageFailure&) {
       continue;  // the step is too large for the solver
     }
-    for (const auto& [quantity, size] : sizes) ladders[quantity].push_back({log2_h, size.error, size.floor});
+    for (const auto& [quantity, size] : sizes)
+      ladders[quantity].push_back({log2_h, size.error, size.floor, margins.set(size.floor)});
     if (enough(ladders)) break;
   }
   return ladders;

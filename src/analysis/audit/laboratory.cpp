@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hbvm/basis/gauss_legendre.hpp"
+#include "hbvm/error.hpp"
 #include "hbvm/reference/closed_form.hpp"
 
 namespace hbvm {
@@ -26,9 +27,23 @@ Laboratory::Laboratory(const std::string& scene, int first, int count) : assembl
     starts_.push_back({assembled_.q0, assembled_.p0});
     return;
   }
+  // A motion that 1/8 is too long a step for is faster: then shorter steps lead to states that differ as much.
+  for (int halvings = 3;; halvings += 3) {
+    try {
+      walk(first, count, ldexp(Mpfr(1), -halvings));
+      break;
+    } catch (const StageFailure& failure) {
+      if (halvings > 20)
+        throw IntegrationError("problem '" + scene + "': no state but the start can be reached: " + failure.what());
+    }
+  }
+}
+
+void Laboratory::walk(int first, int count, const Mpfr& h) {
   // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion.
+  starts_.clear();
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 4);
-  Stepper<Mpfr> stepper(assembled_.problem, method, Mpfr(1) / 8, SolverKind::automatic);
+  Stepper<Mpfr> stepper(assembled_.problem, method, h, SolverKind::automatic);
   State<Mpfr> state(assembled_.q0, assembled_.p0);
   const int last = 3 + 2 * (first + count - 1);
   for (int n = 1; n <= last; ++n) {
@@ -123,6 +138,15 @@ void raise(Sizes& sizes, Quantity quantity, double error, double floor) {
   if (is_new) return;
   place->second.error = std::max(place->second.error, error);
   place->second.floor = std::max(place->second.floor, floor);
+}
+
+// Four bits more than the estimate.
+Margins::Margins(const ReferenceMotion::Errors& errors) : q(errors.q + 4), p(errors.p + 4), lambda(errors.lambda + 4) {}
+
+void Margins::raise(const Margins& other) {
+  q = std::max(q, other.q);
+  p = std::max(p, other.p);
+  lambda = std::max(lambda, other.lambda);
 }
 
 #define HBVM_DEFINE(S)                                                                                              \

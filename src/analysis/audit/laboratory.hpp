@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <variant>
@@ -34,7 +35,7 @@ class Laboratory {
 
   /// \param first, count: which states. State 0 is on the scene's motion some steps after its start, state i further
   /// on; of a scene with a closed form it is the scene's own start, and the only one.
-  /// \throws InputError, IntegrationError, StageFailure
+  /// \throws InputError, IntegrationError
   Laboratory(const std::string& scene, int first, int count);
 
   const Problem<Mpfr>& problem() const { return assembled_.problem; }
@@ -42,6 +43,8 @@ class Laboratory {
   Point<Mpfr>& point() { return *point_; }
 
  private:
+  void walk(int first, int count, const Mpfr& h);
+
   Assembled<Mpfr> assembled_;
   std::vector<Start> starts_;
   std::optional<Point<Mpfr>> point_;
@@ -103,5 +106,17 @@ struct Size {
 };
 using Sizes = std::map<Quantity, Size>;
 void raise(Sizes& sizes, Quantity quantity, double error, double floor);
+
+/// log2 of the least errors that can be told from the reference's own, by component; the greatest over several starts.
+struct Margins {
+  static constexpr double none = -std::numeric_limits<double>::infinity();
+  double q = none, p = none, lambda = none;
+
+  Margins() = default;
+  explicit Margins(const ReferenceMotion::Errors& errors);
+  void raise(const Margins& other);
+  /// Whether a floor is one of these, and not round-off.
+  bool set(double floor) const { return floor == q || floor == p || floor == lambda; }
+};
 
 }  // namespace hbvm

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "hbvm/reference/closed_form.hpp"
 #include "measurements.hpp"
@@ -19,7 +18,7 @@ class StepMeasurement {
   StepMeasurement(Laboratory& laboratory, const Cell& cell, double log2_epsilon)
       : laboratory_(laboratory), subject_(cell.subject()), unit_(log2_epsilon + roundings), s_(cell.stages()) {}
 
-  void measure(Trial<S>& trial, const Laboratory::Start& start, double log2_h, Sizes& sizes) {
+  Margins measure(Trial<S>& trial, const Laboratory::Start& start, double log2_h, Sizes& sizes) {
     const Problem<Mpfr>& problem = laboratory_.problem();
     Point<Mpfr>& point = laboratory_.point();
     const Mpfr h = ldexp(Mpfr(1), static_cast<int>(log2_h));
@@ -30,7 +29,7 @@ class StepMeasurement {
     const ReferenceMotion exact(problem, start.q, start.p, h, 1, s_ + 2);
 
     const double q_unit = unit_ + log2_of(max_norm(start.q)), p_unit = unit_ + log2_of(max_norm(start.p));
-    const double margin = exact.error() + 4;
+    const Margins margin(exact.errors());
     const auto add = [&](Quantity quantity, const Mpfr& error, double floor) {
       raise(sizes, quantity, log2_of(error), floor);
     };
@@ -40,24 +39,26 @@ class StepMeasurement {
       exact_p = point_there->p;
       exact_lambda = point.multiplier(exact_q, exact_p);
     }
-    add(Quantity::q, distance(q, exact_q), std::max({q_unit, p_unit + log2_h, margin}));
-    add(Quantity::p, distance(p, exact_p), std::max(p_unit, margin));
+    add(Quantity::q, distance(q, exact_q), std::max({q_unit, p_unit + log2_h, margin.q}));
+    add(Quantity::p, distance(p, exact_p), std::max(p_unit, margin.p));
     add(Quantity::H, abs(Mpfr(point.energy(q, p) - point.energy(start.q, start.p))),
         unit_ + log2_of(point.energy_size(start.q, start.p)));
-    if (trial.has_polynomials()) add_polynomials(trial, start, h, p, exact, std::max({q_unit, p_unit, margin}), sizes);
-    if (problem.nu() == 0) return;
+    if (trial.has_polynomials())
+      add_polynomials(trial, start, h, p, exact, std::max({q_unit, p_unit, margin.q, margin.p}), sizes);
+    if (problem.nu() == 0) return margin;
 
     const Vector<Mpfr> tangential = point.tangential(q, p), output_lambda = point.multiplier(q, tangential);
     Vector<Mpfr> lambda = output_lambda;
     trial.multiplier(lambda);
     const double lambda_unit = std::max({unit_ + log2_of(max_norm(exact_lambda)), p_unit, q_unit});
     const Mpfr hidden = max_norm(point.hidden_constraints(q, p));
-    add(Quantity::tangential_p, distance(tangential, exact_p), std::max({p_unit, q_unit, margin}));
-    add(Quantity::output_lambda, distance(output_lambda, exact_lambda), std::max(lambda_unit, margin));
+    add(Quantity::tangential_p, distance(tangential, exact_p), std::max({p_unit, q_unit, margin.p}));
+    add(Quantity::output_lambda, distance(output_lambda, exact_lambda), std::max(lambda_unit, margin.lambda));
     // Multipliers come from momenta divided by h.
-    add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(lambda_unit - log2_h, margin));
+    add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(lambda_unit - log2_h, margin.lambda));
     add(Quantity::hidden, hidden, q_unit + p_unit - unit_ + 4);
     add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, start.q, p, h, s_), lambda_unit - log2_h);
+    return margin;
   }
 
  private:
@@ -96,14 +97,16 @@ Ladders step_ladder(const Cell& cell, const Enough& enough) {
   Ladders ladders;
   for (int exponent = 2; exponent <= 128; exponent += exponent < 12 ? 1 : 4) {
     Sizes sizes;
+    Margins margins;
     try {
-      for (const Laboratory::Start& start : laboratory.starts()) measurement.measure(trial, start, -exponent, sizes);
+      for (const Laboratory::Start& start : laboratory.starts())
+        margins.raise(measurement.measure(trial, start, -exponent, sizes));
     } catch (const StageFailure&) {
       if (exponent >= 12 && ladders.empty()) break;
       continue;  // the step is too large for the solver, or too small for the digits
     }
     for (const auto& [quantity, size] : sizes)
-      ladders[quantity].push_back({static_cast<double>(-exponent), size.error, size.floor});
+      ladders[quantity].push_back({static_cast<double>(-exponent), size.error, size.floor, margins.set(size.floor)});
     if (enough(ladders)) break;
   }
   return ladders;

@@ -7,9 +7,10 @@ namespace hbvm {
 
 /// An error at one step, as binary logarithms: no precision is too high for them.
 struct Rung {
-  double step;   ///< log2 h
-  double error;  ///< log2 of the error; its greatest over several starts
-  double floor;  ///< log2 of what round-off and the error of the reference explain
+  double step;                ///< log2 h
+  double error;               ///< log2 of the error; its greatest over several starts
+  double floor;               ///< log2 of what round-off and the error of the reference explain
+  bool by_reference = false;  ///< it is the error of the reference that counts: a better one could show more
   bool is_clean() const { return error > floor; }
 };
 
