@@ -88,8 +88,8 @@ std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions&
     mpfr_free_cache();
   };
   {
-    std::vector<std::jthread> helpers;
-    for (int i = 1; i < options.jobs; ++i) helpers.emplace_back(work);
+    std::vector<std::jthread> threads;
+    for (int i = 1; i < options.jobs; ++i) threads.emplace_back(work);
     work();
   }
   if (error) std::rethrow_exception(error);
