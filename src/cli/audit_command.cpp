@@ -175,7 +175,7 @@ void add_audit_command(CLI::App& app) {
   command->add_option("--claims", o->claims,
                       "Only claims whose label, quantity, problem or method holds this text; or a TOML file of claims");
   auto* const quick = command->add_flag("--quick", o->quick, "s = 1, 2, 3 (default): well under two minutes");
-  command->add_flag("--full", o->full, "s = 1 .. 8, 12 and 20, every problem: a quarter of an hour, see --out")
+  command->add_flag("--full", o->full, "s = 1 .. 8, 12 and 20, every problem: a third of an hour, see --out")
       ->excludes(quick);
   command->add_option("--method", o->method, "Audit the Runge-Kutta tableau in this TOML file: A, b, c as exact text");
   command->add_option(
