@@ -83,7 +83,8 @@ long Rattle<S>::step(State<S>& state) {
     for (Index a = 0; a < nu; ++a) set(mu_.data()[a], g_.data()[a]);
     if (!solve(after, before, mu_) || ++iterations > max_iterations)
       throw StageFailure("the positions of a RATTLE step were not found", to_scientific(increment, 3), iterations);
-    std::swap(last, increment);
+    using std::swap;
+    swap(last, increment);
     set_zero(increment);
     set_zero(size);
     for (Index a = 0; a < nu; ++a) {

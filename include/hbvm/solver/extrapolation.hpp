@@ -27,7 +27,8 @@ class Extrapolation {
     order_ = 0;
     for (Index r = 0; r < differences; ++r) {
       S* const old = differences_.data() + r * size_;
-      for (Index i = 0; i < size_; ++i) std::swap(old[i], scratch_[i]);
+      using std::swap;  // Boost has its own, which exchanges the digits; the moves of std::swap may round them
+      for (Index i = 0; i < size_; ++i) swap(old[i], scratch_[i]);
       if (r + 1 < differences)
         for (Index i = 0; i < size_; ++i) set_difference(scratch_[i], old[i], scratch_[i]);
       if (r == 0) continue;
