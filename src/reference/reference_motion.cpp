@@ -39,14 +39,16 @@ void StepPolynomials::at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<M
 ReferenceMotion::ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,
                                  const Mpfr& duration, long steps, int stages)
     : problem_(problem), q0_(q0), p0_(p0), duration_(duration), steps_(steps), stages_(stages), point_(problem) {
-  run();
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  errors_ = {unknown, unknown, unknown};
+  run(SolverKind::newton);
   refine();
 }
 
-void ReferenceMotion::run() {
+void ReferenceMotion::run(SolverKind solver) {
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(stages_, stages_);
   const Mpfr h = duration_ / steps_;
-  Stepper<Mpfr> stepper(problem_, method, h, stages_ == first_stages_ ? SolverKind::newton : SolverKind::fixed_point);
+  Stepper<Mpfr> stepper(problem_, method, h, solver);
   State<Mpfr> state(q0_, p0_);
   for (long n = 0; n < steps_; ++n) {
     if (n + 1 == steps_) polynomials_.q0 = state.q;
@@ -69,15 +71,14 @@ bool ReferenceMotion::is_exact() const {
 bool ReferenceMotion::refine() {
   if (is_exact()) return false;
   const Vector<Mpfr> q = q_, p = p_, lambda = lambda_;
-  const bool first = stages_ == first_stages_;
   stages_ += 2;
-  run();
+  run(SolverKind::fixed_point);
   const auto change = [](const Vector<Mpfr>& now, const Vector<Mpfr>& before) {
     return std::max(log2_of(max_norm(Vector<Mpfr>(now - before))), static_cast<double>(-mpfr_working_bits()));
   };
   const Errors before = errors_;
   errors_ = {change(q_, q), change(p_, p), change(lambda_, lambda)};
-  return first || std::max(errors_.q, errors_.p) < std::max(before.q, before.p);
+  return std::max(errors_.q, errors_.p) < std::max(before.q, before.p);
 }
 
 }  // namespace hbvm

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hbvm/problem/point.hpp"
-#include "hbvm/solver/stage_equations.hpp"
+#include "hbvm/solver/stage_solver.hpp"
 
 namespace hbvm {
 
@@ -32,7 +32,7 @@ class ReferenceMotion {
   const Vector<Mpfr>& lambda() const { return lambda_; }
   /// log2 of the estimated errors: of those one run earlier, so that they err on the safe side.
   struct Errors {
-    double q = 0, p = 0, lambda = 0;
+    double q, p, lambda;
   };
   const Errors& errors() const { return errors_; }
   /// Of the last step.
@@ -44,17 +44,17 @@ class ReferenceMotion {
   bool refine();
 
  private:
-  void run();
+  void run(SolverKind solver);
 
   const Problem<Mpfr>& problem_;
   Vector<Mpfr> q0_, p0_;
   Mpfr duration_;
   long steps_;
-  int first_stages_, stages_;
+  int stages_;
   Point<Mpfr> point_;
   Vector<Mpfr> q_, p_, lambda_;
   StepPolynomials polynomials_;
-  Errors errors_;
+  Errors errors_;  ///< infinite before the second run
 };
 
 /// log2 |x|, -infinity for 0: a double holds that of any number.
