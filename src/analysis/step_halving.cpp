@@ -17,11 +17,6 @@ struct Errors {
 };
 
 template <Scalar S>
-S distance(const Vector<S>& a, const Vector<S>& b) {
-  return max_norm(Vector<S>(a - b));
-}
-
-template <Scalar S>
 std::string rate(const S& above, const S& here, const S& size) {
   using std::log;
   if (here <= 16 * epsilon<S>() * size) return "***";

@@ -82,29 +82,6 @@ std::optional<fs::path> folder_of(const Options& o) {
   return folder;
 }
 
-/// The rows in columns, for a terminal.
-std::string aligned(const Table& table) {
-  std::vector<std::size_t> widths;
-  for (const std::string& column : table.columns) widths.push_back(column.size());
-  for (const auto& group : table.groups)
-    for (const auto& row : group.rows)
-      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  std::string text;
-  const auto line = [&](const std::vector<std::string>& cells) {
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      text += "  " + cells[i] + std::string(widths[i] - cells[i].size(), ' ');
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
-  };
-  for (const auto& group : table.groups) {
-    text += group.heading + "\n";
-    line(table.columns);
-    for (const auto& row : group.rows) line(row);
-    text += '\n';
-  }
-  return text;
-}
-
 void audit_command(const Options& o) {
   if (o.jobs < 1 || o.jobs > 1024) throw InputError("--jobs " + std::to_string(o.jobs) + " is not between 1 and 1024");
   const std::vector<Claim> claims = claims_of(o);
@@ -153,7 +130,7 @@ void audit_command(const Options& o) {
   if (o.json) {
     std::cout << to_json(findings, command) << std::endl;
   } else {
-    fmt::print("{}", aligned(table));
+    fmt::print("{}", to_text(table));
     for (const Finding& f : findings)
       if (f.verdict != Verdict::holds)
         fmt::print("{}: {} of {} on {}, {}\n", name_of(f.verdict), name_of(f.claim.quantity), f.claim.method_text(),

@@ -74,7 +74,7 @@ bool ReferenceMotion::refine() {
   stages_ += 2;
   run(SolverKind::fixed_point);
   const auto change = [](const Vector<Mpfr>& now, const Vector<Mpfr>& before) {
-    return std::max(log2_of(max_norm(Vector<Mpfr>(now - before))), static_cast<double>(-mpfr_working_bits()));
+    return std::max(log2_of(distance(now, before)), static_cast<double>(-mpfr_working_bits()));
   };
   const Errors before = errors_;
   errors_ = {change(q_, q), change(p_, p), change(lambda_, lambda)};

@@ -1,5 +1,7 @@
 #include "hbvm/report/table.hpp"
 
+#include <algorithm>
+
 namespace hbvm {
 namespace {
 
@@ -61,6 +63,28 @@ std::string latex_text(const std::string& text) {
 }
 
 }  // namespace
+
+std::string to_text(const Table& table) {
+  std::vector<std::size_t> widths;
+  for (const std::string& column : table.columns) widths.push_back(column.size());
+  for (const auto& group : table.groups)
+    for (const auto& row : group.rows)
+      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string text;
+  const auto line = [&](const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += "  " + cells[i] + std::string(widths[i] - cells[i].size(), ' ');
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  };
+  for (const auto& group : table.groups) {
+    text += group.heading + "\n";
+    line(table.columns);
+    for (const auto& row : group.rows) line(row);
+    text += '\n';
+  }
+  return text;
+}
 
 std::string to_csv(const Table& table) {
   const auto line = [](std::vector<std::string> cells, const std::vector<std::string>& further) {

@@ -37,7 +37,7 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, c
     for (Index a = 0; a < nu; ++a) row(0, a) = -mu[a];
     next = target;
     gradient.add_weighted_times(row, lanes(next));
-    const S increment = max_norm(Vector<S>(next - q));
+    const S increment = distance(next, q);
     q = next;
     if (!is_finite(increment)) break;
     waiting = least < 0 || increment < least ? 0 : waiting + 1;

@@ -64,6 +64,11 @@ TEST(Table, LatexOfManyRowsMayBreakAcrossPages) {
   EXPECT_TRUE(text.ends_with("\\end{longtable}\n"));
 }
 
+TEST(Table, TextHasItsColumnsAligned) {
+  EXPECT_EQ(to_text({"", {}, {}, {"claim", "k"}, {{"kepler", {}, {{"ord2s", "12"}, {"a longer one", ""}}}}}),
+            "kepler\n  claim         k\n  ord2s         12\n  a longer one\n\n");
+}
+
 TEST(Table, KeepsWhatSeparatesCells) {
   const Table separators{"", {}, {}, {"a", "b"}, {{"", {}, {{"HBVM(3,2) \"Gauss\"", "x | y & 5 %"}}}}};
   EXPECT_NE(to_csv(separators).find("\n\"HBVM(3,2) \"\"Gauss\"\"\",x | y & 5 %\n"), std::string::npos)

@@ -46,4 +46,10 @@ S max_norm(const Vector<S>& a) {
   return norm;
 }
 
+/// max |a_i - b_i|.
+template <Scalar S>
+S distance(const Vector<S>& a, const Vector<S>& b) {
+  return max_norm(Vector<S>(a - b));
+}
+
 }  // namespace hbvm

@@ -20,6 +20,8 @@ struct Table {
   std::vector<Group> groups;
 };
 
+/// Columns aligned, for a terminal.
+std::string to_text(const Table& table);
 /// Comma-separated values below # lines, the column names first, then the provenance. A cell that holds no number
 /// but a mark is left as it is.
 std::string to_csv(const Table& table);

@@ -11,8 +11,6 @@ namespace {
 /// What some thousand steps' roundings add up to, in units of the last digit, as log2.
 constexpr double roundings = 14;
 
-Mpfr distance(const Vector<Mpfr>& a, const Vector<Mpfr>& b) { return max_norm(Vector<Mpfr>(a - b)); }
-
 /// The exact motion from one start, at the end of the interval.
 class Destination {
  public:

@@ -48,8 +48,8 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell) {
     for (long n = 1; n <= steps; ++n) trial.step();
     trial.reverse();
     trial.state(q, p);
-    add(Quantity::reversal, max_norm(Vector<Mpfr>(q - start.q)), max_norm(start.q));
-    add(Quantity::reversal, max_norm(Vector<Mpfr>(p - start.p)), std::max(max_norm(start.p), max_norm(start.q)));
+    add(Quantity::reversal, distance(q, start.q), max_norm(start.q));
+    add(Quantity::reversal, distance(p, start.p), std::max(max_norm(start.p), max_norm(start.q)));
   }
   return result;
 }

@@ -9,8 +9,6 @@ namespace {
 /// What a few hundred roundings add up to, at most, in units of the last digit, as log2.
 constexpr double roundings = 12;
 
-Mpfr distance(const Vector<Mpfr>& a, const Vector<Mpfr>& b) { return max_norm(Vector<Mpfr>(a - b)); }
-
 /// One step of the method from one state against the exact motion.
 template <Scalar S>
 class StepMeasurement {
