@@ -21,7 +21,7 @@ namespace {
 
 /// The defect at the step that `stepper`, of method (k, s), has just made from (q, p).
 template <Scalar S>
-S defect_after(Stepper<S>& stepper, int k, int s, const S& step, const Vector<S>& q, const Vector<S>& p) {
+S defect_after(HbvmStepper<S>& stepper, int k, int s, const S& step, const Vector<S>& q, const Vector<S>& p) {
   const Problem<S>& problem = stepper.problem();
   const StageUnknowns<S>& x = stepper.solver().unknowns();
   const Hbvm<S> methods[2] = {make_hbvm<S>(k, s), make_hbvm<S>(k + s, s)};
@@ -47,7 +47,7 @@ template <Scalar S>
 S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, const Vector<S>& q,
                     const Vector<S>& p) {
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  Stepper<S> stepper(problem, method, step, solver);
+  HbvmStepper<S> stepper(problem, method, step, solver);
   State<S> state(q, p);
   stepper.step(state);
   return defect_after(stepper, k, s, step, q, p);
@@ -65,7 +65,7 @@ ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind sol
   constexpr int first_steps = 16;
   const auto enough = [&](int k) {
     const Hbvm<S> method = make_hbvm<S>(k, s);
-    Stepper<S> stepper(scene.problem, method, step, solver);
+    HbvmStepper<S> stepper(scene.problem, method, step, solver);
     State<S> state(scene.q0, scene.p0);
     for (int n = 0; n < first_steps; ++n) {
       const Vector<S> q = state.q, p = state.p;

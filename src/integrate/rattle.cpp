@@ -82,7 +82,8 @@ long Rattle<S>::step(State<S>& state) {
     if (found) break;
     for (Index a = 0; a < nu; ++a) set(mu_.data()[a], g_.data()[a]);
     if (!solve(after, before, mu_) || ++iterations > max_iterations)
-      throw StageFailure("the positions of a RATTLE step were not found", to_scientific(increment, 3), iterations);
+      throw StageFailure(FailureCause::stage_equations_diverge, "the positions of a RATTLE step were not found",
+                         to_scientific(increment, 3), iterations);
     using std::swap;
     swap(last, increment);
     set_zero(increment);
@@ -114,7 +115,8 @@ long Rattle<S>::step(State<S>& state) {
     problem_.mass.velocity(lanes(std::as_const(p_)), lanes(v_));
     for (Index a = 0; a < nu; ++a) after.transposed_times(a, lanes(std::as_const(v_)), &mu_(0, a));
     if (!solve(after, after, mu_))
-      throw StageFailure("the constraints' gradients are linearly dependent", to_scientific(increment, 3), iterations);
+      throw StageFailure(FailureCause::near_singular_constraints, "the constraints' gradients are linearly dependent",
+                         to_scientific(increment, 3), iterations);
     for (Index a = 0; a < nu; ++a) set_negative(mu_.data()[a], mu_.data()[a]);
     after.add_times(mu_, lanes(p_));
   }

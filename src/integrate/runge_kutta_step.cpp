@@ -158,7 +158,9 @@ long RungeKuttaStep<S>::iterate(const State<S>& state) {
     set(last_, increment_);
     set(scaled_, increment_);
     if (increment_ != 0) set_quotient(scaled_, increment_, size_ > position_scale_ ? size_ : position_scale_);
-    if (!is_finite(scaled_)) throw StageFailure("an iterate is not finite", to_scientific(scaled_, 3), sweeps);
+    if (!is_finite(scaled_))
+      throw StageFailure(FailureCause::stage_equations_diverge, "an iterate is not finite", to_scientific(scaled_, 3),
+                         sweeps);
     if (sweeps == 1 || scaled_ < least_) {
       set(least_, scaled_);
       waiting = 0;
@@ -167,7 +169,8 @@ long RungeKuttaStep<S>::iterate(const State<S>& state) {
     ++waiting;
     if (scaled_ <= tolerance_ && waiting >= 2) return sweeps;
     if (waiting >= patience)
-      throw StageFailure(scaled_ > 10 * least_ ? "the increments grow" : "the increments stagnate",
+      throw StageFailure(FailureCause::stage_equations_diverge,
+                         scaled_ > 10 * least_ ? "the increments grow" : "the increments stagnate",
                          to_scientific(scaled_, 3), sweeps);
   }
 }
@@ -179,7 +182,9 @@ void RungeKuttaStep<S>::update(State<S>& state, long sweeps) {
   for (Matrix<S>* change : {&position_change_, &momentum_change_}) {
     for (Index j = 0; j < change->size(); ++j) set_product(change->data()[j], h_, change->data()[j]);
     set_max_norm(size_, *change);
-    if (!is_finite(size_)) throw StageFailure("a stage is not finite", to_scientific(size_, 3), sweeps);
+    if (!is_finite(size_))
+      throw StageFailure(FailureCause::stage_equations_diverge, "a stage is not finite", to_scientific(size_, 3),
+                         sweeps);
   }
   for (Index j = 0; j < problem_.m(); ++j) {
     add_compensated(state.q[j], state.q_carry[j], position_change_(0, j), t_);

@@ -30,7 +30,8 @@ long Automatic<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
     try {
       sweeps = failure.sweeps() + make(other).solve(q0, p0);
     } catch (const StageFailure& second) {
-      throw StageFailure(failure.what() + std::string(" (fixed point and Newton: ") + second.what() + ")",
+      throw StageFailure(failure.cause(),
+                         failure.what() + std::string(" (fixed point and Newton: ") + second.what() + ")",
                          second.increment(), failure.sweeps() + second.sweeps());
     }
     used_ = other;

@@ -108,7 +108,8 @@ long FixedPoint<S>::iterate() {
   long waiting = 0;
   for (long sweeps = 1;; ++sweeps) {
     if (!sweep())
-      throw StageFailure("the linear system (lam) for the multipliers is singular",
+      throw StageFailure(FailureCause::near_singular_constraints,
+                         "the linear system (lam) for the multipliers is singular",
                          to_scientific(sweeps > 1 ? scaled_ : S(0), 3), sweeps);
     measure_increment();
     // Once the increments are small, the scale changes no more.
@@ -128,7 +129,9 @@ long FixedPoint<S>::iterate() {
     set(last_, increment_);
     set(scaled_, increment_);
     if (increment_ != 0) set_quotient(scaled_, increment_, size_ > position_scale_ ? size_ : position_scale_);
-    if (!is_finite(scaled_)) throw StageFailure("an iterate is not finite", to_scientific(scaled_, 3), sweeps);
+    if (!is_finite(scaled_))
+      throw StageFailure(FailureCause::stage_equations_diverge, "an iterate is not finite", to_scientific(scaled_, 3),
+                         sweeps);
     if (sweeps == 1 || scaled_ < least_) {
       set(least_, scaled_);
       waiting = 0;
@@ -137,7 +140,8 @@ long FixedPoint<S>::iterate() {
     ++waiting;
     if (scaled_ <= tolerance_ && waiting >= 2) return sweeps;
     if (waiting >= patience)
-      throw StageFailure(scaled_ > 10 * least_ ? "the increments grow" : "the increments stagnate",
+      throw StageFailure(FailureCause::stage_equations_diverge,
+                         scaled_ > 10 * least_ ? "the increments grow" : "the increments stagnate",
                          to_scientific(scaled_, 3), sweeps);
   }
 }

@@ -112,7 +112,8 @@ void Newton<S>::make_rungs() {
     constexpr long limb = 64;
     for (long limbs = 2; limb * limbs < bits_; limbs = std::max(limbs + 1, limbs * 17 / 16)) {
       // The digits whose bits, with what Boost adds, fit in the limbs.
-      const auto digits = static_cast<unsigned>(static_cast<double>(limb * limbs - 4) * std::numbers::ln2 / std::numbers::ln10);
+      const auto digits =
+          static_cast<unsigned>(static_cast<double>(limb * limbs - 4) * std::numbers::ln2 / std::numbers::ln10);
       const PrecisionScope scope(digits);
       rungs_.push_back({digits, mpfr_working_bits(), std::make_unique<Level>(problem_, method_, S(h_))});
     }
@@ -134,7 +135,8 @@ long Newton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
     }
     const long sweeps = rounded_->solve(rounded_q0_, rounded_p0_);
     if (!rounded_->refresh())
-      throw StageFailure("the Jacobian of the stage equations is singular at the solution in double", "0", sweeps);
+      throw StageFailure(FailureCause::near_singular_constraints,
+                         "the Jacobian of the stage equations is singular at the solution in double", "0", sweeps);
     return sweeps + refine(q0, p0);
   }
 }
@@ -190,13 +192,14 @@ long Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
     rounded_->jacobian().solve(correction_);
     double norm = max_norm(correction_.momentum);
     raise_to(norm, max_norm(correction_.constraint));
-    if (!std::isfinite(norm)) throw StageFailure("an iterate is not finite", "nan", sweeps);
+    if (!std::isfinite(norm))
+      throw StageFailure(FailureCause::stage_equations_diverge, "an iterate is not finite", "nan", sweeps);
     for (Index i = 0; i < x_.gamma.size(); ++i)
       add_scaled(x_.gamma.data()[i], -correction_.momentum.data()[i], exponent, t_);
     for (Index i = 0; i < x_.lambda.size(); ++i)
       add_scaled(x_.lambda.data()[i], -correction_.constraint.data()[i] / h, exponent, t_);
-    const double now = norm > 0 ? std::log2(norm) + static_cast<double>(exponent) - size_bits
-                                : static_cast<double>(exponent_of_zero);
+    const double now =
+        norm > 0 ? std::log2(norm) + static_cast<double>(exponent) - size_bits : static_cast<double>(exponent_of_zero);
     const double rate = sweeps == 1 ? rate_ : std::max<double>(now - last, -bits_per_sweep);
     left = now + std::min(rate, least_rate);
     const double round_off = static_cast<double>(-bits_);
@@ -213,7 +216,8 @@ long Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
     if (converged || stagnant) left = round_off;
     waiting = rate >= least_rate ? waiting + 1 : 0;
     if (waiting >= 4 || sweeps > bits_)
-      throw StageFailure("the corrections do not fall", to_scientific(std::exp2(now), 3), sweeps);
+      throw StageFailure(FailureCause::stage_equations_diverge, "the corrections do not fall",
+                         to_scientific(std::exp2(now), 3), sweeps);
     last = now;
   }
 }

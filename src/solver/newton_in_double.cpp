@@ -55,7 +55,7 @@ long NewtonInDouble::solve(const Vector<double>& q0, const Vector<double>& p0) {
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       usable_ = false;
-      if (start == Start::shorter) throw StageFailure(failure.what(), failure.increment(), sweeps);
+      if (start == Start::shorter) throw StageFailure(failure.cause(), failure.what(), failure.increment(), sweeps);
       return false;
     }
   };
@@ -109,7 +109,8 @@ long NewtonInDouble::iterate(StageEquations<double>& equations, Jacobian& jacobi
     equations.residual(x_, residual_);
     if (slowing) {
       if (!jacobian.factor(equations, x_.lambda))
-        throw StageFailure("the Jacobian of the stage equations is singular", to_scientific(last, 3), sweeps);
+        throw StageFailure(FailureCause::near_singular_constraints, "the Jacobian of the stage equations is singular",
+                           to_scientific(last, 3), sweeps);
       usable_ = true;
     }
     momentum_ = residual_.momentum;
@@ -122,7 +123,9 @@ long NewtonInDouble::iterate(StageEquations<double>& equations, Jacobian& jacobi
     double increment = max_norm(residual_.momentum);
     raise_to(increment, max_norm(residual_.constraint));
     if (increment != 0) increment /= size;
-    if (!std::isfinite(increment)) throw StageFailure("an iterate is not finite", to_scientific(increment, 3), sweeps);
+    if (!std::isfinite(increment))
+      throw StageFailure(FailureCause::stage_equations_diverge, "an iterate is not finite", to_scientific(increment, 3),
+                         sweeps);
     // Nothing is known of it before the second sweep: a Jacobian kept from earlier steps may have become worse.
     const double rate = sweeps > 1 && last > 0 ? increment / last : 1;
     const double rate_to_come = std::max(rate, least_rate);
@@ -141,11 +144,14 @@ long NewtonInDouble::iterate(StageEquations<double>& equations, Jacobian& jacobi
       return sweeps;
     }
     growing = sweeps > 1 && increment > last ? growing + 1 : 0;
-    if (growing >= 8) throw StageFailure("the increments grow", to_scientific(increment, 3), sweeps);
+    if (growing >= 8)
+      throw StageFailure(FailureCause::stage_equations_diverge, "the increments grow", to_scientific(increment, 3),
+                         sweeps);
     slowing = sweeps > 1 && rate > slow;
     last = increment;
   }
-  throw StageFailure("the increments stagnate", to_scientific(last, 3), max_sweeps);
+  throw StageFailure(FailureCause::stage_equations_diverge, "the increments stagnate", to_scientific(last, 3),
+                     max_sweeps);
 }
 
 bool NewtonInDouble::refresh() {

@@ -71,7 +71,7 @@ template <Scalar S>
 std::pair<Vector<S>, Vector<S>> output_at(const Scene& text, int k, int s, const S& h, long steps) {
   const Assembled<S> scene = assemble<S>(text);
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  Stepper<S> stepper(scene.problem, method, h, SolverKind::automatic);
+  HbvmStepper<S> stepper(scene.problem, method, h, SolverKind::automatic);
   State<S> state(scene.q0, scene.p0);
   for (long i = 0; i < steps; ++i) stepper.step(state);
   Point<S> point(scene.problem);

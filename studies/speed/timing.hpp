@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hbvm/clock.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/rattle.hpp"
 #include "hbvm/scene/assemble.hpp"
 
@@ -66,7 +67,7 @@ StepCost cost_of_steps(const Assembled<S>& scene, long steps, Make&& make) {
 template <Scalar S>
 StepCost step_cost(const Assembled<S>& scene, int k, int s, const S& h, SolverKind solver, long steps) {
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  return cost_of_steps<S>(scene, steps, [&] { return Stepper<S>(scene.problem, method, h, solver); });
+  return cost_of_steps<S>(scene, steps, [&] { return HbvmStepper<S>(scene.problem, method, h, solver); });
 }
 
 template <Scalar S>

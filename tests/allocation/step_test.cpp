@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/rattle.hpp"
 #include "hbvm/integrate/runge_kutta_step.hpp"
 #include "hbvm/scene/assemble.hpp"
@@ -63,7 +64,7 @@ void expect_none(const char* name, SolverKind kind) {
   const Assembled<S> scene = assemble<S>(load_scene(name));
   for (const auto& [k, s] : {std::pair(1, 1), {4, 2}, {3, 3}}) {
     const Hbvm<S> method = make_hbvm<S>(k, s);
-    Stepper<S> stepper(scene.problem, method, S(S(1) / 100), kind);
+    HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 100), kind);
     EXPECT_EQ(allocations_of<S>(stepper, scene), 0) << name << ", " << name_of(kind) << ", " << k << "," << s;
   }
 }

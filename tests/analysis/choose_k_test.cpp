@@ -120,7 +120,7 @@ TYPED_TEST(ChooseK, OtherwiseIsTheLeastThatReachesRoundOff) {
   ASSERT_GT(chosen.k, s);
   for (const int k : {chosen.k, chosen.k - 1}) {
     const Hbvm<S> method = make_hbvm<S>(k, s);
-    Stepper<S> stepper(scene.problem, method, step, SolverKind::fixed_point);
+    HbvmStepper<S> stepper(scene.problem, method, step, SolverKind::fixed_point);
     State<S> state(scene.q0, scene.p0);
     bool enough = true;
     for (int n = 0; n < 16; ++n) {

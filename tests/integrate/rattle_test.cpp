@@ -1,5 +1,6 @@
 #include "hbvm/integrate/rattle.hpp"
 
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -52,7 +53,7 @@ TYPED_TEST(RattleTest, IsOfOrderTwo) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
   const Hbvm<S> method = make_hbvm<S>(6, 6);
-  Stepper<S> stepper(scene.problem, method, S(S(1) / 32), SolverKind::fixed_point);
+  HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 32), SolverKind::fixed_point);
   State<S> exact(scene.q0, scene.p0);
   for (int i = 0; i < 32; ++i) stepper.step(exact);
   Point<S> point(scene.problem);

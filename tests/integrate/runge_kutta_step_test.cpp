@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -68,7 +69,7 @@ TYPED_TEST(RungeKuttaStepTest, GaussIsHbvmOfEqualStages) {
   for (int s = 1; s <= 4; ++s)
     for (const S& h : {S(S(1) / 20), S(S(-1) / 20)}) {
       const Hbvm<S> method = make_hbvm<S>(s, s);
-      Stepper<S> stepper(this->kepler.problem, method, h, SolverKind::fixed_point);
+      HbvmStepper<S> stepper(this->kepler.problem, method, h, SolverKind::fixed_point);
       const State<S> expected = after(stepper, this->kepler, 20);
       EXPECT_LE(distance(this->run(gauss<S>(s), h, 20), expected), 100 * epsilon<S>()) << s;
     }
@@ -102,14 +103,14 @@ TYPED_TEST(RungeKuttaStepTest, ClassicalMethodStageByStage) {
 TYPED_TEST(RungeKuttaStepTest, LocalErrorHasTheOrderOfTheMethod) {
   using S = TypeParam;
   const Hbvm<S> fine = make_hbvm<S>(8, 8);
-  Stepper<S> first(this->kepler.problem, fine, S(S(1) / 4), SolverKind::fixed_point);
+  HbvmStepper<S> first(this->kepler.problem, fine, S(S(1) / 4), SolverKind::fixed_point);
   const State<S> start = after(first, this->kepler, 4);
   for (const auto& [method, p] :
        {std::pair{rk4<S>(), 4}, {radau_iia<S>(), 3}, {gauss<S>(1), 2}, {gauss<S>(2), 4}, {gauss<S>(3), 6}}) {
     S last = 0;
     for (const int divisor : {8, 16, 32, 64}) {
       const S h = S(1) / divisor;
-      Stepper<S> reference(this->kepler.problem, fine, h, SolverKind::fixed_point);
+      HbvmStepper<S> reference(this->kepler.problem, fine, h, SolverKind::fixed_point);
       RungeKuttaStep<S> step(this->kepler.problem, method, h);
       State<S> expected = start, state = start;
       reference.step(expected);
@@ -127,7 +128,7 @@ TYPED_TEST(RungeKuttaStepTest, LocalErrorHasTheOrderOfTheMethod) {
 TYPED_TEST(RungeKuttaStepTest, ClassicalMethodConvergesToTheOrbit) {
   using S = TypeParam;
   const Hbvm<S> fine = make_hbvm<S>(8, 8);
-  Stepper<S> reference(this->kepler.problem, fine, S(S(1) / 32), SolverKind::fixed_point);
+  HbvmStepper<S> reference(this->kepler.problem, fine, S(S(1) / 32), SolverKind::fixed_point);
   const State<S> expected = after(reference, this->kepler, 32);
   S last = 0;
   for (const long steps : {128L, 256L, 512L}) {
@@ -163,7 +164,7 @@ acceleration = ["1/3", "-1/7"]
                                                     "scene"));
   const S h = S(1) / 4;
   const Hbvm<S> method = make_hbvm<S>(2, 2);
-  Stepper<S> stepper(scene.problem, method, h, SolverKind::fixed_point);
+  HbvmStepper<S> stepper(scene.problem, method, h, SolverKind::fixed_point);
   const State<S> expected = after(stepper, scene, 8);  // a parabola, which all of them follow
   for (const RungeKutta<S>& other : {rk4<S>(), radau_iia<S>(), gauss<S>(1)}) {
     RungeKuttaStep<S> step(scene.problem, other, h);

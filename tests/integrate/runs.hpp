@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scene/assemble.hpp"
 
@@ -20,7 +21,7 @@ struct SceneRun {
   Assembled<S> scene;
   Hbvm<S> method;
   TimeGrid<S> grid;
-  Stepper<S> stepper;
+  HbvmStepper<S> stepper;
   State<S> state;
 
   SceneRun(const Scene& text, int k, int s, const char* step, const char* until,

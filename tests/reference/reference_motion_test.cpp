@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/reference/closed_form.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"

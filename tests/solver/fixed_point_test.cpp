@@ -1,5 +1,6 @@
 #include "hbvm/solver/fixed_point.hpp"
 
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
@@ -25,7 +26,7 @@ TEST(BeyondBreakdown, IsATypedErrorThatNamesStepTimeAndIncrement) {
     for (const SolverKind kind : kinds) {
       const Hbvm<double> method = make_hbvm<double>(s, s);
       const TimeGrid<double> grid(Expression::parse("3/2"), Expression::parse("15"));
-      Stepper<double> stepper(scene.problem, method, grid.step(), kind);
+      HbvmStepper<double> stepper(scene.problem, method, grid.step(), kind);
       State<double> state(scene.q0, scene.p0);
       try {
         integrate<double>(stepper, state, grid, {});
@@ -50,7 +51,7 @@ TEST(BeyondBreakdown, TheStateStaysAsItWas) {
   const Assembled<double> scene = assemble<double>(read_scene(swinging("3"), "swinging"));
   const Hbvm<double> method = make_hbvm<double>(1, 1);
   for (const SolverKind kind : kinds) {
-    Stepper<double> stepper(scene.problem, method, 1.5, kind);
+    HbvmStepper<double> stepper(scene.problem, method, 1.5, kind);
     State<double> state(scene.q0, scene.p0);
     EXPECT_THROW(stepper.step(state), StageFailure);
     EXPECT_EQ(state.q, scene.q0);
@@ -64,9 +65,9 @@ TEST(BeyondBreakdown, AStepFromThereWithAnotherSizeSucceeds) {
   const Assembled<double> scene = assemble<double>(read_scene(swinging("3"), "swinging"));
   const Hbvm<double> method = make_hbvm<double>(2, 2);
   State<double> state(scene.q0, scene.p0);
-  Stepper<double> large(scene.problem, method, 1.5, SolverKind::fixed_point);
+  HbvmStepper<double> large(scene.problem, method, 1.5, SolverKind::fixed_point);
   EXPECT_THROW(large.step(state), StageFailure);
-  Stepper<double> small(scene.problem, method, 0.1, SolverKind::fixed_point);
+  HbvmStepper<double> small(scene.problem, method, 0.1, SolverKind::fixed_point);
   EXPECT_NO_THROW(small.step(state));
 }
 
@@ -79,7 +80,7 @@ TEST(AnyStep, SucceedsOrFailsButNeverLies) {
       const Hbvm<double> method = make_hbvm<double>(k, s);
       for (const SolverKind kind : kinds)
         for (int eighths = 1; eighths <= 40; ++eighths) {
-          Stepper<double> stepper(scene.problem, method, eighths / 8.0, kind);
+          HbvmStepper<double> stepper(scene.problem, method, eighths / 8.0, kind);
           State<double> state(scene.q0, scene.p0);
           const double H0 = scene.p0.squaredNorm() / 2 + scene.q0[1];
           try {
@@ -117,12 +118,12 @@ TEST(NearBreakdown, AStepIsSolvedCompletely) {
       const Assembled<Mpfr> exact_scene = assemble<Mpfr>(read_scene(swinging("3"), "swinging"));
       const Hbvm<double> method = make_hbvm<double>(c.s, c.s);
       const Hbvm<Mpfr> exact_method = make_hbvm<Mpfr>(c.s, c.s);
-      Stepper<double> stepper(scene.problem, method, literal<double>(c.h), kind);
+      HbvmStepper<double> stepper(scene.problem, method, literal<double>(c.h), kind);
       State<double> state(scene.q0, scene.p0);
       const Mpfr step(literal<double>(c.h));
       for (int n = 0; n < 5; ++n) {
         State<Mpfr> exact(state.q.cast<Mpfr>(), state.p.cast<Mpfr>());
-        Stepper<Mpfr>(exact_scene.problem, exact_method, step, SolverKind::fixed_point).step(exact);
+        HbvmStepper<Mpfr>(exact_scene.problem, exact_method, step, SolverKind::fixed_point).step(exact);
         stepper.step(state);
         const Mpfr miss = max_norm(Vector<Mpfr>(state.q.cast<Mpfr>() - exact.q)),
                    miss_p = max_norm(Vector<Mpfr>(state.p.cast<Mpfr>() - exact.p));
@@ -162,7 +163,7 @@ TEST(FixedPoint, AtRestNothingMoves) {
   const Assembled<double> scene = assemble<double>(read_scene(swinging("0"), "at rest"));
   const Hbvm<double> method = make_hbvm<double>(3, 3);
   for (const SolverKind kind : kinds) {
-    Stepper<double> stepper(scene.problem, method, 0.1, kind);
+    HbvmStepper<double> stepper(scene.problem, method, 0.1, kind);
     State<double> state(scene.q0, scene.p0);
     for (int n = 0; n < 10; ++n) stepper.step(state);
     EXPECT_EQ(state.q, scene.q0);

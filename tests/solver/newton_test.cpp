@@ -1,6 +1,7 @@
 #include "hbvm/solver/newton.hpp"
 
 #include "hbvm/integrate/drift.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -27,7 +28,7 @@ TYPED_TEST(NewtonTest, ConvergesWhereTheFixedPointBreaksDown) {
       const Hbvm<S> method = make_hbvm<S>(k, s);
       for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
         Drift<S> drift(scene.problem);
-        Stepper<S> stepper(scene.problem, method, grid.step(), kind);
+        HbvmStepper<S> stepper(scene.problem, method, grid.step(), kind);
         State<S> state(scene.q0, scene.p0);
         ASSERT_NO_THROW(integrate<S>(stepper, state, grid, {&drift})) << method.s << " " << name_of(kind);
         // H is 3.5, and 30 to 40 steps add their round-off.
@@ -44,7 +45,7 @@ TYPED_TEST(NewtonTest, EndsWithATypedErrorWhereNoSolutionIsFound) {
   const Hbvm<S> method = make_hbvm<S>(1, 1);
   for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
     const TimeGrid<S> grid(Expression::parse("3"), Expression::parse("30"));
-    Stepper<S> stepper(scene.problem, method, grid.step(), kind);
+    HbvmStepper<S> stepper(scene.problem, method, grid.step(), kind);
     State<S> state(scene.q0, scene.p0);
     EXPECT_THROW(integrate<S>(stepper, state, grid, {}), StepError);
   }
@@ -73,7 +74,7 @@ TEST(Newton, WinsFourteenDigitsASweep) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("tethered_satellites"));
     const Hbvm<Mpfr> method = make_hbvm<Mpfr>(6, 4);
     const Mpfr h = Mpfr(1) / 10;
-    Stepper<Mpfr> newton(scene.problem, method, h, SolverKind::newton),
+    HbvmStepper<Mpfr> newton(scene.problem, method, h, SolverKind::newton),
         papers(scene.problem, method, h, SolverKind::paper);
     State<Mpfr> state(scene.q0, scene.p0), other = state;
     newton.step(state);
@@ -112,12 +113,12 @@ TEST(Newton, CountsWhatItDid) {
   EXPECT_EQ(part("corrections").per_call[Op::multiply], 12u);
 }
 
-/// Where the motion turns uniformly, the increments of the third step fall fast once and then no more: to take the first
-/// fall for the rate of all would leave an error that shows in the angular momentum.
+/// Where the motion turns uniformly, the increments of the third step fall fast once and then no more: to take the
+/// first fall for the rate of all would leave an error that shows in the angular momentum.
 TEST(Newton, IsNotMisledByOneFastFall) {
   const Assembled<double> scene = assemble<double>(load_scene("conical_pendulum"));
   const Hbvm<double> method = make_hbvm<double>(3, 3);
-  Stepper<double> stepper(scene.problem, method, 1.0 / 16, SolverKind::newton);
+  HbvmStepper<double> stepper(scene.problem, method, 1.0 / 16, SolverKind::newton);
   State<double> state(scene.q0, scene.p0);
   const auto momentum = [&] { return state.q[0] * state.p[1] - state.q[1] * state.p[0]; };
   const double before = momentum();

@@ -1,5 +1,6 @@
 #include "hbvm/solver/stage_solver.hpp"
 
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
@@ -78,7 +79,7 @@ Integration<Mpfr> run(const Scene& text, SolverKind kind, int k, int s, const ch
   const Assembled<Mpfr> scene = assemble<Mpfr>(text);
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
   const TimeGrid<Mpfr> grid(Expression::parse(step), Expression::parse(until));
-  Stepper<Mpfr> stepper(scene.problem, method, grid.step(), kind);
+  HbvmStepper<Mpfr> stepper(scene.problem, method, grid.step(), kind);
   State<Mpfr> state(scene.q0, scene.p0);
   return integrate<Mpfr>(stepper, state, grid, {});
 }

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
 #include "printing.hpp"
@@ -60,7 +60,7 @@ template <Scalar S>
 State<S> end_of(const Scene& text, int k, int s, SolverKind kind) {
   const Assembled<S> scene = assemble<S>(text);
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  Stepper<S> stepper(scene.problem, method, S(S(1) / 20), kind);
+  HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 20), kind);
   State<S> state(scene.q0, scene.p0);
   for (int step = 0; step < 6; ++step) stepper.step(state);
   return state;

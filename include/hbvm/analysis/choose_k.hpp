@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
 
 namespace hbvm {

@@ -4,6 +4,7 @@
 
 #include "hbvm/analysis/account.hpp"
 #include "hbvm/integrate/drift.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
 
 namespace hbvm {
@@ -23,12 +24,12 @@ Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKi
                       std::vector<Observer<S>*> observers = {}, Account* account = nullptr) {
   Drift<S> drift(scene.problem);
   observers.insert(observers.begin(), &drift);
-  Stepper<S> stepper(scene.problem, method, grid.step(), solver);
-  if (account) stepper.solver().measure_time();
+  HbvmStepper<S> stepper(scene.problem, method, grid.step(), solver);
+  if (account) stepper.measure_time();
   State<S> state(scene.q0, scene.p0);
   Integration<S> integration = integrate(stepper, state, grid, observers);
   if (account) {
-    *account = account_of(scene.problem, stepper.solver().counts());
+    *account = account_of(scene.problem, stepper.counts());
     account->steps = static_cast<std::uint64_t>(integration.steps);
     account->sweeps = static_cast<std::uint64_t>(integration.sweeps);
   }

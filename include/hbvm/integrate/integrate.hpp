@@ -29,11 +29,13 @@ class Observer {
 class StepError : public IntegrationError {
  public:
   StepError(long step, std::string time, const StageFailure& failure);
+  FailureCause cause() const { return cause_; }
   long step() const { return step_; }
   const std::string& time() const { return time_; }
   const std::string& increment() const { return increment_; }
 
  private:
+  FailureCause cause_;
   long step_;
   std::string time_, increment_;
 };

@@ -4,23 +4,10 @@
 #include <string>
 #include <string_view>
 
-#include "hbvm/error.hpp"
 #include "hbvm/solver/stage_equations.hpp"
+#include "hbvm/solver/stage_failure.hpp"
 
 namespace hbvm {
-
-/// No solution of the stage equations was reached. `increment` is the last one, scaled as FixedPoint says.
-class StageFailure : public Error {
- public:
-  StageFailure(const std::string& what, std::string increment, long sweeps)
-      : Error(what), increment_(std::move(increment)), sweeps_(sweeps) {}
-  const std::string& increment() const { return increment_; }
-  long sweeps() const { return sweeps_; }
-
- private:
-  std::string increment_;
-  long sweeps_;
-};
 
 /// By effect and by part of the stage equations, in whatever precision they were evaluated.
 struct SolverCounts {

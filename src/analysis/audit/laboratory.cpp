@@ -43,7 +43,7 @@ void Laboratory::walk(int first, int count, const Mpfr& h) {
   // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion.
   starts_.clear();
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 4);
-  Stepper<Mpfr> stepper(assembled_.problem, method, h, SolverKind::automatic);
+  HbvmStepper<Mpfr> stepper(assembled_.problem, method, h, SolverKind::automatic);
   State<Mpfr> state(assembled_.q0, assembled_.p0);
   const int last = 3 + 2 * (first + count - 1);
   for (int n = 1; n <= last; ++n) {

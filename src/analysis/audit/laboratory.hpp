@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "hbvm/analysis/audit/claim.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/runge_kutta_step.hpp"
-#include "hbvm/integrate/stepper.hpp"
 #include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/scene/assemble.hpp"
 
@@ -77,7 +77,7 @@ class Trial {
   Assembled<S> assembled_;
   std::optional<Hbvm<S>> method_;
   std::optional<RungeKutta<S>> runge_kutta_;
-  std::optional<Stepper<S>> stepper_;
+  std::optional<HbvmStepper<S>> stepper_;
   std::optional<RungeKuttaStep<S>> runge_kutta_step_;
   std::optional<State<S>> state_;
 };

@@ -94,7 +94,7 @@ double hidden_constant(const Claim& claim) {
 double hidden_drift(const Claim& claim) {
   const Assembled<double> scene = assemble<double>(load_scene(claim.problem));
   const Hbvm<double> method = make_hbvm<double>(claim.method.k, claim.method.s);
-  Stepper<double> stepper(scene.problem, method, 1 / double{10}, SolverKind::automatic);
+  HbvmStepper<double> stepper(scene.problem, method, 1 / double{10}, SolverKind::automatic);
   State<double> state(scene.q0, scene.p0);
   Point<double> point(scene.problem);
   double early = 0, greatest = 0;

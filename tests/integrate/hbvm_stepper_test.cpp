@@ -1,4 +1,4 @@
-#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
@@ -34,7 +34,7 @@ TEST(Step, IsThePapersUpdate) {
       solver->solve(scene.q0, scene.p0);
       const auto expected = StageFormulas(model, k, s, h).step(scene.q0, scene.p0, solver->unknowns());
 
-      Stepper<Mpfr> stepper(scene.problem, method, h, SolverKind::fixed_point);
+      HbvmStepper<Mpfr> stepper(scene.problem, method, h, SolverKind::fixed_point);
       State<Mpfr> state(scene.q0, scene.p0);
       stepper.step(state);
       const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
@@ -49,7 +49,7 @@ TEST(Step, BackwardsLeadsBack) {
   for (const auto& [k, s] : std::vector<std::pair<int, int>>{{1, 1}, {4, 1}, {2, 2}, {5, 3}}) {
     const Assembled<Mpfr> scene = assembled<Mpfr>(ellipsoid_bead().scene);
     const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
-    Stepper<Mpfr> stepper(scene.problem, method, Mpfr(1) / 5, SolverKind::fixed_point);
+    HbvmStepper<Mpfr> stepper(scene.problem, method, Mpfr(1) / 5, SolverKind::fixed_point);
     State<Mpfr> state(scene.q0, scene.p0);
     for (int n = 0; n < 4; ++n) stepper.step(state);
     EXPECT_GT(max_norm(Vector<Mpfr>(state.q - scene.q0)), literal<Mpfr>("0.1"));
@@ -63,7 +63,7 @@ TEST(Step, BackwardsLeadsBack) {
 TEST(Step, ReturnsTheSweepsOfItsSolver) {
   const Assembled<double> scene = assembled<double>(scene_file_text("ellipsoid_bead"));
   const Hbvm<double> method = make_hbvm<double>(3, 2);
-  Stepper<double> stepper(scene.problem, method, 0.1, SolverKind::paper);
+  HbvmStepper<double> stepper(scene.problem, method, 0.1, SolverKind::paper);
   State<double> state(scene.q0, scene.p0);
   const auto solver = make_solver(SolverKind::paper, scene.problem, method, 0.1);
   EXPECT_EQ(stepper.step(state), solver->solve(scene.q0, scene.p0));
@@ -100,7 +100,7 @@ class CompensatedUpdate : public ::testing::Test {
 TEST_F(CompensatedUpdate, OfMomentaLosesNothingOverManySmallSteps) {
   const Assembled<double> scene = assembled<double>(falling);
   const Hbvm<double> method = make_hbvm<double>(1, 1);
-  Stepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
+  HbvmStepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
   State<double> state(scene.q0, scene.p0);
   for (int n = 0; n < steps; ++n) stepper.step(state);
   expect_exact_sum(scene.p0[0], h * literal<double>("1/3"), state.p[0], state.p_carry[0]);
@@ -110,7 +110,7 @@ TEST_F(CompensatedUpdate, OfMomentaLosesNothingOverManySmallSteps) {
 TEST_F(CompensatedUpdate, OfPositionsLosesNothingOverManySmallSteps) {
   const Assembled<double> scene = assembled<double>(falling.substr(0, falling.find("[[effect]]")));
   const Hbvm<double> method = make_hbvm<double>(2, 2);
-  Stepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
+  HbvmStepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
   State<double> state(scene.q0, scene.p0);
   for (int n = 0; n < steps; ++n) stepper.step(state);
   for (Index j = 0; j < 2; ++j) expect_exact_sum(scene.q0[j], h * scene.p0[j], state.q[j], state.q_carry[j]);

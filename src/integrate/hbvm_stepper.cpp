@@ -1,4 +1,4 @@
-#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/integrate/hbvm_stepper.hpp"
 
 #include "add_compensated.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -6,14 +6,14 @@
 namespace hbvm {
 
 template <Scalar S>
-Stepper<S>::Stepper(const Problem<S>& problem, const Hbvm<S>& method, const S& step, SolverKind solver)
+HbvmStepper<S>::HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, const S& step, SolverKind solver)
     : problem_(problem),
       method_(method),
       solver_(make_solver(solver, problem, method, step)),
       multiplier_(Vector<S>::Zero(problem.nu())) {}
 
 template <Scalar S>
-long Stepper<S>::step(State<S>& state) {
+long HbvmStepper<S>::step(State<S>& state) {
   const long sweeps = solver_->solve(state.q, state.p);
   const StageUnknowns<S>& x = solver_->unknowns();
   for (Index j = 0; j < problem_.m(); ++j) {
@@ -29,7 +29,7 @@ long Stepper<S>::step(State<S>& state) {
   return sweeps;
 }
 
-#define HBVM_DEFINE(S) template class Stepper<S>;
+#define HBVM_DEFINE(S) template class HbvmStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

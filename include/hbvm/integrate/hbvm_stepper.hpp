@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+
+#include "hbvm/integrate/stepper.hpp"
+
+namespace hbvm {
+
+/// One step of HBVM(k, s) of fixed size. Problem and method must outlive it.
+template <Scalar S>
+class HbvmStepper final : public Stepper<S> {
+ public:
+  HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, const S& step, SolverKind solver);
+
+  const Problem<S>& problem() const override { return problem_; }
+  StageSolver<S>& solver() { return *solver_; }
+
+  /// Advances the state by (q1p1new), q1 = q0 + h M^-1 gamma_0, p1 = p0 + h (psi_0 - zeta_0).
+  long step(State<S>& state) override;
+
+  /// The extrapolated multiplier (lagmul) of the last step: sum_i l_i(1) lambda_i.
+  const Vector<S>& multiplier() const override { return multiplier_; }
+
+  SolverCounts counts() const override { return solver_->counts(); }
+  void measure_time() override { solver_->measure_time(); }
+
+ private:
+  const Problem<S>& problem_;
+  const Hbvm<S>& method_;
+  std::unique_ptr<StageSolver<S>> solver_;
+  Vector<S> multiplier_;
+  S increment_, t_;
+};
+
+#define HBVM_DECLARE(S) extern template class HbvmStepper<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm
