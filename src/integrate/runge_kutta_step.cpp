@@ -47,7 +47,7 @@ RungeKuttaStep<S>::RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>
       force_(Matrix<S>::Zero(1, problem.m())),
       position_change_(force_),
       momentum_change_(force_),
-      extrapolation_(P_.size()) {
+      extrapolation_(P_.rows(), P_.cols()) {
   if (problem.nu() > 0) throw InputError("a Runge-Kutta method takes no constraints, and the problem has some");
   const Index s = method.b.size();
   if (s < 1 || A_.rows() != s || A_.cols() != s) throw InputError("A must have as many rows and columns as b entries");

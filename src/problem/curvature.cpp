@@ -1,19 +1,24 @@
 #include "hbvm/problem/curvature.hpp"
 
+#include "hbvm/scalar/in_place.hpp"
+
 namespace hbvm {
 
-Curvature::Term::Term(const EffectTerm<double>& term, Index dimension, Index nodes)
+template <Scalar S>
+Curvature<S>::Term::Term(const EffectTerm<S>& term, Index dimension, Index nodes)
     : effect(&term),
-      displacement(Matrix<double>::Zero(static_cast<Index>(term.displacements.size()) * nodes, dimension)),
+      displacement(Matrix<S>::Zero(static_cast<Index>(term.displacements.size()) * nodes, dimension)),
       hessian(term.hessian, term.hessian_coefficients, displacement, nodes) {}
 
-Index Curvature::pair(Index row, Index column) {
+template <Scalar S>
+Index Curvature<S>::pair(Index row, Index column) {
   const auto [found, inserted] = known_.try_emplace({row, column}, static_cast<Index>(pairs_.size()));
   if (inserted) pairs_.push_back({row, column});
   return found->second;
 }
 
-void Curvature::add(Index constraint, Index row, Index column, double value) {
+template <Scalar S>
+void Curvature<S>::add(Index constraint, Index row, Index column, const S& value) {
   if (value == 0) return;
   const Index where = pair(row, column);
   for (auto entry = entries_.rbegin(); entry != entries_.rend() && entry->constraint == constraint; ++entry) {
@@ -24,9 +29,10 @@ void Curvature::add(Index constraint, Index row, Index column, double value) {
   entries_.push_back({constraint, where, value});
 }
 
-Curvature::Curvature(const Problem<double>& problem, Index nodes) : dimension_(problem.dimension), nodes_(nodes) {
+template <Scalar S>
+Curvature<S>::Curvature(const Problem<S>& problem, Index nodes) : dimension_(problem.dimension), nodes_(nodes) {
   const Index d = dimension_;
-  for (const EffectTerm<double>& effect : problem.potential.terms) {
+  for (const EffectTerm<S>& effect : problem.potential.terms) {
     if (effect.constant_force) continue;
     Term& term = terms_.emplace_back(effect, d, nodes);
     for (std::size_t n = 0; n < effect.displacements.size(); ++n) {
@@ -37,33 +43,34 @@ Curvature::Curvature(const Problem<double>& problem, Index nodes) : dimension_(p
             for (Index j = 0; j < d; ++j) {
               const Index high = std::max(i, j), low = std::min(i, j);
               term.targets.push_back({pair(a.offset + i, b.offset + j), high * (high + 1) / 2 + low,
-                                      static_cast<Index>(n), a.weight * b.weight});
+                                      static_cast<Index>(n), S(a.weight * b.weight)});
             }
     }
   }
   for (Index c = 0; c < problem.nu(); ++c) {
     const auto& form = problem.constraints[static_cast<std::size_t>(c)].form;
-    if (const auto* product = std::get_if<DisplacementProduct<double>>(&form)) {
+    if (const auto* product = std::get_if<DisplacementProduct<S>>(&form)) {
       for (const auto& a : product->x.blocks)
         for (const auto& b : (product->same ? product->x : product->y).blocks)
           for (Index i = 0; i < d; ++i) {
-            add(c, a.offset + i, b.offset + i, a.weight * b.weight);
-            add(c, b.offset + i, a.offset + i, a.weight * b.weight);
+            add(c, a.offset + i, b.offset + i, S(a.weight * b.weight));
+            add(c, b.offset + i, a.offset + i, S(a.weight * b.weight));
           }
     }
-    if (const auto* quadric = std::get_if<Quadric<double>>(&form)) {
+    if (const auto* quadric = std::get_if<Quadric<S>>(&form)) {
       for (Index i = 0; i < quadric->b.size(); ++i)
         for (Index j = 0; j < quadric->b.size(); ++j)
-          add(c, quadric->offset + i, quadric->offset + j, 2 * quadric->A(i, j));
+          add(c, quadric->offset + i, quadric->offset + j, S(2 * quadric->A(i, j)));
     }
   }
-  values_ = Matrix<double>::Zero(nodes, static_cast<Index>(pairs_.size()));
+  values_ = Matrix<S>::Zero(nodes, static_cast<Index>(pairs_.size()));
 }
 
-const Matrix<double>& Curvature::potential(Lanes<const double> q) {
-  values_.setZero();
+template <Scalar S>
+const Matrix<S>& Curvature<S>::potential(Lanes<const S> q) {
+  for (Index i = 0; i < values_.size(); ++i) set_zero(values_.data()[i]);
   for (Term& term : terms_) {
-    double* out = term.displacement.data();
+    S* out = term.displacement.data();
     for (const auto& x : term.effect->displacements) {
       displace(x, dimension_, q, out, term.displacement.rows());
       out += nodes_;
@@ -71,9 +78,13 @@ const Matrix<double>& Curvature::potential(Lanes<const double> q) {
     term.hessian.run();
     for (const auto& target : term.targets)
       for (Index i = 0; i < nodes_; ++i)
-        values_(i, target.pair) += target.weight * term.hessian.output(target.output, target.instance * nodes_ + i);
+        add_product(values_(i, target.pair), target.weight,
+                    term.hessian.output(target.output, target.instance * nodes_ + i), t_);
   }
   return values_;
 }
+
+#define HBVM_DEFINE(S) template class Curvature<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

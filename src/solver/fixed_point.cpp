@@ -1,10 +1,9 @@
 #include "hbvm/solver/fixed_point.hpp"
 
-#include <algorithm>
-
-#include "hbvm/linear/product.hpp"
+#include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "hbvm/solver/roundings.hpp"
 
 namespace hbvm {
 
@@ -15,20 +14,17 @@ FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, cons
       x_(equations_.make_unknowns()),
       gamma_before_(x_.gamma),
       psi_before_(x_.psi),
-      extrapolation_(x_.gamma.size()),
+      extrapolation_(x_.gamma.rows(), x_.gamma.cols()),
+      position_scale_(problem, step),
+      rule_(problem.m(), roundings_of_a_sweep(problem, method)),
+      positions_(problem.m()),
       position_change_(problem.m()),
-      momentum_change_(problem.m()) {
-  const Index C = 4 * (method.k + 3 * method.s + problem.m() + method.s * problem.nu());
-  tolerance_ = S(static_cast<long>(C)) * epsilon<S>();
-  quarter_epsilon_ = epsilon<S>() / 4;
-}
+      momentum_change_(problem.m()) {}
 
 template <Scalar S>
 long FixedPoint<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
   equations_.start(q0, p0);
-  equations_.problem().mass.momentum(q0, momentum_change_);
-  set_max_norm(position_scale_, momentum_change_);
-  set_quotient(position_scale_, position_scale_, equations_.step());
+  position_scale_.evaluate(q0, positions_);
   long sweeps = 0;
   if (order_ == Order::paper) {
     prepare(Start::zero, p0);
@@ -62,87 +58,61 @@ void FixedPoint<S>::prepare(Start start, const Vector<S>& p0) {
 }
 
 template <Scalar S>
-bool FixedPoint<S>::sweep() {
+bool FixedPoint<S>::sweep(bool factor) {
   std::swap(gamma_before_, x_.gamma);
   std::swap(psi_before_, x_.psi);
   equations_.move(gamma_before_);
   equations_.forces(x_.psi);
   const Matrix<S>& psi = order_ == Order::paper ? psi_before_ : x_.psi;
-  if (!equations_.multipliers(psi, x_.lambda, x_.zeta)) return false;
+  if (!equations_.multipliers(psi, x_.lambda, x_.zeta, factor)) return false;
   equations_.momenta(psi, x_.zeta, x_.gamma);
   return true;
 }
 
 template <Scalar S>
-void FixedPoint<S>::measure_increment() {
-  set_zero(increment_);
-  for (Index i = 0; i < x_.gamma.size(); ++i) {
-    set_difference(term_, x_.gamma.data()[i], gamma_before_.data()[i]);
-    raise_magnitude(increment_, term_);
-  }
-  if (order_ == Order::paper) {
-    for (Index i = 0; i < x_.psi.size(); ++i) {
-      set_difference(term_, x_.psi.data()[i], psi_before_.data()[i]);
-      set_product(term_, term_, equations_.step());
-      raise_magnitude(increment_, term_);
-    }
-  }
-}
-
-template <Scalar S>
-void FixedPoint<S>::measure_size() {
-  set_max_norm(size_, equations_.p0());
-  set_max_norm(term_, x_.gamma);
-  raise_magnitude(size_, term_);
-  for (const Matrix<S>* force : {&x_.psi, &x_.zeta}) {
-    set_max_norm(term_, *force);
-    set_product(term_, term_, equations_.step());
-    raise_magnitude(size_, term_);
-  }
+bool FixedPoint<S>::conditioned() {
+  if (x_.lambda.size() == 0) return false;
+  const double kappa = gram_condition(equations_.problem(), equations_.q0());
+  if (!(rule_.condition_wanted() <= kappa)) return false;
+  rule_.set_condition(kappa);
+  return true;
 }
 
 template <Scalar S>
 long FixedPoint<S>::iterate() {
   const bool papers = order_ == Order::paper;
-  set_zero(size_);
-  long waiting = 0;
-  for (long sweeps = 1;; ++sweeps) {
-    if (!sweep())
+  const S& h = equations_.step();
+  rule_.start(equations_.p0(), positions_);
+  for (;;) {
+    // The matrix of (lam) at nodes near the solution serves all sweeps: it multiplies a change that goes to 0.
+    if (!sweep(papers || rule_.is_coarse()))
       throw StageFailure(FailureCause::near_singular_constraints,
-                         "the linear system (lam) for the multipliers is singular",
-                         to_scientific(sweeps > 1 ? scaled_ : S(0), 3), sweeps);
-    measure_increment();
-    // Once the increments are small, the scale changes no more.
-    set_product(term_, increment_, sixteen_);
-    if (sweeps == 1 || !(term_ <= size_)) measure_size();
-    // Left to change, if the next increments fall by as much as this one did. In the paper's order they fall unevenly.
-    set_sum(left_, increment_, increment_);
-    if (!papers && sweeps > 1 && left_ < last_) {
-      set_quotient(left_, increment_, last_);
-      set_product(left_, left_, increment_);
-    } else {
-      set(left_, increment_);
+                         "the linear system (lam) for the multipliers is singular", "0", rule_.sweeps() + 1);
+    rule_.show_change(x_.gamma, gamma_before_);
+    if (papers) rule_.show_change(x_.psi, psi_before_, &h);
+    if (rule_.is_coarse()) {
+      rule_.show_terms(x_.gamma);
+      rule_.show_terms(x_.psi, &h);
     }
-    // In the paper's order psi lags by a sweep, so that a small first increment would not mean convergence.
-    set_product(term_, size_, quarter_epsilon_);
-    if (left_ <= term_ && sweeps > 1) return sweeps;
-    set(last_, increment_);
-    set(scaled_, increment_);
-    if (increment_ != 0) set_quotient(scaled_, increment_, size_ > position_scale_ ? size_ : position_scale_);
-    if (!is_finite(scaled_))
-      throw StageFailure(FailureCause::stage_equations_diverge, "an iterate is not finite", to_scientific(scaled_, 3),
-                         sweeps);
-    if (sweeps == 1 || scaled_ < least_) {
-      set(least_, scaled_);
-      waiting = 0;
-      continue;
+    const auto fail = [&](const char* what) {
+      const FailureCause cause = FailureCause::stage_equations_diverge;
+      throw StageFailure(cause, what, to_scientific(rule_.relative_change(), 3), rule_.sweeps());
+    };
+    switch (rule_.judge()) {
+      case StoppingRule<S>::Verdict::converged:
+        return rule_.sweeps();
+      case StoppingRule<S>::Verdict::not_finite:
+        fail("an iterate is not finite");
+        break;
+      case StoppingRule<S>::Verdict::stagnant:
+        if (!conditioned()) fail(rule_.grows() ? "the increments grow" : "the increments stagnate");
+        break;
+      case StoppingRule<S>::Verdict::endless:
+        fail("the increments fall too slowly");
+        break;
+      case StoppingRule<S>::Verdict::go_on:
+        break;
     }
-    ++waiting;
-    if (scaled_ <= tolerance_ && waiting >= 2) return sweeps;
-    if (waiting >= patience)
-      throw StageFailure(FailureCause::stage_equations_diverge,
-                         scaled_ > 10 * least_ ? "the increments grow" : "the increments stagnate",
-                         to_scientific(scaled_, 3), sweeps);
   }
 }
 

@@ -1,14 +1,20 @@
 #include "hbvm/solver/jacobian.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "hbvm/scalar/binary_exponent.hpp"
+
 namespace hbvm {
 namespace {
 
-std::vector<std::vector<std::pair<Index, double>>> inverse_mass_rows(const MassMatrix<double>& mass) {
-  std::vector<std::vector<std::pair<Index, double>>> rows(static_cast<std::size_t>(mass.m()));
+template <Scalar S>
+std::vector<std::vector<std::pair<Index, S>>> inverse_mass_rows(const MassMatrix<S>& mass) {
+  std::vector<std::vector<std::pair<Index, S>>> rows(static_cast<std::size_t>(mass.m()));
   for (const auto& block : mass.blocks())
     for (Index i = 0; i < block.size; ++i)
       for (Index j = 0; j < block.size; ++j) {
-        const double w = block.full ? block.W(i, j) : i == j ? block.inverse_mass : 0;
+        const S w = block.full ? block.W(i, j) : i == j ? block.inverse_mass : S(0);
         if (w != 0) rows[static_cast<std::size_t>(block.offset + i)].emplace_back(block.offset + j, w);
       }
   return rows;
@@ -16,16 +22,17 @@ std::vector<std::vector<std::pair<Index, double>>> inverse_mass_rows(const MassM
 
 }  // namespace
 
-Jacobian::Jacobian(const Problem<double>& problem, const Hbvm<double>& method, double step)
+template <Scalar S>
+Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
     : problem_(problem),
       method_(method),
       h_(step),
       curvature_(problem, method.k),
       W_(inverse_mass_rows(problem.mass)),
-      X_hat_(method.X_s * method.projection_hat),
-      X_projection_(method.X_s * method.projection) {
+      X_hat_(method.X_s.lazyProduct(method.projection_hat)),
+      X_projection_(method.X_s.lazyProduct(method.projection)) {
   const Index m = problem.m(), nu = problem.nu(), s = method.s;
-  const ConstraintGradient<double> gradient(problem, 1);
+  const ConstraintGradient<S> gradient(problem, 1);
   std::vector<std::pair<Index, Index>> entries;
   for (const auto& pair : curvature_.pairs())
     for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)]) entries.emplace_back(pair.row, column);
@@ -38,24 +45,35 @@ Jacobian::Jacobian(const Problem<double>& problem, const Hbvm<double>& method, d
   const Index half_bandwidth = s * (order_.half_bandwidth + 1) - 1;
   matrix_.resize(n_, half_bandwidth);
   x_.resize(n_);
+  for (const auto& block : problem.mass.blocks())
+    for (Index i = 0; i < block.size; ++i)
+      coordinate_exponents_.push_back(binary_exponent(block.full ? block.M(i, i) : block.mass));
+  row_exponents_.resize(static_cast<std::size_t>(nu));
+  column_exponents_.resize(static_cast<std::size_t>(nu));
+  row_factors_.assign(static_cast<std::size_t>(n_), S(1));
+  column_factors_ = row_factors_;
   block_.resize(s, s);
   curved_.resize(s, static_cast<Index>(curvature_.pairs().size()));
 }
 
-bool Jacobian::factor(const StageEquations<double>& at, const Matrix<double>& lambda) {
+template <Scalar S>
+bool Jacobian<S>::factor(const StageEquations<S>& at, const Matrix<S>& lambda) {
   ++factorisations_;
   assemble(at, lambda);
+  choose_scales(at.constraint_gradient());
+  scale();
   return matrix_.factor();
 }
 
-void Jacobian::assemble(const StageEquations<double>& at, const Matrix<double>& lambda) {
+template <Scalar S>
+void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda) {
   const Index m = problem_.m(), nu = problem_.nu(), s = method_.s, k = method_.k;
   matrix_.set_zero();
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) matrix_.entry(of_coordinate(j) + i, of_coordinate(j) + i) = 1;
 
   // The second derivatives, of U at the k nodes and of g lambda at the s nodes.
-  const Matrix<double>& hessian = curvature_.potential(lanes(at.quadrature_positions()));
+  const Matrix<S>& hessian = curvature_.potential(lanes(at.quadrature_positions()));
   curved_.setZero();
   for (const auto& second : curvature_.constraints())
     for (Index n = 0; n < s; ++n) curved_(n, second.pair) += second.value * lambda(n, second.constraint);
@@ -74,7 +92,7 @@ void Jacobian::assemble(const StageEquations<double>& at, const Matrix<double>& 
           matrix_.entry(of_coordinate(pair.row) + i, of_coordinate(column) + j) += block_(i, j) * w;
   }
 
-  const ConstraintGradient<double>& gradient = at.constraint_gradient();
+  const ConstraintGradient<S>& gradient = at.constraint_gradient();
   for (Index a = 0; a < nu; ++a) {
     const auto& own = gradient.pattern(a);
     for (std::size_t l = 0; l < own.coordinates.size(); ++l)
@@ -99,18 +117,71 @@ void Jacobian::assemble(const StageEquations<double>& at, const Matrix<double>& 
   }
 }
 
-void Jacobian::solve(StageResidual<double>& r) {
+template <Scalar S>
+void Jacobian<S>::choose_scales(const ConstraintGradient<S>& gradient) {
+  const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
+  const auto exponent = [](const Matrix<S>& values, Index first, std::size_t columns) {
+    S largest = 0;
+    for (Index i = first * values.rows(); i < (first + static_cast<Index>(columns)) * values.rows(); ++i)
+      raise_magnitude(largest, values.data()[i]);
+    return largest == 0 ? 0 : binary_exponent(largest);
+  };
+  const auto set_factors = [&](Index first, long row, long column) {
+    for (Index i = first; i < first + s; ++i) {
+      row_factors_[static_cast<std::size_t>(i)] = power_of_two<S>(-row);
+      column_factors_[static_cast<std::size_t>(i)] = power_of_two<S>(column);
+    }
+  };
+  for (Index j = 0; j < m; ++j) set_factors(of_coordinate(j), coordinate_exponent(j), coordinate_exponent(j));
+  for (Index a = 0; a < nu; ++a) {
+    const auto n = static_cast<std::size_t>(a);
+    row_exponents_[n] = exponent(gradient.values(), gradient.pattern(a).first, gradient.pattern(a).coordinates.size());
+    column_exponents_[n] = -exponent(gradient.weighted_values(), gradient.weighted_pattern(a).first,
+                                     gradient.weighted_pattern(a).coordinates.size());
+    set_factors(of_multiplier(a), row_exponents_[n], column_exponents_[n]);
+  }
+}
+
+template <Scalar S>
+void Jacobian<S>::scale() {
+  const Index b = matrix_.half_bandwidth();
+  for (Index j = 0; j < n_; ++j)
+    for (Index i = std::max<Index>(0, j - b); i <= std::min(n_ - 1, j + b); ++i) {
+      S& entry = matrix_.entry(i, j);
+      if (entry == 0) continue;
+      set_product(entry, entry, row_factors_[static_cast<std::size_t>(i)]);
+      set_product(entry, entry, column_factors_[static_cast<std::size_t>(j)]);
+    }
+}
+
+template <Scalar S>
+void Jacobian<S>::solve(StageResidual<S>& r) {
+  const auto divide = [&](Matrix<S>& residual, Index column, Index first) {
+    for (Index i = 0; i < residual.rows(); ++i)
+      set_product(residual(i, column), residual(i, column), row_factors_[static_cast<std::size_t>(first + i)]);
+  };
+  for (Index j = 0; j < problem_.m(); ++j) divide(r.momentum, j, of_coordinate(j));
+  for (Index a = 0; a < problem_.nu(); ++a) divide(r.constraint, a, of_multiplier(a));
+  solve_scaled(r);
+}
+
+template <Scalar S>
+void Jacobian<S>::solve_scaled(StageResidual<S>& r) {
   ++solutions_;
   const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
   for (Index j = 0; j < m; ++j)
-    for (Index i = 0; i < s; ++i) x_[of_coordinate(j) + i] = r.momentum(i, j);
+    for (Index i = 0; i < s; ++i) set(x_[of_coordinate(j) + i], r.momentum(i, j));
   for (Index a = 0; a < nu; ++a)
-    for (Index i = 0; i < s; ++i) x_[of_multiplier(a) + i] = r.constraint(i, a);
+    for (Index i = 0; i < s; ++i) set(x_[of_multiplier(a) + i], r.constraint(i, a));
   matrix_.solve(x_);
+  for (Index i = 0; i < n_; ++i) set_product(x_[i], x_[i], column_factors_[static_cast<std::size_t>(i)]);
   for (Index j = 0; j < m; ++j)
-    for (Index i = 0; i < s; ++i) r.momentum(i, j) = x_[of_coordinate(j) + i];
+    for (Index i = 0; i < s; ++i) set(r.momentum(i, j), x_[of_coordinate(j) + i]);
   for (Index a = 0; a < nu; ++a)
-    for (Index i = 0; i < s; ++i) r.constraint(i, a) = x_[of_multiplier(a) + i];
+    for (Index i = 0; i < s; ++i) set(r.constraint(i, a), x_[of_multiplier(a) + i]);
 }
+
+#define HBVM_DEFINE(S) template class Jacobian<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -3,25 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "hbvm/solver/roundings.hpp"
 
 namespace hbvm {
 namespace {
-
-/// log2 |x| to less than a unit; of 0, less than that of any number.
-constexpr long exponent_of_zero = -(1L << 40);
-template <Scalar S>
-long binary_exponent(const S& x) {
-  if (x == 0) return exponent_of_zero;
-  if constexpr (std::same_as<S, Mpfr>) {
-    return mpfr_get_exp(raw(x));
-  } else {
-    int exponent = 0;
-    using std::frexp;
-    frexp(x, &exponent);
-    return exponent;
-  }
-}
 
 /// x 2^-exponent.
 template <Scalar S>
@@ -36,16 +23,15 @@ double scaled(const S& x, long exponent) {
   }
 }
 
-/// x += y 2^exponent.
+/// r = y 2^exponent.
 template <Scalar S>
-void add_scaled(S& x, double y, long exponent, S& t) {
+void set_scaled(S& r, double y, long exponent) {
   if constexpr (std::same_as<S, Mpfr>) {
-    mpfr_set_d(raw(t), y, MPFR_RNDN);
-    mpfr_mul_2si(raw(t), raw(t), exponent, MPFR_RNDN);
-    mpfr_add(raw(x), raw(x), raw(t), MPFR_RNDN);
+    mpfr_set_d(raw(r), y, MPFR_RNDN);
+    mpfr_mul_2si(raw(r), raw(r), exponent, MPFR_RNDN);
   } else {
     using std::ldexp;
-    x += ldexp(S(y), static_cast<int>(exponent));
+    r = ldexp(S(y), static_cast<int>(exponent));
   }
 }
 
@@ -57,18 +43,8 @@ void set_exactly(S& x, double y) {
     x = S(y);
 }
 
-template <Scalar S>
-long largest_exponent(const Matrix<S>& a) {
-  long exponent = exponent_of_zero;
-  for (Index i = 0; i < a.size(); ++i) exponent = std::max(exponent, binary_exponent(a.data()[i]));
-  return exponent;
-}
-
 /// Bits that one sweep with a Jacobian in double can win.
 constexpr long bits_per_sweep = 50;
-
-/// Corrections that fall by less than a bit a sweep have stopped falling.
-constexpr double least_rate = -1;
 
 }  // namespace
 
@@ -84,25 +60,45 @@ Newton<S>::Level::Level(const Problem<S>& full_problem, const Hbvm<S>& full_meth
 
 template <Scalar S>
 Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
-    : problem_(problem), method_(method), h_(step), position_change_(problem.m()), momentum_change_(problem.m()) {
+    : problem_(problem),
+      method_(method),
+      h_(step),
+      position_change_(problem.m()),
+      momentum_change_(problem.m()),
+      position_scale_(problem, step),
+      positions_(problem.m()),
+      rule_(problem.m(), roundings_of_a_sweep(problem, method), static_cast<int>(bits_per_sweep - 10)) {
   if constexpr (std::same_as<S, double>) {
     rounded_.emplace(problem, method, step);
     return;
   }
+  equations_.emplace(problem_, method_, h_);
+  x_ = equations_->make_unknowns();
+  failed_in_double_ = !fits_double();
+  if (failed_in_double_) return;
   rounded_problem_.emplace(in_double(problem));
   rounded_method_.emplace(make_hbvm<double>(method.k, method.s));
   rounded_.emplace(*rounded_problem_, *rounded_method_, approximately(step));
   rounded_q0_.resize(problem.m());
   rounded_p0_.resize(problem.m());
-  equations_.emplace(problem_, method_, h_);
-  x_ = equations_->make_unknowns();
   r_ = {x_.gamma, x_.lambda};
   correction_ = {rounded_->unknowns().gamma, rounded_->unknowns().lambda};
   momentum_ = correction_.momentum;
   change_.resize(problem.m());
-  tolerance_bits_ =
-      std::log2(static_cast<double>(4 * (method.k + 3 * method.s + problem.m() + method.s * problem.nu())));
   make_rungs();
+}
+
+template <Scalar S>
+bool Newton<S>::fits_double() const {
+  // What double has of its range on either side of 1, with room for products of two.
+  constexpr long range = 500;
+  const auto fits = [](const S& x) { return x == 0 || std::abs(binary_exponent(x)) < range; };
+  bool all = fits(h_);
+  for (const auto& block : problem_.mass.blocks()) {
+    if (!block.full) all = all && fits(block.mass);
+    for (Index i = 0; i < block.M.size(); ++i) all = all && fits(block.M.data()[i]);
+  }
+  return all;
 }
 
 template <Scalar S>
@@ -129,25 +125,62 @@ long Newton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
     momentum_change_ = rounded_->momentum_change();
     return sweeps;
   } else {
-    for (Index j = 0; j < q0.size(); ++j) {
-      rounded_q0_[j] = approximately(q0[j]);
-      rounded_p0_[j] = approximately(p0[j]);
+    long sweeps = 0;
+    if (!failed_in_double_) {
+      for (Index j = 0; j < q0.size(); ++j) {
+        rounded_q0_[j] = approximately(q0[j]);
+        rounded_p0_[j] = approximately(p0[j]);
+      }
+      try {
+        sweeps = rounded_->solve(rounded_q0_, rounded_p0_);
+        if (rounded_->refresh()) {
+          const auto [corrections, fell] = refine(q0, p0);
+          sweeps += corrections;
+          if (fell) return sweeps;
+          failed_in_double_ = true;
+        }
+      } catch (const StageFailure& failure) {
+        sweeps += failure.sweeps();
+      }
     }
-    const long sweeps = rounded_->solve(rounded_q0_, rounded_p0_);
-    if (!rounded_->refresh())
-      throw StageFailure(FailureCause::near_singular_constraints,
-                         "the Jacobian of the stage equations is singular at the solution in double", "0", sweeps);
-    return sweeps + refine(q0, p0);
+    return sweeps + solve_in_full(q0, p0);
   }
 }
 
 template <Scalar S>
+long Newton<S>::solve_in_full(const Vector<S>& q0, const Vector<S>& p0) {
+  if (!full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_, h_);
+  const long sweeps = full_->solve(q0, p0);
+  for (Index i = 0; i < x_.gamma.size(); ++i) set(x_.gamma.data()[i], full_->unknowns().gamma.data()[i]);
+  for (Index i = 0; i < x_.lambda.size(); ++i) set(x_.lambda.data()[i], full_->unknowns().lambda.data()[i]);
+  for (Index i = 0; i < x_.psi.size(); ++i) set(x_.psi.data()[i], full_->unknowns().psi.data()[i]);
+  for (Index i = 0; i < x_.zeta.size(); ++i) set(x_.zeta.data()[i], full_->unknowns().zeta.data()[i]);
+  full_->equations().changes(full_->unknowns(), position_change_, momentum_change_);
+  for (Index j = 0; j < momentum_change_.size(); ++j) set(momentum_change_[j], full_->momentum_change()[j]);
+  return sweeps;
+}
+
+template <Scalar S>
 void Newton<S>::take_residual(const StageResidual<S>& r, long& exponent) {
-  exponent = std::max(largest_exponent(r.momentum), largest_exponent(r.constraint));
-  for (Index i = 0; i < r.momentum.size(); ++i) correction_.momentum.data()[i] = scaled(r.momentum.data()[i], exponent);
-  for (Index i = 0; i < r.constraint.size(); ++i)
-    correction_.constraint.data()[i] = scaled(r.constraint.data()[i], exponent);
-  momentum_ = correction_.momentum;
+  // Rows come to the size of velocities, as the Jacobian's are, so that no unit and no heavy body drowns a light one.
+  const Jacobian<double>& jacobian = rounded_->jacobian();
+  exponent = exponent_of_zero;
+  const auto raise = [&](const Matrix<S>& rows, Index column, long row_exponent) {
+    for (Index i = 0; i < rows.rows(); ++i)
+      exponent = std::max(exponent, binary_exponent(rows(i, column)) - row_exponent);
+  };
+  const auto take = [&](const Matrix<S>& rows, Index column, long row_exponent, Matrix<double>& to) {
+    for (Index i = 0; i < rows.rows(); ++i) to(i, column) = scaled(rows(i, column), exponent + row_exponent);
+  };
+  for (Index j = 0; j < r.momentum.cols(); ++j) raise(r.momentum, j, jacobian.coordinate_exponent(j));
+  for (Index a = 0; a < r.constraint.cols(); ++a) raise(r.constraint, a, jacobian.constraint_exponent(a));
+  for (Index j = 0; j < r.momentum.cols(); ++j)
+    take(r.momentum, j, jacobian.coordinate_exponent(j), correction_.momentum);
+  for (Index a = 0; a < r.constraint.cols(); ++a)
+    take(r.constraint, a, jacobian.constraint_exponent(a), correction_.constraint);
+  for (Index j = 0; j < momentum_.cols(); ++j)
+    for (Index i = 0; i < momentum_.rows(); ++i)
+      momentum_(i, j) = std::ldexp(correction_.momentum(i, j), static_cast<int>(jacobian.coordinate_exponent(j)));
 }
 
 template <Scalar S>
@@ -173,52 +206,57 @@ bool Newton<S>::residual(long bits, long& exponent) {
 }
 
 template <Scalar S>
-long Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
+std::pair<long, bool> Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
+  using Verdict = typename StoppingRule<S>::Verdict;
   equations_->start(q0, p0);
   const StageUnknowns<double>& start = rounded_->unknowns();
   for (Index i = 0; i < x_.gamma.size(); ++i) set_exactly(x_.gamma.data()[i], start.gamma.data()[i]);
   for (Index i = 0; i < x_.lambda.size(); ++i) set_exactly(x_.lambda.data()[i], start.lambda.data()[i]);
+  for (Index i = 0; i < x_.psi.size(); ++i) set_exactly(x_.psi.data()[i], start.psi.data()[i]);
+  for (Index i = 0; i < x_.zeta.size(); ++i) set_exactly(x_.zeta.data()[i], start.zeta.data()[i]);
   const double h = rounded_->equations().step();
-  const double size =
-      std::max({max_norm(rounded_p0_), max_norm(start.gamma), h * max_norm(start.psi), h * max_norm(start.zeta)});
-  // Unknowns that double cannot hold are zero there.
-  const double size_bits = size > 0 ? std::log2(size) : static_cast<double>(binary_exponent(max_norm(p0)));
-  // log2 of corrections over the size, and of the error left.
-  double last = 0, left = -bits_per_sweep;
-  int waiting = 0;
+  position_scale_.evaluate(q0, positions_);
+  rule_.start(p0, positions_);
+  rule_.expect_rate(rate_);
+  rule_.show_terms(x_.psi, &h_);
+  long left = -bits_per_sweep;
+  int slow = 0;
   for (long sweeps = 1;; ++sweeps) {
     long exponent = 0;
-    const bool full = residual(static_cast<long>(-left) + bits_per_sweep + 2, exponent);
-    rounded_->jacobian().solve(correction_);
-    double norm = max_norm(correction_.momentum);
-    raise_to(norm, max_norm(correction_.constraint));
-    if (!std::isfinite(norm))
-      throw StageFailure(FailureCause::stage_equations_diverge, "an iterate is not finite", "nan", sweeps);
-    for (Index i = 0; i < x_.gamma.size(); ++i)
-      add_scaled(x_.gamma.data()[i], -correction_.momentum.data()[i], exponent, t_);
-    for (Index i = 0; i < x_.lambda.size(); ++i)
-      add_scaled(x_.lambda.data()[i], -correction_.constraint.data()[i] / h, exponent, t_);
-    const double now =
-        norm > 0 ? std::log2(norm) + static_cast<double>(exponent) - size_bits : static_cast<double>(exponent_of_zero);
-    const double rate = sweeps == 1 ? rate_ : std::max<double>(now - last, -bits_per_sweep);
-    left = now + std::min(rate, least_rate);
-    const double round_off = static_cast<double>(-bits_);
-    const bool converged = rate < least_rate && now + rate <= round_off - 1;
-    const bool stagnant = sweeps > 1 && rate >= least_rate && now <= round_off + tolerance_bits_;
-    if (full && (converged || stagnant)) {
-      if (sweeps > 1 && rate < least_rate) rate_ = rate;
-      equations_->changes(x_, position_change_, momentum_change_);
-      change_.setZero();
-      rounded_->add_change_of_momentum(momentum_, correction_.momentum, change_);
-      for (Index j = 0; j < change_.size(); ++j) add_scaled(momentum_change_[j], change_[j], exponent, t_);
-      return sweeps;
+    const bool full = residual(-left + bits_per_sweep + 2, exponent);
+    rounded_->jacobian().solve_scaled(correction_);
+    for (Index i = 0; i < x_.gamma.size(); ++i) {
+      set_scaled(t_, -correction_.momentum.data()[i], exponent);
+      rule_.show_change(i / method_.s, t_);
+      set_sum(x_.gamma.data()[i], x_.gamma.data()[i], t_);
     }
-    if (converged || stagnant) left = round_off;
-    waiting = rate >= least_rate ? waiting + 1 : 0;
-    if (waiting >= 4 || sweeps > bits_)
-      throw StageFailure(FailureCause::stage_equations_diverge, "the corrections do not fall",
-                         to_scientific(std::exp2(now), 3), sweeps);
-    last = now;
+    for (Index i = 0; i < x_.lambda.size(); ++i) {
+      set_scaled(t_, -correction_.constraint.data()[i] / h, exponent);
+      set_sum(x_.lambda.data()[i], x_.lambda.data()[i], t_);
+    }
+    if (rule_.is_coarse()) rule_.show_terms(x_.gamma);
+    const Verdict verdict = rule_.judge();
+    if (verdict == Verdict::not_finite) return {sweeps, false};
+    if (verdict == Verdict::converged) {
+      if (full) {
+        if (sweeps > 1) set(rate_, rule_.rate());
+        equations_->changes(x_, position_change_, momentum_change_);
+        change_.setZero();
+        rounded_->add_change_of_momentum(momentum_, correction_.momentum, change_);
+        for (Index j = 0; j < change_.size(); ++j) {
+          set_scaled(t_, change_[j], exponent);
+          set_sum(momentum_change_[j], momentum_change_[j], t_);
+        }
+        return {sweeps, true};
+      }
+      left = -bits_;
+      continue;
+    }
+    // In fewer digits than the coordinate nearest to its solution has already, the residual would spoil it.
+    left = std::min(left, std::max(rule_.least_left(), -bits_));
+    set_scaled(t_, 1, -least_bits);
+    slow = sweeps > 1 && exceeds(rule_.rate(), t_) ? slow + 1 : 0;
+    if (slow >= 3) return {sweeps, false};
   }
 }
 
@@ -230,10 +268,19 @@ SolverCounts Newton<S>::counts() const {
   };
   if (equations_) add(*equations_);
   for (const Rung& rung : rungs_) add(rung.level->equations);
-  add(rounded_->equations());
-  const Jacobian& jacobian = rounded_->jacobian();
-  sum.parts.push_back({"factors of the Jacobian", jacobian.factorisations(), jacobian.factor_operations()});
-  sum.parts.push_back({"corrections", jacobian.solutions(), jacobian.solve_operations()});
+  PartCount factors{"factors of the Jacobian"}, corrections{"corrections"};
+  const auto add_newton = [&](const auto& newton) {
+    add(newton.equations());
+    const auto& jacobian = newton.jacobian();
+    factors.calls += jacobian.factorisations();
+    factors.per_call = jacobian.factor_operations();
+    corrections.calls += jacobian.solutions();
+    corrections.per_call = jacobian.solve_operations();
+  };
+  if (rounded_) add_newton(*rounded_);
+  if (full_) add_newton(*full_);
+  sum.parts.push_back(factors);
+  sum.parts.push_back(corrections);
   return sum;
 }
 
@@ -241,7 +288,8 @@ template <Scalar S>
 void Newton<S>::measure_time() {
   if (equations_) equations_->measure_time();
   for (Rung& rung : rungs_) rung.level->equations.measure_time();
-  rounded_->equations().measure_time();
+  if (rounded_) rounded_->equations().measure_time();
+  if (full_) full_->equations().measure_time();
 }
 
 #define HBVM_DEFINE(S) template class Newton<S>;

@@ -56,9 +56,9 @@ void StageEquations<S>::measure_time() {
 template <Scalar S>
 void StageEquations<S>::describe_parts() {
   const Index s = method_.s, k = method_.k, m = problem_.m();
-  parts_ = {{"velocities h M^-1 gamma"}, {"positions at c"},     {"positions at c_hat"},       {"coefficients psi_hat"},
-            {"constraint gradients"},    {"matrix of (lam)"},    {"right-hand side of (lam)"}, {"solution of (lam)"},
-            {"coefficients zeta"},       {"coefficients gamma"}, {"residual of (lam)"}};
+  parts_ = {{"velocities h M^-1 gamma"}, {"positions at c"},    {"positions at c_hat"}, {"coefficients psi_hat"},
+            {"constraint gradients"},    {"matrix of (lam)"},   {"factors of (lam)"},   {"right-hand side of (lam)"},
+            {"solution of (lam)"},       {"coefficients zeta"}, {"coefficients gamma"}, {"residual of (lam)"}};
   const auto stages = static_cast<std::uint64_t>(s);
   parts_[velocities].per_call = stages * problem_.mass.operations();
   parts_[velocities].per_call.add(Op::multiply, s * m);
@@ -73,14 +73,9 @@ void StageEquations<S>::describe_parts() {
     parts_[matrix].per_call.add_dots(s * s, static_cast<Index>(pair.terms.size()));
     parts_[matrix].per_call.add(Op::multiply, s * s);
   }
-  OperationCounts& rhs = parts_[right_hand_side].per_call;
-  rhs = stages * problem_.mass.operations();
-  rhs.add_dots(s * m, s);
-  for (Index a = 0; a < problem_.nu(); ++a)
-    rhs.add_dots(s, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
-  rhs.add(Op::add, s * m);
-  rhs.add(Op::reciprocal, m);
-  parts_[solution].per_call = system_.factor_operations() + system_.solve_operations();
+  parts_[factors].per_call = system_.factor_operations();  // none of a single multiplier at a single stage
+  parts_[solution].per_call = system_.solve_operations();
+  parts_[solution].per_call.add(Op::add, s * problem_.nu());
   parts_[zetas].per_call.add_products(s * gradient_.stored());
   parts_[zetas].per_call.add_dots(s * m, s);
   OperationCounts& gamma = parts_[gammas].per_call;
@@ -88,10 +83,14 @@ void StageEquations<S>::describe_parts() {
   gamma.add(Op::multiply, 2 * s * m);
   gamma.add_products((s - 1) * m);
   gamma.add(Op::add, m);
-  parts_[constraint_residual].per_call.add_dots(s * m, s);
+  OperationCounts hidden;
+  hidden.add_dots(s * m, s);
   for (Index a = 0; a < problem_.nu(); ++a)
-    parts_[constraint_residual].per_call.add_dots(s, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
+    hidden.add_dots(s, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
+  parts_[constraint_residual].per_call = hidden;
   parts_[constraint_residual].per_call.add(Op::subtract, s * m);
+  parts_[right_hand_side].per_call = gamma + stages * problem_.mass.operations() + hidden;
+  parts_[right_hand_side].per_call.add(Op::reciprocal, s * problem_.nu());
 }
 
 template <Scalar S>
@@ -153,18 +152,26 @@ void StageEquations<S>::move_constraints() {
 }
 
 template <Scalar S>
-bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta) {
+bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta, bool factor) {
   const Index nu = problem_.nu(), s = method_.s;
   if (nu == 0) return true;
   move_constraints();
-  set_up(psi);
+  if (factor && !factor_matrix()) return false;
+  project_multipliers(lambda, zeta);
+  const auto first = [&](Index a) { return order_.position[static_cast<std::size_t>(a)] * s; };
+  {
+    const Call call(*this, right_hand_side);
+    set_momenta(psi, zeta, stage_);
+    problem_.mass.velocity(lanes(std::as_const(stage_)), lanes(velocity_));
+    hidden_constraints(velocity_, [&](Index a) { return &rhs_[first(a)]; });
+    for (Index i = 0; i < rhs_.size(); ++i) set_quotient(rhs_[i], rhs_[i], h_);
+  }
   {
     const Call call(*this, solution);
-    if (!system_.factor()) return false;
     system_.solve(rhs_);
+    for (Index a = 0; a < nu; ++a)
+      for (Index i = 0; i < s; ++i) set_sum(lambda(i, a), lambda(i, a), rhs_[first(a) + i]);
   }
-  for (Index b = 0; b < nu; ++b)
-    for (Index i = 0; i < s; ++i) set(lambda(i, b), rhs_[order_.position[static_cast<std::size_t>(b)] * s + i]);
   project_multipliers(lambda, zeta);
   return true;
 }
@@ -178,10 +185,10 @@ void StageEquations<S>::project_multipliers(const Matrix<S>& lambda, Matrix<S>& 
 }
 
 template <Scalar S>
-void StageEquations<S>::set_up(const Matrix<S>& psi) {
-  const Index nu = problem_.nu(), s = method_.s;
+bool StageEquations<S>::factor_matrix() {
+  // sum_j a_ij grad g_i^T M^-1 grad g_j lambda_j: (lam) divided by h^2
+  const Index s = method_.s;
   const auto first = [&](Index a) { return order_.position[static_cast<std::size_t>(a)] * s; };
-  // (lam) divided by h: sum_j a_ij grad g_i^T M^-1 grad g_j lambda_j = grad g_i^T M^-1 (p0/h + sum_j I_ij psi_j)
   {
     const Call call(*this, matrix);
     system_.set_zero();
@@ -192,14 +199,15 @@ void StageEquations<S>::set_up(const Matrix<S>& psi) {
           set_product(system_.entry(first(pair.a) + i, first(pair.b) + j), coupling_(i, j), method_.A(i, j));
     }
   }
-  const Call call(*this, right_hand_side);
-  product(stage_, method_.I_s, psi);
-  for (Index j = 0; j < stage_.cols(); ++j) {
-    set_quotient(t_, (*p0_)[j], h_);
-    for (Index i = 0; i < s; ++i) set_sum(stage_(i, j), stage_(i, j), t_);
-  }
-  problem_.mass.velocity(lanes(stage_), lanes(w_));
-  for (Index b = 0; b < nu; ++b) gradient_.transposed_times(b, lanes(std::as_const(w_)), &rhs_[first(b)]);
+  const Call call(*this, factors);
+  return system_.factor();
+}
+
+template <Scalar S>
+template <class Out>
+void StageEquations<S>::hidden_constraints(const Matrix<S>& velocity, Out out) {
+  product(w_, method_.P_s, velocity);
+  for (Index b = 0; b < problem_.nu(); ++b) gradient_.transposed_times(b, lanes(std::as_const(w_)), out(b));
 }
 
 template <Scalar S>
@@ -227,14 +235,17 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& r) {
   for (Index i = 0; i < r.momentum.size(); ++i)
     set_difference(r.momentum.data()[i], x.gamma.data()[i], r.momentum.data()[i]);
   if (!constrained) return;
-  product(w_, method_.P_s, velocity_);
-  for (Index b = 0; b < problem_.nu(); ++b)
-    gradient_.transposed_times(b, lanes(std::as_const(w_)), &r.constraint(0, b));
+  hidden_constraints(velocity_, [&](Index b) { return &r.constraint(0, b); });
 }
 
 template <Scalar S>
 void StageEquations<S>::momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
   const Call call(*this, gammas);
+  set_momenta(psi, zeta, gamma);
+}
+
+template <Scalar S>
+void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
   const Index s = method_.s;
   const Matrix<S>& X = method_.X_s;
   for (Index i = 0; i < w_.size(); ++i) set_difference(w_.data()[i], psi.data()[i], zeta.data()[i]);

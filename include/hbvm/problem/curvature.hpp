@@ -9,11 +9,12 @@
 
 namespace hbvm {
 
-/// The second derivatives of U and g of a problem in double, by the pairs of coordinates where they can be nonzero.
+/// The second derivatives of U and g of a problem, by the pairs of coordinates where they can be nonzero.
 /// Those of g are constant, those of U are evaluated at nodes. The problem must outlive it.
+template <Scalar S>
 class Curvature {
  public:
-  Curvature(const Problem<double>& problem, Index nodes);
+  Curvature(const Problem<S>& problem, Index nodes);
 
   /// Row and column: every nonzero of any second derivative, each pair once in either order.
   struct Pair {
@@ -22,30 +23,30 @@ class Curvature {
   const std::vector<Pair>& pairs() const { return pairs_; }
 
   /// d2U/dq_row dq_column at each node: nodes x pairs.
-  const Matrix<double>& potential(Lanes<const double> q);
+  const Matrix<S>& potential(Lanes<const S> q);
 
   /// d2g_a/dq_row dq_column of one pair.
   struct Entry {
     Index constraint, pair;
-    double value;
+    S value;
   };
   const std::vector<Entry>& constraints() const { return entries_; }
 
  private:
   Index pair(Index row, Index column);
-  void add(Index constraint, Index row, Index column, double value);
+  void add(Index constraint, Index row, Index column, const S& value);
 
   /// One term: where each d x d block of its instances goes.
   struct Term {
-    const EffectTerm<double>* effect;
-    Matrix<double> displacement;
-    Execution<double> hessian;
+    const EffectTerm<S>* effect;
+    Matrix<S> displacement;
+    Execution<S> hessian;
     struct Target {
       Index pair, output, instance;
-      double weight;
+      S weight;
     };
     std::vector<Target> targets;
-    Term(const EffectTerm<double>& term, Index dimension, Index nodes);
+    Term(const EffectTerm<S>& term, Index dimension, Index nodes);
   };
 
   Index dimension_, nodes_;
@@ -53,7 +54,12 @@ class Curvature {
   std::map<std::pair<Index, Index>, Index> known_;
   std::deque<Term> terms_;
   std::vector<Entry> entries_;
-  Matrix<double> values_;
+  Matrix<S> values_;
+  S t_ = 0;
 };
+
+#define HBVM_DECLARE(S) extern template class Curvature<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
 
 }  // namespace hbvm

@@ -7,15 +7,21 @@
 
 namespace hbvm {
 
-/// Continues a sequence x_1, x_2, … of vectors, one a step, by the polynomial through its last elements. It keeps the
-/// backward differences D_r = nabla^r x_n; x_{n+1} is predicted as sum_{i <= r} D_i, and as D_{r+1} is the error that
-/// the same prediction of x_n had, r is chosen to make that least.
+/// Continues a sequence x_1, x_2, … of matrices, one a step, column by column by the polynomial through the last
+/// elements. It keeps the backward differences D_r = nabla^r x_n; x_{n+1} is predicted as sum_{i <= r} D_i, and as
+/// D_{r+1} is the error that the same prediction of x_n had, r is chosen to make that least. Each column has an r of
+/// its own, as columns are coordinates or multipliers of different size and unit.
 template <Scalar S>
 class Extrapolation {
  public:
   static constexpr Index max_order = 8;
 
-  explicit Extrapolation(Index size) : size_(size), differences_(size, max_order + 2), scratch_(size) {}
+  Extrapolation(Index rows, Index columns)
+      : rows_(rows),
+        size_(rows * columns),
+        differences_(size_, max_order + 2),
+        scratch_(size_),
+        orders_(static_cast<std::size_t>(columns)) {}
 
   void clear() { known_ = 0; }
   bool empty() const { return known_ == 0; }
@@ -24,35 +30,45 @@ class Extrapolation {
   void add(const S* x) {
     for (Index i = 0; i < size_; ++i) set(scratch_[i], x[i]);
     const Index differences = std::min(known_ + 1, max_order + 2);
-    order_ = 0;
     for (Index r = 0; r < differences; ++r) {
       S* const old = differences_.data() + r * size_;
       using std::swap;  // Boost has its own, which exchanges the digits; the moves of std::swap may round them
       for (Index i = 0; i < size_; ++i) swap(old[i], scratch_[i]);
       if (r + 1 < differences)
         for (Index i = 0; i < size_; ++i) set_difference(scratch_[i], old[i], scratch_[i]);
-      if (r == 0) continue;
-      set_zero(norm_);
-      for (Index i = 0; i < size_; ++i) raise_magnitude(norm_, old[i]);
-      if (r > 1 && !exceeds(least_, norm_)) continue;
-      set(least_, norm_);
-      order_ = r - 1;
     }
     known_ = differences;
+    for (std::size_t column = 0; column < orders_.size(); ++column) choose_order(column);
   }
 
   /// The prediction of x_{n+1}; not for an empty sequence.
   void predict(S* x) const {
     for (Index i = 0; i < size_; ++i) set(x[i], differences_.data()[i]);
-    for (Index r = 1; r <= order_; ++r)
-      for (Index i = 0; i < size_; ++i) set_sum(x[i], x[i], differences_.data()[r * size_ + i]);
+    for (std::size_t column = 0; column < orders_.size(); ++column)
+      for (Index r = 1; r <= orders_[column]; ++r)
+        for (Index n = 0, i = static_cast<Index>(column) * rows_; n < rows_; ++n, ++i)
+          set_sum(x[i], x[i], differences_.data()[r * size_ + i]);
   }
-  Index order() const { return order_; }
+  Index order(Index column) const { return orders_[static_cast<std::size_t>(column)]; }
 
  private:
-  Index size_, known_ = 0, order_ = 0;
+  void choose_order(std::size_t column) {
+    Index& order = orders_[column];
+    order = 0;
+    for (Index r = 1; r < known_; ++r) {
+      const S* const difference = differences_.data() + r * size_ + static_cast<Index>(column) * rows_;
+      set_zero(norm_);
+      for (Index i = 0; i < rows_; ++i) raise_magnitude(norm_, difference[i]);
+      if (r > 1 && !exceeds(least_, norm_)) continue;
+      set(least_, norm_);
+      order = r - 1;
+    }
+  }
+
+  Index rows_, size_, known_ = 0;
   Matrix<S> differences_;
   Vector<S> scratch_;
+  std::vector<Index> orders_;
   S norm_ = 0, least_ = 0;
 };
 

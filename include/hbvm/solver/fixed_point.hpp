@@ -1,7 +1,9 @@
 #pragma once
 
 #include "hbvm/solver/extrapolation.hpp"
+#include "hbvm/solver/position_scale.hpp"
 #include "hbvm/solver/stage_solver.hpp"
+#include "hbvm/solver/stopping_rule.hpp"
 
 namespace hbvm {
 
@@ -11,23 +13,14 @@ namespace hbvm {
 /// Otherwise a sweep uses each value as soon as it is known (psi from gamma, then lambda and zeta, then gamma), and
 /// starts from the extrapolation of the last steps' gamma; if that leads nowhere, once more from the constant v = p0.
 ///
-/// It stops when the increment times the factor by which it fell, which is what the next sweep would change (in the
-/// paper's order, where increments fall unevenly: the increment itself), is below epsilon/4 of the scale: the largest
-/// of |p0|, |gamma|, h |psi| and h |zeta|. The increment is the max-norm of that of gamma, and in the paper's order,
-/// where psi lags, of h psi.
+/// StoppingRule says when it ends, from the change of gamma, and in the paper's order, where psi lags, of h psi. If the
+/// changes stop falling above what rounding explains, the condition of the constraints may explain it.
 ///
-/// It also stops when the increment is below C epsilon, for a scale that includes |M q0|/h (positions are rounded, too,
-/// and h M^-1 gamma is added to them), and has not fallen below its least value for two sweeps in a row: then it is
-/// round-off. C = 4 (k + 3 s + m + s nu) is an upper bound of the lengths of the sums of one sweep, where a sum of n
-/// terms carries n roundings, and 4 for what they are passed through.
-///
-/// It fails if an increment is not finite, if (lam) is singular, and if the increments, above C epsilon, do not fall
-/// below their least value for `patience` sweeps: they stagnate or grow.
+/// It fails if a change is not finite, if (lam) is singular, and if the changes stagnate, grow or fall too slowly.
 template <Scalar S>
 class FixedPoint final : public StageSolver<S> {
  public:
   enum class Order { paper, newest };
-  static constexpr long patience = 40;
 
   FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, const S& step, Order order);
 
@@ -42,19 +35,18 @@ class FixedPoint final : public StageSolver<S> {
   enum class Start { zero, constant };
   void prepare(Start start, const Vector<S>& p0);
   long iterate();
-  [[nodiscard]] bool sweep();
-  void measure_increment();
-  void measure_size();
+  [[nodiscard]] bool sweep(bool factor);
+  /// Whether the condition of the constraints at q0 explains the changes that are left.
+  bool conditioned();
 
   StageEquations<S> equations_;
   Order order_;
   StageUnknowns<S> x_;
   Matrix<S> gamma_before_, psi_before_;
   Extrapolation<S> extrapolation_;  ///< of gamma
-  Vector<S> position_change_, momentum_change_;
-  S position_scale_ = 0, tolerance_ = 0, quarter_epsilon_ = 0, sixteen_ = 16;
-  // Kept from sweep to sweep: creating them allocates.
-  S increment_ = 0, scaled_ = 0, size_ = 0, left_ = 0, last_ = 0, least_ = 0, term_ = 0;
+  PositionScale<S> position_scale_;
+  StoppingRule<S> rule_;
+  Vector<S> positions_, position_change_, momentum_change_;
 };
 
 #define HBVM_DECLARE(S) extern template class FixedPoint<S>;

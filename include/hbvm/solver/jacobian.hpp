@@ -7,7 +7,7 @@
 
 namespace hbvm {
 
-/// The derivative of the StageResidual by gamma and h lambda in double, factored: s (m + nu) unknowns whatever k is.
+/// The derivative of the StageResidual by gamma and h lambda, factored: s (m + nu) unknowns whatever k is.
 ///
 /// With W = M^-1, H_n the second derivative of U at the node c_hat_n, L_n = sum_a lambda_a grad^2 g_a and
 /// D_n = (grad^2 g_a W v_n)_a at the node c_n,
@@ -17,19 +17,30 @@ namespace hbvm {
 ///     d momentum_i   / d (h lambda_n)  = (X P^T Omega)_in grad g_n
 ///     d constraint_n / d gamma_j       = P_nj grad g_n^T W + h I_nj D_n^T W
 ///
+/// It is factored with rows and columns brought to the size of velocities by powers of two, which depend on the masses
+/// and on the gradients alone: so that neither units nor a light body beside a heavy one change a pivot or a digit.
+///
 /// Unknowns are ordered by the graph of the bodies: for a chain of bodies the matrix is banded, and costs in proportion
 /// to their number.
+template <Scalar S>
 class Jacobian {
  public:
   /// The problem and the method must outlive it.
-  Jacobian(const Problem<double>& problem, const Hbvm<double>& method, double step);
+  Jacobian(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
 
   /// Evaluates and factors at the last nodes of `at`, where the multipliers were `lambda`.
   /// \return false if it is singular or not finite
-  [[nodiscard]] bool factor(const StageEquations<double>& at, const Matrix<double>& lambda);
+  [[nodiscard]] bool factor(const StageEquations<S>& at, const Matrix<S>& lambda);
 
   /// Takes the residual to J^-1 residual: its momentum becomes a change of gamma, its constraint one of h lambda.
-  void solve(StageResidual<double>& r);
+  void solve(StageResidual<S>& r);
+
+  /// The powers of two by which the momentum residual of a coordinate and the constraint residual of a multiplier are
+  /// divided before they are solved for.
+  long coordinate_exponent(Index j) const { return coordinate_exponents_[static_cast<std::size_t>(j)]; }
+  long constraint_exponent(Index a) const { return row_exponents_[static_cast<std::size_t>(a)]; }
+  /// solve() for a residual divided by them already.
+  void solve_scaled(StageResidual<S>& r);
 
   Index unknowns() const { return n_; }
   Index half_bandwidth() const { return matrix_.half_bandwidth(); }
@@ -40,22 +51,31 @@ class Jacobian {
   OperationCounts solve_operations() const { return matrix_.solve_operations(); }
 
  private:
-  void assemble(const StageEquations<double>& at, const Matrix<double>& lambda);
+  void assemble(const StageEquations<S>& at, const Matrix<S>& lambda);
+  /// Exponents of the constraints' rows and columns from the gradients at hand.
+  void choose_scales(const ConstraintGradient<S>& gradient);
+  void scale();
   Index of_coordinate(Index j) const { return order_.position[static_cast<std::size_t>(j)] * method_.s; }
   Index of_multiplier(Index a) const { return order_.position[static_cast<std::size_t>(problem_.m() + a)] * method_.s; }
 
-  const Problem<double>& problem_;
-  const Hbvm<double>& method_;
-  double h_;
-  Curvature curvature_;
-  std::vector<std::vector<std::pair<Index, double>>> W_;  ///< nonzeros of M^-1, row by row
-  Matrix<double> X_hat_, X_projection_;                   ///< X P_hat^T Omega_hat and X P^T Omega
+  const Problem<S>& problem_;
+  const Hbvm<S>& method_;
+  S h_;
+  Curvature<S> curvature_;
+  std::vector<std::vector<std::pair<Index, S>>> W_;  ///< nonzeros of M^-1, row by row
+  Matrix<S> X_hat_, X_projection_;                   ///< X P_hat^T Omega_hat and X P^T Omega
   Ordering order_;
   Index n_ = 0;
-  Lu<double> matrix_;
-  Vector<double> x_;
-  Matrix<double> block_, curved_;
+  Lu<S> matrix_;
+  std::vector<long> coordinate_exponents_, row_exponents_, column_exponents_;  ///< of j; of a
+  std::vector<S> row_factors_, column_factors_;  ///< of the unknowns in their order: 2^-exponent and 2^exponent
+  Vector<S> x_;
+  Matrix<S> block_, curved_;
   std::uint64_t factorisations_ = 0, solutions_ = 0;
 };
+
+#define HBVM_DECLARE(S) extern template class Jacobian<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
 
 }  // namespace hbvm

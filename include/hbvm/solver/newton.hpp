@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "hbvm/problem/in_double.hpp"
-#include "hbvm/solver/newton_in_double.hpp"
+#include "hbvm/solver/simplified_newton.hpp"
 
 namespace hbvm {
 
@@ -15,11 +15,16 @@ namespace hbvm {
 /// sweep then wins about 15 digits, so that the residual of a sweep needs only the digits that its correction can use:
 /// in Mpfr it is evaluated with problem, method and state rounded to a few more digits than are to be won.
 ///
-/// The last residual is one of the working precision. It stops when the correction, times the rate at which corrections
-/// fall, is below epsilon/4 of the scale; and fails if they do not fall.
+/// The last residual is one of the working precision, and StoppingRule says when it is reached.
+///
+/// Where double cannot hold the problem (masses beyond its range), does not solve the equations, or wins less than
+/// `least_bits` a sweep (the condition of the constraints beyond 10^12), everything is done in the working precision.
 template <Scalar S>
 class Newton final : public StageSolver<S> {
  public:
+  /// What a sweep with the Jacobian in double has to win.
+  static constexpr long least_bits = 10;
+
   Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
 
   long solve(const Vector<S>& q0, const Vector<S>& p0) override;
@@ -47,7 +52,11 @@ class Newton final : public StageSolver<S> {
     std::unique_ptr<Level> level;
   };
 
-  long refine(const Vector<S>& q0, const Vector<S>& p0);
+  /// \return the number of residuals, and whether the corrections fell
+  std::pair<long, bool> refine(const Vector<S>& q0, const Vector<S>& p0);
+  long solve_in_full(const Vector<S>& q0, const Vector<S>& p0);
+  /// Whether the problem in double is the problem, with all its digits but the last.
+  bool fits_double() const;
   /// Residual of x_ with at least so many bits if there are as many: scaled by 2^-exponent into correction_.
   /// \return whether it was evaluated in the working precision
   bool residual(long bits, long& exponent);
@@ -60,7 +69,8 @@ class Newton final : public StageSolver<S> {
   long bits_ = significand_bits<S>();
   std::optional<Problem<double>> rounded_problem_;
   std::optional<Hbvm<double>> rounded_method_;
-  std::optional<NewtonInDouble> rounded_;
+  std::optional<SimplifiedNewton<double>> rounded_;
+  std::unique_ptr<SimplifiedNewton<S>> full_;  ///< once double has failed
   Vector<double> rounded_q0_, rounded_p0_;
   std::optional<StageEquations<S>> equations_;  ///< in double those of rounded_ serve
   StageUnknowns<S> x_;
@@ -70,9 +80,11 @@ class Newton final : public StageSolver<S> {
   Matrix<double> momentum_;
   Vector<double> change_;
   Vector<S> position_change_, momentum_change_;
-  double tolerance_bits_;  ///< log2 of the round-off of a sweep over that of one operation
-  double rate_ = -40;      ///< log2 of the rate at which corrections fell last
-  S t_;
+  PositionScale<S> position_scale_;
+  Vector<S> positions_;
+  StoppingRule<S> rule_;
+  bool failed_in_double_ = false;
+  S rate_ = 1, t_ = 0;  ///< rate_: at which corrections fell in the last step
 };
 
 #define HBVM_DECLARE(S) extern template class Newton<S>;

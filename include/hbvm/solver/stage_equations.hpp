@@ -56,10 +56,15 @@ class StageEquations {
   void move(const Matrix<S>& gamma);
   /// psi = P_hat^T Omega_hat grad U(u at c_hat).
   void forces(Matrix<S>& psi);
-  /// lambda from the linear system (lam) at the current nodes, and zeta = P_s^T Omega (grad g lambda). Without
-  /// constraints it does nothing.
-  /// \return false if the system is singular to working precision
-  [[nodiscard]] bool multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta);
+  /// Changes lambda so that the momenta that follow from it and psi fulfil the hidden constraints at the current nodes,
+  /// which is (lam), and sets zeta = P_s^T Omega (grad g lambda). Without constraints it does nothing.
+  ///
+  /// (lam) is solved for the change, with what lambda leaves of the hidden constraints on the right: then neither the
+  /// rounding of the matrix nor its condition biases the solution. With `factor` false the last matrix serves again.
+  /// \return false if the matrix is singular to working precision
+  [[nodiscard]] bool multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta, bool factor = true);
+  /// An estimate of the condition of that matrix, its rows and columns brought to one scale, in the max-norm.
+  double condition();
   /// gamma = e_1 p0 + h X_s (psi - zeta), which is (dispro1) by (IsPs).
   void momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
 
@@ -89,6 +94,7 @@ class StageEquations {
     projection,
     gradients,
     matrix,
+    factors,
     right_hand_side,
     solution,
     zetas,
@@ -102,9 +108,13 @@ class StageEquations {
   void positions(const Matrix<S>& integrals, Matrix<S>& u);
   /// Positions at c (unless they are those at c_hat) and the constraints' gradients there.
   void move_constraints();
+  void set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
   void project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta);
-  /// Matrix and right-hand side of (lam) at the current nodes.
-  void set_up(const Matrix<S>& psi);
+  /// The matrix of (lam) at the current nodes, factored.
+  [[nodiscard]] bool factor_matrix();
+  /// What gamma leaves of the hidden constraints at the current nodes, grad g_i^T M^-1 v_i, in column b from out(b) on.
+  template <class Out>
+  void hidden_constraints(const Matrix<S>& velocity, Out out);
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "hbvm/solver/extrapolation.hpp"
+#include "hbvm/solver/jacobian.hpp"
+#include "hbvm/solver/position_scale.hpp"
+#include "hbvm/solver/stage_solver.hpp"
+#include "hbvm/solver/stopping_rule.hpp"
+
+namespace hbvm {
+
+/// Simplified Newton iteration for the stage equations with everything in the working precision. In double it is
+/// Newton's solver itself, and the start and the Jacobian of the mixed-precision one; in more digits it serves where
+/// double cannot hold the problem or its condition.
+///
+/// A Jacobian is kept while the increments fall by `slow` or more a sweep, also from step to step, and is evaluated
+/// anew where they do not. Where increments grow although the Jacobian is that of the last iterate, the iterate was a
+/// step too far: it is taken back and made by half (Deuflhard's natural monotonicity).
+///
+/// The iteration starts from the extrapolation of the last steps' solutions, or if that leads nowhere (and in the first
+/// step) from the constant v = p0, or from the solution of a step half as long. The stage equations may have several
+/// solutions, of which the one that shrinks to the start with the step is meant: a solution far from its start is
+/// followed from shorter steps as well, and the one found so is taken if they differ.
+///
+/// StoppingRule says when it ends. Above what it takes for rounding the increments may be rounding, too, magnified by
+/// an ill-conditioned problem: if they do not fall with the Jacobian of the iterate itself, they are.
+template <Scalar S>
+class SimplifiedNewton {
+ public:
+  static constexpr long max_sweeps = 60;
+
+  SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+
+  /// \return the number of residuals
+  /// \throws StageFailure
+  long solve(const Vector<S>& q0, const Vector<S>& p0);
+  /// Evaluates the Jacobian at the solution. \return false if it is singular
+  [[nodiscard]] bool refresh();
+
+  const StageUnknowns<S>& unknowns() const { return x_; }
+  Jacobian<S>& jacobian() { return jacobian_; }
+  const Jacobian<S>& jacobian() const { return jacobian_; }
+  StageEquations<S>& equations() { return equations_; }
+  const StageEquations<S>& equations() const { return equations_; }
+  /// What the solution's momenta change over the step: h (psi_0 - zeta_0).
+  const Vector<S>& momentum_change() const { return momentum_change_; }
+  /// The change of h (psi_0 - zeta_0) when gamma changes by -correction, where the residual was `momentum`: row 0 of
+  /// X_s^-1 (momentum - correction), since gamma - e_1 p0 = h X_s (psi - zeta).
+  void add_change_of_momentum(const Matrix<S>& momentum, const Matrix<S>& correction, Vector<S>& change) const;
+
+ private:
+  enum class Start { previous, constant, shorter, shortest };
+  void prepare(Start start, const Vector<S>& p0);
+  /// Follows the solution from a step 2^-halvings as long, where the constant v = p0 is a good start if it ever is, to
+  /// the full one, by steps that grow as fast as Newton's iteration can follow.
+  long grow(const Vector<S>& q0, const Vector<S>& p0, int halvings);
+  /// \param positions what rounding of the positions amounts to in a step of this size
+  long iterate(StageEquations<S>& equations, Jacobian<S>& jacobian, const Vector<S>& positions);
+  /// x_ = base_ - factor correction_.
+  void move_from_base(const S& h, const S& factor);
+  /// base_scale_ = the scales of x_, each the greatest of its body.
+  void keep_base_scale();
+  /// change_ = the greatest correction over base_scale_.
+  void measure_change();
+  /// A residual as large as what it is the residual of shows no solution, however small the increments.
+  bool residual_is_small();
+  /// Whether the momenta of some body are farther from those of start_ than the forces there explain, or its forces psi
+  /// have changed by more than half of their size.
+  bool is_far_from_start(const StageEquations<S>& equations);
+
+  const Problem<S>& problem_;
+  const Hbvm<S>& method_;
+  StageEquations<S> equations_;
+  Jacobian<S> jacobian_;
+  bool usable_ = false;  ///< the Jacobian
+  StageUnknowns<S> x_;
+  StageResidual<S> residual_;
+  Matrix<S> momentum_;                  ///< residual before it is solved for
+  StageUnknowns<S> start_;              ///< gamma of the iteration's start, psi and zeta there
+  StageResidual<S> base_, correction_;  ///< an iterate (gamma, h lambda) and the step from it
+  Vector<S> base_scale_;                ///< of its coordinates
+  Vector<S> first_row_of_inverse_X_, momentum_change_, sequence_;
+  Extrapolation<S> extrapolation_;
+  PositionScale<S> position_scale_;
+  Vector<S> positions_;
+  StoppingRule<S> rule_;
+  S tolerance_, root_epsilon_, coarse_;
+  S change_ = 0, last_ = 0, t_ = 0, u_ = 0, solved_ = 0;
+};
+
+#define HBVM_DECLARE(S) extern template class SimplifiedNewton<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

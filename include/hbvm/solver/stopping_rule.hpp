@@ -1,0 +1,96 @@
+#pragma once
+
+#include <vector>
+
+#include "hbvm/linear/matrix.hpp"
+
+namespace hbvm {
+
+/// Decides when an iteration for momenta at the stages has come down to round-off: coordinate by coordinate, each
+/// against its own scale, so that the digits of a light, slow or small one do not depend on what else moves.
+///
+/// The scale of a coordinate is the largest of |p0_j|, |gamma_ij| and h |psi_ij|, terms of the sum that its momenta are
+/// (h zeta is what these leave, unless multipliers run wild, which is no reason to ask for less).
+///
+/// What rounding leaves behind is a random walk; what a stop leaves behind has the same sign step after step and adds
+/// up. It has to stay below the walk for 2^24 steps, so below 2^-12 epsilon of the scale. A coordinate is settled
+///
+/// - if that is all the iteration still has to change: its change times the rate at which changes fall. The rate is the
+///   greatest of any coordinate in the last two sweeps, or its own; but a change below C epsilon of its scale may be
+///   rounding: none is compared with it, and the rate so far tells what it would be without. No rate is taken to be
+///   below a least one, since one fast fall is not a rate;
+/// - or if its change is rounding: below C epsilon kappa of the larger of the scale and of what rounding of its
+///   positions amounts to, and not below its least one (since it last rose to 16 times that) for two sweeps. C bounds
+///   the roundings of a sweep, kappa the factor by which the constraints magnify them;
+/// - or if it vanishes: below that bound, and changing by all it is for two sweeps, or one where changes fall to 2^-10
+///   a sweep. Nobody waits for what goes to 0.
+template <Scalar S>
+class StoppingRule {
+ public:
+  enum class Verdict {
+    go_on,
+    converged,
+    stagnant,   ///< some coordinate's change has not come below its least one for `patience` sweeps, or rises and rises
+    endless,    ///< more sweeps than any convergence worth the name would take
+    not_finite  ///< a change or scale
+  };
+  static constexpr long patience = 40;
+
+  /// \param least_rate_bits the least rate is 2^-least_rate_bits
+  StoppingRule(Index coordinates, long roundings, int least_rate_bits = 10);
+
+  /// A new iteration.
+  /// \param positions what rounding of the positions amounts to, over epsilon, for each coordinate
+  void start(const Vector<S>& p0, const Vector<S>& positions);
+  /// A rate known before the second sweep.
+  void expect_rate(const S& rate);
+  /// kappa >= 1, from now on until the next start.
+  void set_condition(double kappa);
+
+  /// The change of each column in this sweep: now - before, times `factor` if there is one.
+  void show_change(const Matrix<S>& now, const Matrix<S>& before, const S* factor = nullptr);
+  void show_change(const Matrix<S>& change);
+  void show_change(Index j, const S& change) { raise_magnitude(change_[j], change); }
+  /// Terms of each column, times `factor` if there is one; wanted in every sweep as long as changes are coarse.
+  void show_terms(const Matrix<S>& terms, const S* factor = nullptr);
+
+  /// On the changes and terms shown since the last judgement.
+  Verdict judge();
+
+  const S& rate() const { return rate_; }
+  /// The error that is left of the coordinate that is nearest to its solution, over its scale, as log2.
+  long least_left() const;
+  const S& scale(Index j) const { return scale_[j]; }
+
+  /// Whether the last changes were above 2^-10 of the scale somewhere.
+  bool is_coarse() const { return coarse_; }
+  long sweeps() const { return sweeps_; }
+  /// The greatest change of the last sweep over its scale.
+  S relative_change() const;
+  bool grows() const;
+  /// Whether all the coordinates that are not settled would be, were kappa so large; and how large it would have to be.
+  double condition_wanted() const;
+
+ private:
+  void take_scales();
+  void find_rate();
+  /// C epsilon max(scale_j, positions_j).
+  void set_rounding(Index j, S& bound) const;
+
+  Index size_;
+  long sweeps_ = 0, max_sweeps_;
+  bool coarse_ = true, terms_shown_ = false;
+  S bound_, negligible_, tiny_, least_rate_;  // C epsilon, 2^-12 epsilon, C times the least number
+  S coarse_bound_, kappa_ = 1, rate_ = 1, last_rate_ = 1;
+  S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16;
+  const Vector<S>* p0_ = nullptr;
+  Vector<S> change_, last_, least_, expected_, terms_, scale_, positions_;
+  std::vector<long> waiting_, risen_, vanishing_;
+  std::vector<bool> settled_;
+};
+
+#define HBVM_DECLARE(S) extern template class StoppingRule<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

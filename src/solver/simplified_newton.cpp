@@ -1,0 +1,329 @@
+#include "hbvm/solver/simplified_newton.hpp"
+
+#include "hbvm/scalar/binary_exponent.hpp"
+#include "hbvm/scalar/in_place.hpp"
+#include "hbvm/scalar/text.hpp"
+#include "hbvm/solver/roundings.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Increments that fall by less than this a sweep are worth a new Jacobian.
+constexpr int slow = 10;
+
+/// Row 0 of X^-1.
+template <Scalar S>
+Vector<S> first_row_of_inverse(const Matrix<S>& X) {
+  Lu<S> lu;
+  lu.set(X.transpose());
+  Vector<S> row = Vector<S>::Unit(X.rows(), 0);
+  if (!lu.factor()) throw InputError("X_s is singular");
+  lu.solve(row);
+  return row;
+}
+
+template <class A, class B>
+void copy(A& to, const B& from) {
+  for (Index i = 0; i < from.size(); ++i) set(to.data()[i], from.data()[i]);
+}
+
+template <class A>
+void clear(A& a) {
+  for (Index i = 0; i < a.size(); ++i) set_zero(a.data()[i]);
+}
+
+}  // namespace
+
+template <Scalar S>
+SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
+    : problem_(problem),
+      method_(method),
+      equations_(problem, method, step),
+      jacobian_(problem, method, step),
+      x_(equations_.make_unknowns()),
+      residual_{x_.gamma, x_.lambda},
+      momentum_(x_.gamma),
+      start_(x_),
+      base_{x_.gamma, x_.lambda},
+      correction_(base_),
+      base_scale_(problem.m()),
+      first_row_of_inverse_X_(first_row_of_inverse(method.X_s)),
+      momentum_change_(problem.m()),
+      sequence_(x_.gamma.size() + x_.lambda.size()),
+      extrapolation_(method.s, problem.m() + problem.nu()),
+      position_scale_(problem, step),
+      positions_(problem.m()),
+      rule_(problem.m(), roundings_of_a_sweep(problem, method)) {
+  using std::sqrt;
+  tolerance_ = S(roundings_of_a_sweep(problem, method)) * epsilon<S>();
+  root_epsilon_ = sqrt(epsilon<S>());
+  coarse_ = power_of_two<S>(-10);
+}
+
+template <Scalar S>
+long SimplifiedNewton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
+  equations_.start(q0, p0);
+  position_scale_.evaluate(q0, positions_);
+  long sweeps = 0;
+  const auto attempt = [&](Start start) {
+    try {
+      if (start == Start::shorter || start == Start::shortest) {
+        sweeps += grow(q0, p0, start == Start::shorter ? 12 : 30);
+        usable_ = false;
+      } else {
+        prepare(start, p0);
+      }
+      copy(start_.gamma, x_.gamma);
+      sweeps += iterate(equations_, jacobian_, positions_);
+      return start == Start::shorter || start == Start::shortest || !is_far_from_start(equations_);
+    } catch (const StageFailure& failure) {
+      sweeps += failure.sweeps();
+      usable_ = false;
+      if (start == Start::shortest) throw StageFailure(failure.cause(), failure.what(), failure.increment(), sweeps);
+      return false;
+    }
+  };
+  if (extrapolation_.empty() || !attempt(Start::previous))
+    if (!attempt(Start::constant) && !attempt(Start::shorter)) attempt(Start::shortest);
+  copy(sequence_, x_.gamma);
+  for (Index i = 0; i < x_.lambda.size(); ++i) set(sequence_[x_.gamma.size() + i], x_.lambda.data()[i]);
+  extrapolation_.add(sequence_.data());
+  return sweeps;
+}
+
+template <Scalar S>
+bool SimplifiedNewton<S>::is_far_from_start(const StageEquations<S>& equations) {
+  // Body by body: a coordinate may be small for a moment.
+  const S& h = equations.step();
+  for (const auto& block : problem_.mass.blocks()) {
+    S moved = 0, forces_changed = 0, size = 0;
+    for (Index j = block.offset; j < block.offset + block.size; ++j) {
+      raise_magnitude(size, equations.p0()[j]);
+      for (Index i = 0; i < start_.gamma.rows(); ++i) {
+        raise_magnitude(moved, S(x_.gamma(i, j) - start_.gamma(i, j)));
+        raise_magnitude(forces_changed, S(h * (x_.psi(i, j) - start_.psi(i, j))));
+        raise_magnitude(size, S(h * start_.psi(i, j)));
+        raise_magnitude(size, S(h * start_.zeta(i, j)));
+      }
+    }
+    if (moved > size || 2 * forces_changed > size) return true;
+  }
+  return false;
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::prepare(Start start, const Vector<S>& p0) {
+  if (start == Start::previous) {
+    extrapolation_.predict(sequence_.data());
+    for (Index i = 0; i < x_.gamma.size(); ++i) set(x_.gamma.data()[i], sequence_[i]);
+    for (Index i = 0; i < x_.lambda.size(); ++i) set(x_.lambda.data()[i], sequence_[x_.gamma.size() + i]);
+    return;
+  }
+  clear(x_.gamma);
+  clear(x_.lambda);
+  for (Index j = 0; j < p0.size(); ++j) set(x_.gamma(0, j), p0[j]);
+  // The multipliers of these positions, as a sweep of the fixed-point iteration has them.
+  equations_.move(x_.gamma);
+  equations_.forces(x_.psi);
+  if (!equations_.multipliers(x_.psi, x_.lambda, x_.zeta)) clear(x_.lambda);
+}
+
+template <Scalar S>
+long SimplifiedNewton<S>::grow(const Vector<S>& q0, const Vector<S>& p0, int halvings) {
+  // Steps grow by factors of 1 + growth.
+  constexpr int least_growth_bits = 6;
+  const S& full = equations_.step();
+  S h = full * power_of_two<S>(-halvings), growth = 1;
+  long sweeps = 0;
+  Vector<S> positions(problem_.m());
+  Matrix<S> gamma, lambda;  // of the last step that was solved
+  prepare(Start::constant, p0);
+  for (bool first = true;; first = false) {
+    try {
+      StageEquations<S> shorter(problem_, method_, h);
+      Jacobian<S> jacobian(problem_, method_, h);
+      PositionScale<S>(problem_, h).evaluate(q0, positions);
+      shorter.start(q0, p0);
+      usable_ = false;
+      copy(start_.gamma, x_.gamma);
+      sweeps += iterate(shorter, jacobian, positions);
+      if (first && is_far_from_start(shorter))
+        throw StageFailure(FailureCause::stage_equations_diverge,
+                           "even much shorter steps have no solution near their start", "1", sweeps);
+      if (!(h < full)) return sweeps;
+      gamma = x_.gamma;
+      lambda = x_.lambda;
+      if (growth < 1) growth = 2 * growth;
+    } catch (const StageFailure& failure) {
+      growth = growth / 2;
+      if (first || growth < power_of_two<S>(-least_growth_bits))
+        throw StageFailure(failure.cause(), failure.what(), failure.increment(), sweeps + failure.sweeps());
+      sweeps += failure.sweeps();
+      h = solved_;
+    }
+    solved_ = h;
+    h = h * (1 + growth);
+    if (!(h < full)) h = full;
+    x_.lambda = lambda;
+    // The degree j of v grows with the step to the power j.
+    S power = 1;
+    for (Index j = 0; j < method_.s; ++j) {
+      for (Index i = 0; i < x_.gamma.cols(); ++i) x_.gamma(j, i) = gamma(j, i) * power;
+      power = power * (h / solved_);
+    }
+  }
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::move_from_base(const S& h, const S& factor) {
+  for (Index i = 0; i < x_.gamma.size(); ++i) {
+    set_product(t_, correction_.momentum.data()[i], factor);
+    set_difference(x_.gamma.data()[i], base_.momentum.data()[i], t_);
+  }
+  for (Index i = 0; i < x_.lambda.size(); ++i) {
+    set_product(t_, correction_.constraint.data()[i], factor);
+    set_quotient(t_, t_, h);
+    set_difference(x_.lambda.data()[i], base_.constraint.data()[i], t_);
+  }
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::keep_base_scale() {
+  for (const auto& block : problem_.mass.blocks()) {
+    set_zero(t_);
+    for (Index j = block.offset; j < block.offset + block.size; ++j) raise_magnitude(t_, rule_.scale(j));
+    for (Index j = block.offset; j < block.offset + block.size; ++j) set(base_scale_[j], t_);
+  }
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::measure_change() {
+  set_zero(change_);
+  for (Index j = 0; j < base_scale_.size(); ++j) {
+    set_zero(t_);
+    for (Index i = 0; i < residual_.momentum.rows(); ++i) raise_magnitude(t_, residual_.momentum(i, j));
+    if (t_ == 0) continue;
+    set_quotient(t_, t_, base_scale_[j] == 0 ? rule_.scale(j) : base_scale_[j]);
+    raise_magnitude(change_, t_);
+  }
+}
+
+template <Scalar S>
+bool SimplifiedNewton<S>::residual_is_small() {
+  for (const auto& block : problem_.mass.blocks()) {
+    set_zero(t_);
+    set_zero(u_);
+    for (Index j = block.offset; j < block.offset + block.size; ++j) {
+      raise_magnitude(u_, rule_.scale(j));
+      for (Index i = 0; i < momentum_.rows(); ++i) raise_magnitude(t_, momentum_(i, j));
+    }
+    if (16 * t_ > u_) return false;
+  }
+  return true;
+}
+
+template <Scalar S>
+long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jacobian, const Vector<S>& positions) {
+  using Verdict = typename StoppingRule<S>::Verdict;
+  constexpr int most_halvings = 12;
+  const S& h = equations.step();
+  // Whether the Jacobian is to be evaluated at x_; whether it was at base_; how often the step from there was halved.
+  bool evaluate = !usable_, exact = false;
+  int halvings = 0, waiting = 0;
+  set_zero(last_);
+  rule_.start(equations.p0(), positions);
+  for (long sweeps = 1; sweeps <= max_sweeps; ++sweeps) {
+    const auto fail = [&](FailureCause cause, const char* what) {
+      throw StageFailure(cause, what, to_scientific(rule_.relative_change(), 3), sweeps);
+    };
+    equations.residual(x_, residual_);
+    copy(momentum_, residual_.momentum);
+    if (sweeps == 1) {
+      copy(start_.psi, x_.psi);
+      copy(start_.zeta, x_.zeta);
+    }
+    if (evaluate) {
+      if (!jacobian.factor(equations, x_.lambda))
+        fail(FailureCause::near_singular_constraints, "the Jacobian of the stage equations is singular");
+      usable_ = true;
+    }
+    jacobian.solve(residual_);
+    rule_.show_change(residual_.momentum);
+    rule_.show_terms(x_.gamma);
+    rule_.show_terms(x_.psi, &h);
+    const Verdict verdict = rule_.judge();
+
+    if (last_ > 0) {
+      measure_change();
+      const bool too_far = !(change_ < last_) && !(change_ <= coarse_);
+      if (too_far && exact) {
+        if (++halvings > most_halvings)
+          fail(FailureCause::stage_equations_diverge,
+               is_finite(change_) ? "the increments grow" : "an iterate is not finite");
+        move_from_base(h, power_of_two<S>(-halvings));
+        evaluate = false;
+        continue;
+      }
+      if (too_far) {
+        // The Jacobian is an old one.
+        move_from_base(h, S(0));
+        rule_.start(equations.p0(), positions);
+        set_zero(last_);
+        evaluate = true;
+        continue;
+      }
+    } else if (verdict == Verdict::not_finite) {
+      fail(FailureCause::stage_equations_diverge, "an iterate is not finite");
+    } else {
+      keep_base_scale();
+      measure_change();
+    }
+    copy(base_.momentum, x_.gamma);
+    copy(base_.constraint, x_.lambda);
+    copy(correction_.momentum, residual_.momentum);
+    copy(correction_.constraint, residual_.constraint);
+    move_from_base(h, S(1));
+
+    // With the Jacobian of the iterate itself, increments that do not fall are rounding, however much an
+    // ill-conditioned problem magnifies it; but half of the digits must be left.
+    const bool falls = 2 * change_ < last_;
+    waiting = last_ > 0 && !falls && evaluate ? waiting + 1 : 0;
+    const bool floor = waiting >= 3 && change_ <= root_epsilon_;
+    if ((verdict == Verdict::converged || floor) && residual_is_small()) {
+      for (Index j = 0; j < momentum_change_.size(); ++j) {
+        set_difference(momentum_change_[j], x_.psi(0, j), x_.zeta(0, j));
+        set_product(momentum_change_[j], momentum_change_[j], h);
+      }
+      add_change_of_momentum(momentum_, residual_.momentum, momentum_change_);
+      return sweeps;
+    }
+    exact = evaluate;
+    halvings = 0;
+    // Rounding does not fall, and no new Jacobian mends it, unless there is more of it than there should be.
+    evaluate = last_ > 0 && slow * change_ > last_ && (change_ > tolerance_ || sweeps > 10);
+    set(last_, change_);
+    keep_base_scale();
+  }
+  throw StageFailure(FailureCause::stage_equations_diverge, "the increments stagnate",
+                     to_scientific(rule_.relative_change(), 3), max_sweeps);
+}
+
+template <Scalar S>
+bool SimplifiedNewton<S>::refresh() {
+  usable_ = jacobian_.factor(equations_, x_.lambda);
+  return usable_;
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::add_change_of_momentum(const Matrix<S>& momentum, const Matrix<S>& correction,
+                                                 Vector<S>& change) const {
+  S t;
+  for (Index j = 0; j < change.size(); ++j)
+    for (Index i = 0; i < method_.s; ++i)
+      add_product(change[j], first_row_of_inverse_X_[i], S(momentum(i, j) - correction(i, j)), t);
+}
+
+#define HBVM_DEFINE(S) template class SimplifiedNewton<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm
