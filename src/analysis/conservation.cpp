@@ -21,7 +21,7 @@ Conservation conservation_in(const ConservationRequest& request) {
     result.method.k = k > request.s ? k : 2 * request.s;
   }
   const Hbvm<S> method = make_hbvm<S>(result.method.k, result.method.s);
-  MomentumDrift<S> momenta(problem, conserved_momenta(problem, scene.q0));
+  MomentumDrift<S> momenta(problem, conserved_momenta(problem));
   const Simulated<S> run = simulate(scene, method, SolverKind::fixed_point, grid, {&momenta});
   result.steps = grid.steps();
 

@@ -50,7 +50,7 @@ std::string describe_in(const Scene& scene) {
   line("energy H", to_text(H));
   line("  kinetic, potential", to_text(S(H - U)) + ", " + to_text(U));
   std::vector<MomentumComponent<S>> components = coordinate_momenta(problem);
-  const std::vector<MomentumComponent<S>> conserved = conserved_momenta(problem, q);
+  const std::vector<MomentumComponent<S>> conserved = conserved_momenta(problem);
   const auto same_name_in = [](const std::vector<MomentumComponent<S>>& list, const MomentumComponent<S>& component) {
     return std::any_of(list.begin(), list.end(), [&](const auto& c) { return c.name() == component.name(); });
   };

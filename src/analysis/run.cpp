@@ -38,7 +38,7 @@ template <Scalar S>
 std::vector<MomentumComponent<S>> observed_momenta(const Scene& text, const Assembled<S>& scene) {
   const bool linear = text.observes("linear_momentum"), angular = text.observes("angular_momentum");
   if (!linear && !angular) return {};
-  std::vector<MomentumComponent<S>> components = conserved_momenta(scene.problem, scene.q0);
+  std::vector<MomentumComponent<S>> components = conserved_momenta(scene.problem);
   std::erase_if(components, [&](const MomentumComponent<S>& c) { return c.is_linear() ? !linear : !angular; });
   return components;
 }

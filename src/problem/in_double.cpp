@@ -33,6 +33,14 @@ Program<double> rounded(const Program<S>& program) {
 }
 
 template <Scalar S>
+EffectSymmetry<double> rounded(const EffectSymmetry<S>& symmetry) {
+  EffectSymmetry<double> result{symmetry.kind, symmetry.acts, rounded(symmetry.axes), rounded(symmetry.axis_round_off)};
+  for (Index i = 0; i < result.axes.size(); ++i)
+    result.axis_round_off.data()[i] += epsilon<double>() * magnitude(result.axes.data()[i]);
+  return result;
+}
+
+template <Scalar S>
 EffectTerm<double> rounded(const EffectTerm<S>& term) {
   EffectTerm<double> result{term.kind,
                             term.degree,
@@ -43,7 +51,8 @@ EffectTerm<double> rounded(const EffectTerm<S>& term) {
                             {},
                             rounded(term.value_coefficients),
                             rounded(term.gradient_coefficients),
-                            rounded(term.hessian_coefficients)};
+                            rounded(term.hessian_coefficients),
+                            rounded(term.symmetry)};
   for (const auto& x : term.displacements) result.displacements.push_back(rounded(x));
   return result;
 }

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
-#include "hbvm/problem/constraint_gradient.hpp"
+#include "hbvm/linear/null_space.hpp"
+#include "symmetry_conditions.hpp"
 
 namespace hbvm {
 namespace {
@@ -27,19 +29,6 @@ Vector<S> generator(const Problem<S>& problem, const MomentumComponent<S>& compo
   return xi;
 }
 
-/// Steps through a fixed sequence of numbers in (-1/2, 1/2) with no pattern a scene could share.
-template <Scalar S>
-class Sequence {
- public:
-  S next() {
-    state_ = (state_ * 7919 + 4271) % 10007;
-    return S(static_cast<int>(state_)) / 10007 - S(1) / 2;
-  }
-
- private:
-  long state_ = 1;
-};
-
 template <Scalar S>
 MomentumValue<S> pair(const Vector<S>& a, const Vector<S>& b) {
   MomentumValue<S> r;
@@ -51,78 +40,22 @@ MomentumValue<S> pair(const Vector<S>& a, const Vector<S>& b) {
   return r;
 }
 
-/// The largest entry of rows first and below, and columns first and to the right.
-template <Scalar S>
-std::pair<Index, Index> largest_entry(const Matrix<S>& a, Index first) {
-  std::pair<Index, Index> at(first, first);
-  for (Index j = first; j < a.cols(); ++j)
-    for (Index i = first; i < a.rows(); ++i)
-      if (magnitude(a(i, j)) > magnitude(a(at.first, at.second))) at = {i, j};
-  return at;
-}
-
-/// Subtracts multiples of row `pivot` from all others so that column `column` is 0 there.
-template <Scalar S>
-void clear_column(Matrix<S>& a, Index pivot, Index column) {
-  for (Index i = 0; i < a.rows(); ++i) {
-    if (i == pivot || a(i, column) == 0) continue;
-    const S factor = a(i, column) / a(pivot, column);
-    for (Index j = 0; j < a.cols(); ++j) a(i, j) -= factor * a(pivot, j);
-    a(i, column) = 0;
-  }
-}
-
-/// The rows of the result span the null space of a, by elimination with complete pivoting; entries of rows left over
-/// count as 0 up to the tolerance.
-template <Scalar S>
-Matrix<S> null_space(Matrix<S> a, const S& tolerance) {
-  std::vector<Index> place(static_cast<std::size_t>(a.cols()));  // of each column before the exchanges
-  for (Index j = 0; j < a.cols(); ++j) place[static_cast<std::size_t>(j)] = j;
-  Index rank = 0;
-  for (; rank < std::min(a.rows(), a.cols()); ++rank) {
-    const auto [i, j] = largest_entry(a, rank);
-    if (!(magnitude(a(i, j)) > tolerance)) break;
-    a.row(i).swap(a.row(rank));
-    a.col(j).swap(a.col(rank));
-    std::swap(place[static_cast<std::size_t>(j)], place[static_cast<std::size_t>(rank)]);
-    clear_column(a, rank, rank);
-  }
-  Matrix<S> result = Matrix<S>::Zero(a.cols() - rank, a.cols());
-  for (Index n = 0; n < result.rows(); ++n) {
-    result(n, place[static_cast<std::size_t>(rank + n)]) = 1;
-    for (Index i = 0; i < rank; ++i) result(n, place[static_cast<std::size_t>(i)]) = -a(i, rank + n) / a(i, i);
-  }
+/// x rounded to so many bits if that is within the bound `error`: what the author of a scene may have written.
+std::optional<Mpfr> short_number(const Mpfr& x, const Mpfr& error, int bits) {
+  BigFloat rounded(bits);
+  mpfr_set(raw(rounded), raw(x), MPFR_RNDN);
+  Mpfr result = rounded_to<Mpfr>(raw(rounded));
+  if (magnitude(Mpfr(result - x)) > error) return std::nullopt;
   return result;
 }
 
-/// The fraction with a small denominator that x is but for round-off, or x.
-template <Scalar S>
-S near_fraction(const S& x, const S& tolerance) {
-  using std::floor;
-  for (int denominator = 1; denominator <= 20; ++denominator) {
-    const S multiple = x * denominator, whole = floor(S(multiple + S(1) / 2));
-    if (magnitude(S(multiple - whole)) <= tolerance) return whole / denominator;
-  }
-  return x;
-}
-
-/// The reduced echelon form; what is 0 up to the tolerance is 0.
-template <Scalar S>
-void reduce(Matrix<S>& a, const S& tolerance) {
-  Index row = 0;
-  for (Index column = 0; column < a.cols() && row < a.rows(); ++column) {
-    Index pivot = row;
-    for (Index i = row; i < a.rows(); ++i)
-      if (magnitude(a(i, column)) > magnitude(a(pivot, column))) pivot = i;
-    if (!(magnitude(a(pivot, column)) > tolerance)) continue;
-    a.row(pivot).swap(a.row(row));
-    const S lead = a(row, column);
-    for (Index j = 0; j < a.cols(); ++j) a(row, j) = a(row, j) / lead;
-    clear_column(a, row, column);
-    ++row;
-  }
-  for (Index i = 0; i < a.size(); ++i)
-    if (magnitude(a.data()[i]) <= tolerance) set_zero(a.data()[i]);
+/// The fraction of a short number and a small denominator that x may be, or x: the same in any units, if these are
+/// powers of two.
+Mpfr near_fraction(const Uncertain& x, int bits) {
+  for (int denominator = 1; denominator <= 20; ++denominator)
+    if (const auto multiple = short_number(x.value * denominator, x.error * denominator, bits))
+      return *multiple / denominator;
+  return x.value;
 }
 
 }  // namespace
@@ -132,8 +65,8 @@ std::string MomentumComponent<S>::name() const {
   std::string text;
   const auto add = [&](const Vector<S>& coefficients, const char* what, Index first_axis) {
     for (Index i = 0; i < coefficients.size(); ++i) {
+      if (coefficients[i] == 0) continue;
       const double c = approximately(coefficients[i]);
-      if (c == 0) continue;
       text += text.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
       if (c != 1 && c != -1) text += fmt::format("{:.6g} ", c < 0 ? -c : c);
       text += std::string(what) + "xyz"[first_axis + i];
@@ -170,93 +103,43 @@ MomentumValue<S> momentum(const Problem<S>& problem, const MomentumComponent<S>&
 
 namespace {
 
-/// The size of positions, which that of rotations is to translations.
+/// The coefficients of the components that conserved_momenta() finds: the angular ones, then the linear ones.
 template <Scalar S>
-S extent(const Vector<S>& q) {
-  const S size = max_norm(q);
-  return size == 0 ? S(1) : size;
-}
-
-/// One row for each condition: by how much each component's symmetry changes U, a constraint or the kinetic energy at
-/// points near q, over the size of that change's terms. Rotations count per extent of q.
-template <Scalar S>
-Matrix<S> conditions(const Problem<S>& problem, const std::vector<MomentumComponent<S>>& components,
-                     const Vector<S>& q) {
-  constexpr int points = 8;  // more than components
-  const Index m = problem.m(), nu = problem.nu(), columns = static_cast<Index>(components.size());
-  Matrix<S> rows = Matrix<S>::Zero(points * (nu + 2), columns);
-  ConstraintGradient<S> gradient(problem, 1);
-  PotentialEvaluator<S> potential(problem.potential, 1);
-  Matrix<S> force(1, m);
-  Sequence<S> sequence;
-  const S scale = extent(q);
-  Index row = 0;
-  for (int point = 0; point < points; ++point) {
-    Vector<S> x = q, p(m), v(m);
-    for (Index i = 0; i < m; ++i) {
-      x[i] += scale * sequence.next() / 64;
-      p[i] = sequence.next();
-    }
-    problem.mass.velocity(lanes(p), lanes(v));
-    gradient.update(lanes(x));
-    Vector<S> f = potential.constant_force();
-    if (potential.has_varying_force()) {
-      potential.varying_force(lanes(x), force);
-      f += force.row(0).transpose();
-    }
-    const auto condition = [&](const Vector<S>& slope) {
-      const S size = max_norm(slope);
-      for (Index j = 0; j < columns && size > 0; ++j) {
-        const MomentumComponent<S>& component = components[static_cast<std::size_t>(j)];
-        const S change = pair(slope, generator(problem, component, x)).value / size;
-        rows(row, j) = component.is_linear() ? change : S(change / scale);
-      }
-      ++row;
-    };
-    condition(f);
-    for (Index a = 0; a < nu; ++a) {
-      Matrix<S> unit = Matrix<S>::Zero(1, nu);
-      unit(0, a) = 1;
-      Vector<S> slope = Vector<S>::Zero(m);
-      gradient.add_times(unit, lanes(slope));
-      condition(slope);
-    }
-    // Momenta turn with space, and do not translate.
-    const S size = max_norm(p) * max_norm(v);
-    for (Index j = 0; j < columns; ++j) {
-      const MomentumComponent<S>& component = components[static_cast<std::size_t>(j)];
-      if (!component.is_linear()) rows(row, j) = pair<S>(generator(problem, component, p), v).value / size;
-    }
-    ++row;
+std::vector<std::vector<BigFloat>> conserved_coefficients(const Problem<S>& problem, std::size_t rotations,
+                                                          std::size_t columns, bool translates) {
+  const S unit = epsilon<S>();
+  const int half_the_bits = significand_bits<S>() / 2, digits = digits10<S>();
+  const PrecisionScope guarded(static_cast<unsigned>(2 * digits + 20));
+  std::vector<UncertainRow> conditions = symmetry_conditions(problem, rounded_to<Mpfr>(raw(exactly(unit))));
+  for (std::size_t j = rotations; j < columns && !translates; ++j) {
+    conditions.emplace_back(columns);
+    conditions.back()[j] = 1;
   }
-  return rows;
+  std::vector<std::vector<BigFloat>> result;
+  for (const UncertainRow& row : null_space(std::move(conditions), columns, rotations)) {
+    result.emplace_back();
+    for (const Uncertain& x : row) result.back().push_back(exactly(near_fraction(x, half_the_bits)));
+  }
+  return result;
 }
 
 }  // namespace
 
 template <Scalar S>
-std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem, const Vector<S>& q) {
-  std::vector<MomentumComponent<S>> components = coordinate_momenta(problem);
-  // Rotations lead, so that an angular momentum about another point reads L_z + ... P.
-  std::stable_partition(components.begin(), components.end(), [](const auto& c) { return !c.is_linear(); });
-  // Displacements are differences, and forces may amplify their round-off.
-  const S tolerance = S(static_cast<long>(100'000 * problem.m())) * epsilon<S>();
-  Matrix<S> basis = null_space(conditions(problem, components, q), tolerance);
-  reduce(basis, tolerance);
+std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem) {
+  const MomentumComponent<S> last = coordinate_momenta(problem).back();
+  const bool translates = coordinate_momenta(problem).front().is_linear();
+  const Index rotations = last.angular.size(), columns = rotations + last.linear.size();
   std::vector<MomentumComponent<S>> result;
-  for (Index n = 0; n < basis.rows(); ++n) {
-    MomentumComponent<S> sum{Vector<S>::Zero(components[0].angular.size()), Vector<S>::Zero(problem.dimension)};
-    bool led_by_rotation = false;
-    for (Index j = 0; j < basis.cols(); ++j) {
-      const MomentumComponent<S>& component = components[static_cast<std::size_t>(j)];
-      led_by_rotation = led_by_rotation || (basis(n, j) != 0 && !component.is_linear());
-      const bool scaled = led_by_rotation && component.is_linear();
-      const S weight = near_fraction(scaled ? S(basis(n, j) * extent(q)) : basis(n, j), tolerance);
-      sum.angular += weight * component.angular;
-      sum.linear += weight * component.linear;
-    }
-    result.push_back(std::move(sum));
+  for (const auto& coefficients : conserved_coefficients(problem, static_cast<std::size_t>(rotations),
+                                                         static_cast<std::size_t>(columns), translates)) {
+    MomentumComponent<S> component{Vector<S>(rotations), Vector<S>(last.linear.size())};
+    for (Index j = 0; j < columns; ++j)
+      (j < rotations ? component.angular[j] : component.linear[j - rotations]) =
+          rounded_to<S>(raw(coefficients[static_cast<std::size_t>(j)]));
+    result.push_back(std::move(component));
   }
+  // An angular momentum about another point reads L_z + ... P, but linear momenta come first.
   std::stable_partition(result.begin(), result.end(), [](const auto& c) { return c.is_linear(); });
   return result;
 }
@@ -266,7 +149,7 @@ std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem, c
   template std::vector<MomentumComponent<S>> coordinate_momenta<S>(const Problem<S>&);                    \
   template MomentumValue<S> momentum<S>(const Problem<S>&, const MomentumComponent<S>&, const Vector<S>&, \
                                         const Vector<S>&);                                                \
-  template std::vector<MomentumComponent<S>> conserved_momenta<S>(const Problem<S>&, const Vector<S>&);
+  template std::vector<MomentumComponent<S>> conserved_momenta<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -16,7 +16,7 @@ class MomentumDriftTest : public ::testing::Test {
   /// The drift of each conserved component, by name, over a run of HBVM(k, s).
   static std::map<std::string, S> drifts(const std::string& scene, int k, int s) {
     SceneRun<S> run(load_scene(scene), k, s, "1/32", "1");
-    MomentumDrift<S> drift(run.scene.problem, conserved_momenta(run.scene.problem, run.scene.q0));
+    MomentumDrift<S> drift(run.scene.problem, conserved_momenta(run.scene.problem));
     run({&drift});
     std::map<std::string, S> result;
     for (std::size_t i = 0; i < drift.components().size(); ++i)

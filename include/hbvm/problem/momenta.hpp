@@ -34,18 +34,20 @@ MomentumValue<S> momentum(const Problem<S>& problem, const MomentumComponent<S>&
                           const Vector<S>& p);
 
 /// A basis of the components that the problem conserves because of a symmetry: the translation, rotation or screw along
-/// it changes neither U nor g nor the kinetic energy. They are those whose derivatives vanish, but for round-off, at
-/// several points near q. Linear ones come first; each is led by the coefficient 1, and a component along an axis that
-/// is conserved stands alone.
+/// it changes neither the kinetic energy nor any one effect nor any one constraint, however weak that is beside others.
+/// It is decided from what they depend on, with no tolerance but the round-off of the scene's numbers, and scales
+/// exactly with units that are powers of two. (Effects that break a symmetry and would restore it together are taken to
+/// break it.) Linear components come first; each is led by the coefficient 1, and a component along an axis that is
+/// conserved stands alone.
 template <Scalar S>
-std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem, const Vector<S>& q);
+std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem);
 
 #define HBVM_DECLARE(S)                                                                                          \
   extern template struct MomentumComponent<S>;                                                                   \
   extern template std::vector<MomentumComponent<S>> coordinate_momenta<S>(const Problem<S>&);                    \
   extern template MomentumValue<S> momentum<S>(const Problem<S>&, const MomentumComponent<S>&, const Vector<S>&, \
                                                const Vector<S>&);                                                \
-  extern template std::vector<MomentumComponent<S>> conserved_momenta<S>(const Problem<S>&, const Vector<S>&);
+  extern template std::vector<MomentumComponent<S>> conserved_momenta<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

@@ -6,6 +6,7 @@
 
 #include "hbvm/problem/effect/execution.hpp"
 #include "hbvm/problem/effect/kernel.hpp"
+#include "hbvm/problem/effect/symmetry.hpp"
 #include "hbvm/problem/lanes.hpp"
 
 namespace hbvm {
@@ -24,6 +25,7 @@ struct EffectTerm {
   Matrix<S> value_coefficients;                ///< instances x coefficients of `value`
   Matrix<S> gradient_coefficients;
   Matrix<S> hessian_coefficients;
+  EffectSymmetry<S> symmetry;
 };
 
 /// How often the force of an effect ran: calls, evaluations at a node (each for all bodies or pairs it acts on), and

@@ -76,7 +76,7 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
   for (const Laboratory::Start& start : laboratory.starts())
     destinations.emplace_back(laboratory, start, subject.problem, until, cell.stages());
   std::vector<MomentumComponent<Mpfr>> momenta;
-  if (cell.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem, laboratory.starts().front().q);
+  if (cell.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem);
 
   Ladders ladders;
   for (long n = 4; n <= most; n *= 2) {

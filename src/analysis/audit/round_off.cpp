@@ -27,7 +27,7 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell) {
     entry = {units, {log2_of(h), log2_of(error), log2_of(unit)}};
   };
   std::vector<MomentumComponent<Mpfr>> momenta;
-  if (cell.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem, laboratory.starts().front().q);
+  if (cell.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem);
   for (const Laboratory::Start& start : laboratory.starts()) {
     Vector<Mpfr> q = start.q, p = start.p;
     const Mpfr H0 = point.energy(q, p), H_size = point.energy_size(q, p);

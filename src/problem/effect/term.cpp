@@ -55,6 +55,51 @@ Matrix<S> coefficients_of(const Program<S>& program, const EffectUse<S>& use) {
   return result;
 }
 
+/// v over its largest entry, so that products of its entries cannot leave the range of the numbers.
+template <Scalar S>
+Matrix<S> scaled(const Matrix<S>& v) {
+  const S size = max_norm(v);
+  return size == 0 ? v : Matrix<S>(v / size);
+}
+
+/// The axis of an instance, n = a or M a, and a bound of its round-off.
+template <Scalar S>
+void find_axis(const EffectUse<S>& use, const EffectAxis& axis, Index instance, EffectSymmetry<S>& result) {
+  const Index d = use.dimension;
+  const std::vector<S>& entries = use.vectors.find(axis.key)->second;
+  Matrix<S> a(d, 1);
+  for (Index j = 0; j < d; ++j) a(j, 0) = entries[static_cast<std::size_t>(j)];
+  a = scaled(a);
+  Matrix<S> M = Matrix<S>::Identity(d, d);
+  if (axis.times_mass) M = scaled(use.instances[static_cast<std::size_t>(instance)].mass_matrix);
+  for (Index j = 0; j < d; ++j) {
+    S sum = 0, size = 0;
+    for (Index l = 0; l < d; ++l) {
+      const S term = M(j, l) * a(l, 0);
+      sum += term;
+      size += magnitude(term);
+    }
+    result.axes(instance, j) = sum;
+    result.axis_round_off(instance, j) = S(2 * static_cast<int>(d)) * epsilon<S>() * size;
+  }
+}
+
+template <class Effect, Scalar S>
+EffectSymmetry<S> symmetry_of(const EffectUse<S>& use) {
+  EffectSymmetry<S> result;
+  result.kind = Effect::symmetry;
+  bool all_act = true;
+  for (const std::string_view key : Effect::factors) all_act = all_act && use.numbers.find(key)->second != 0;
+  for (const auto& instance : use.instances)
+    result.acts.push_back(all_act && !(Effect::needs_charge && (instance.charges[0] == 0 || instance.charges[1] == 0)));
+  if constexpr (Effect::symmetry != Symmetry::central) {
+    const auto count = static_cast<Index>(use.instances.size());
+    result.axes = result.axis_round_off = Matrix<S>(count, use.dimension);
+    for (Index n = 0; n < count; ++n) find_axis(use, Effect::axis, n, result);
+  }
+  return result;
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -83,7 +128,11 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
   }
 
   std::optional<typename Trace<S>::Id> U;
-  with_effect(use.kind, [&]<class Effect>() { U = Effect::U(formal).id(); });
+  EffectTerm<S> term;
+  with_effect(use.kind, [&]<class Effect>() {
+    U = Effect::U(formal).id();
+    term.symmetry = symmetry_of<Effect>(use);
+  });
   if (!U) throw Error("no effect of kind '" + use.kind + "'");  // the scene reader has checked
 
   const auto gradient_ids = trace.gradient(*U, d);
@@ -95,7 +144,6 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
   auto value = trace.compile({*U}, d, index);
   auto gradient = trace.compile(gradient_ids, d, index);
   auto hessian = trace.compile(hessian_ids, d, index);
-  EffectTerm<S> term;
   term.kind = use.kind;
   term.degree = trace.degree(*U);
   term.constant_force = true;

@@ -16,6 +16,19 @@ enum class Acts {
   between_pairs    ///< x = a - b, for every pair of `between`
 };
 
+/// What U depends on, and so which motions of space keep it.
+enum class Symmetry {
+  central,  ///< U(|x|): all rotations
+  axial,    ///< U(|x|, n.x): the rotations about n
+  planar    ///< U(n.x): the rotations about n, and the translations across it
+};
+
+/// The n of an effect that is not central: the value of a vector key, and M times that for a mass matrix M.
+struct EffectAxis {
+  std::string_view key;
+  bool times_mass = false;
+};
+
 /// The keys of an [[effect]] table besides those that say what it acts on.
 struct EffectKey {
   std::string_view name;

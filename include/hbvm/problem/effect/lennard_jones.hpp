@@ -12,6 +12,8 @@ struct LennardJones {
   static constexpr Acts acts = Acts::between_pairs;
   static constexpr bool needs_mass = false, needs_charge = false;
   static constexpr std::array<EffectKey, 2> keys{{{"depth"}, {"diameter"}}};
+  static constexpr Symmetry symmetry = Symmetry::central;
+  static constexpr std::array<std::string_view, 2> factors{"depth", "diameter"};
 
   template <class T>
   static T U(const Interaction<T>& pair) {

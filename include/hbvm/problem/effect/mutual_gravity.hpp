@@ -12,6 +12,8 @@ struct MutualGravity {
   static constexpr Acts acts = Acts::between_pairs;
   static constexpr bool needs_mass = true, needs_charge = false;
   static constexpr std::array<EffectKey, 1> keys{{{"strength"}}};
+  static constexpr Symmetry symmetry = Symmetry::central;
+  static constexpr std::array<std::string_view, 1> factors{"strength"};
 
   template <class T>
   static T U(const Interaction<T>& pair) {

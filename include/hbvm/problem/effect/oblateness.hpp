@@ -13,6 +13,9 @@ struct Oblateness {
   static constexpr Acts acts = Acts::about_a_center;
   static constexpr bool needs_mass = true, needs_charge = false;
   static constexpr std::array<EffectKey, 4> keys{{{"strength"}, {"radius"}, {"J2"}, {"axis", true}}};
+  static constexpr Symmetry symmetry = Symmetry::axial;
+  static constexpr EffectAxis axis{"axis"};
+  static constexpr std::array<std::string_view, 3> factors{"strength", "radius", "J2"};
 
   template <class T>
   static T U(const Interaction<T>& body) {

@@ -17,6 +17,8 @@ struct Spring {
   static constexpr bool needs_mass = false, needs_charge = false;
   static constexpr std::array<EffectKey, 3> keys{
       {{"stiffness"}, {"rest_length", false, "0"}, {"exponent", false, "2"}}};
+  static constexpr Symmetry symmetry = Symmetry::central;
+  static constexpr std::array<std::string_view, 1> factors{"stiffness"};
 
   template <class T>
   static T U(const Interaction<T>& pair) {

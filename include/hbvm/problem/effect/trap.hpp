@@ -13,6 +13,8 @@ struct Trap {
   static constexpr Acts acts = Acts::about_a_center;
   static constexpr bool needs_mass = false, needs_charge = false;
   static constexpr std::array<EffectKey, 2> keys{{{"stiffness"}, {"exponent"}}};
+  static constexpr Symmetry symmetry = Symmetry::central;
+  static constexpr std::array<std::string_view, 1> factors{"stiffness"};
 
   template <class T>
   static T U(const Interaction<T>& body) {

@@ -12,6 +12,9 @@ struct UniformGravity {
   static constexpr Acts acts = Acts::on_each_body;
   static constexpr bool needs_mass = false, needs_charge = false;
   static constexpr std::array<EffectKey, 1> keys{{{"acceleration", true}}};
+  static constexpr Symmetry symmetry = Symmetry::planar;
+  static constexpr EffectAxis axis{"acceleration", true};
+  static constexpr std::array<std::string_view, 0> factors{};
 
   template <class T>
   static T U(const Interaction<T>& body) {

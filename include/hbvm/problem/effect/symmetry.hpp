@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "hbvm/linear/matrix.hpp"
+#include "hbvm/problem/effect/interaction.hpp"
+
+namespace hbvm {
+
+/// How one use of an effect depends on its displacements, one entry (or row) an instance. It is what the effect
+/// declares of its formula, so that no weakness of a force can hide it.
+template <Scalar S>
+struct EffectSymmetry {
+  Symmetry kind = Symmetry::central;
+  std::vector<bool> acts;    ///< false if a factor of U is 0
+  Matrix<S> axes;            ///< n, in any length; no rows if the effect is central
+  Matrix<S> axis_round_off;  ///< a bound of its error
+};
+
+}  // namespace hbvm

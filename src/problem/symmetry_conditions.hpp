@@ -1,0 +1,20 @@
+#pragma once
+
+#include "hbvm/linear/null_space.hpp"
+#include "hbvm/problem/problem.hpp"
+
+namespace hbvm {
+
+/// What a motion of space x -> w x x + t must fulfil to keep the kinetic energy, every effect and every constraint,
+/// each by itself: rows of equations for (w, t), w having three entries or in the plane one. Their error bounds are the
+/// round-off of the scene's numbers, of which `unit` is the relative size. Call it within a PrecisionScope of some more
+/// digits than those have.
+template <Scalar S>
+std::vector<UncertainRow> symmetry_conditions(const Problem<S>& problem, const Mpfr& unit);
+
+#define HBVM_DECLARE(S) \
+  extern template std::vector<UncertainRow> symmetry_conditions<S>(const Problem<S>&, const Mpfr&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm
