@@ -154,7 +154,7 @@ typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
     set_product(t_, scale_[j], bound_);
     const bool clean = exceeds(change_[j], t_);
     set_product(left_, expected_[j], last_rate_);
-    set(expected_[j], first || clean || exceeds(left_, change_[j]) ? change_[j] : left_);
+    set(expected_[j], first || clean ? change_[j] : left_);
     set_product(left_, expected_[j], last_rate_);
     // A coordinate much smaller than its body's others may have a rate of its own.
     set_product(t_, last_rate_, last_[j]);
