@@ -5,6 +5,24 @@
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
+namespace {
+
+/// I with c_i - 1/2 for its column 0, c_i. Mirrored nodes lie as far from 1/2 as each other but for rounding; here they
+/// do exactly, so that rounded coefficients make a symmetric method still: of an asymmetric one, errors in H and g
+/// would have the same sign step after step.
+template <Scalar S>
+Matrix<S> centred(const Matrix<S>& I) {
+  const S half = S(1) / 2;
+  Matrix<S> result = I;
+  for (Index i = 0; i < I.rows(); ++i) result(i, 0) = I(i, 0) - half;
+  for (Index i = 0; 2 * i < I.rows(); ++i) {
+    S& mirrored = result(I.rows() - 1 - i, 0);
+    if (magnitude(S(result(i, 0) + mirrored)) <= epsilon<S>()) mirrored = -result(i, 0);
+  }
+  return result;
+}
+
+}  // namespace
 
 template <Scalar S>
 StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
@@ -12,7 +30,11 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
       method_(method),
       h_(step),
       potential_(problem.potential, method.k),
-      gradient_(problem, method.s) {
+      gradient_(problem, method.s),
+      I_centred_(centred(method.I_s)),
+      I_hat_centred_(centred(method.I_hat)),
+      middle_(problem.m()),
+      half_(S(1) / 2) {
   const Index s = method.s, m = problem.m(), nu = problem.nu();
   velocity_.resize(s, m);
   h_velocity_.resize(s, m);
@@ -61,7 +83,8 @@ void StageEquations<S>::describe_parts() {
             {"solution of (lam)"},       {"coefficients zeta"}, {"coefficients gamma"}, {"residual of (lam)"}};
   const auto stages = static_cast<std::uint64_t>(s);
   parts_[velocities].per_call = stages * problem_.mass.operations();
-  parts_[velocities].per_call.add(Op::multiply, s * m);
+  parts_[velocities].per_call.add(Op::multiply, s * m + m);
+  parts_[velocities].per_call.add(Op::add, m);
   for (const auto& [part, rows] : {std::pair(constraint_nodes, s), std::pair(quadrature_nodes, k)}) {
     parts_[part].per_call.add_dots(rows * m, s);
     parts_[part].per_call.add(Op::add, rows * m);
@@ -111,13 +134,17 @@ void StageEquations<S>::move(const Matrix<S>& gamma) {
   const Call call(*this, velocities);
   problem_.mass.velocity(lanes(gamma), lanes(velocity_));
   for (Index i = 0; i < velocity_.size(); ++i) set_product(h_velocity_.data()[i], h_, velocity_.data()[i]);
+  for (Index j = 0; j < middle_.size(); ++j) {
+    set_product(middle_[j], half_, h_velocity_(0, j));
+    set_sum(middle_[j], middle_[j], (*q0_)[j]);
+  }
 }
 
 template <Scalar S>
 void StageEquations<S>::positions(const Matrix<S>& integrals, Matrix<S>& u) {
   product(u, integrals, h_velocity_);
   for (Index j = 0; j < u.cols(); ++j)
-    for (Index i = 0; i < u.rows(); ++i) set_sum(u(i, j), u(i, j), (*q0_)[j]);
+    for (Index i = 0; i < u.rows(); ++i) set_sum(u(i, j), u(i, j), middle_[j]);
 }
 
 template <Scalar S>
@@ -126,7 +153,7 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
     Matrix<S>& u = method_.k == method_.s ? u_ : u_hat_;
     {
       const Call call(*this, quadrature_nodes);
-      positions(method_.I_hat, u);
+      positions(I_hat_centred_, u);
     }
     potential_.varying_force(lanes(u), force_);
   }
@@ -145,7 +172,7 @@ void StageEquations<S>::move_constraints() {
   // For k = s the nodes of the forces, just computed, are the constraints'.
   if (method_.k != method_.s || !potential_.has_varying_force()) {
     const Call call(*this, constraint_nodes);
-    positions(method_.I_s, u_);
+    positions(I_centred_, u_);
   }
   const Call call(*this, gradients);
   gradient_.update(lanes(u_));

@@ -296,7 +296,7 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
     const auto expect = [&](const char* part, const Count& each) {
       expect_operations(line_of(account, part).operations, times, each, part);
     };
-    expect("velocities h M^-1 gamma", {.multiply = s * d + s * m});
+    expect("velocities h M^-1 gamma", {.add = m, .multiply = s * d + s * m + m});
     expect("positions at c", {.add = s * (s - 1) * m + s * m, .multiply = s * s * m});
     expect("positions at c_hat", {.add = k * (s - 1) * m + k * m, .multiply = k * s * m});
     expect("coefficients psi_hat", {.add = s * (k - 1) * m + m, .multiply = s * k * m});

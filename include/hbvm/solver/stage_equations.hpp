@@ -125,12 +125,14 @@ class StageEquations {
   Lu<S> system_;
   const Vector<S>* q0_ = nullptr;
   const Vector<S>* p0_ = nullptr;
-  Matrix<S> velocity_, h_velocity_;  // s x m
-  Matrix<S> u_hat_, force_;          // k x m
-  Matrix<S> u_, w_, stage_;          // s x m
-  Matrix<S> coupling_;               // s x s
-  Vector<S> rhs_;                    // s nu
-  S t_;
+  Matrix<S> I_centred_, I_hat_centred_;  ///< I_s and I_hat with c - 1/2 for c in column 0
+  Vector<S> middle_;                     // m: q0 + h/2 M^-1 gamma_0
+  Matrix<S> velocity_, h_velocity_;      // s x m
+  Matrix<S> u_hat_, force_;              // k x m
+  Matrix<S> u_, w_, stage_;              // s x m
+  Matrix<S> coupling_;                   // s x s
+  Vector<S> rhs_;                        // s nu
+  S half_, t_;
   std::vector<PartCount> parts_;
   bool timed_ = false;
 };
