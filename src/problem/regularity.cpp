@@ -32,6 +32,32 @@ double largest_eigenvalue(const Matrix<S>& a) {
   return Eigen::SelfAdjointEigenSolver<Matrix<double>>(rounded, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
+template <Scalar S>
+Matrix<S> gram_matrix(const Problem<S>& problem, const Vector<S>& q) {
+  ConstraintGradient<S> gradient(problem, 1);
+  gradient.update(lanes(q));
+  Matrix<S> gram;
+  gradient.gram(gram);
+  return gram;
+}
+
+/// Of a symmetric matrix.
+template <Scalar S>
+double condition(const Matrix<S>& a) {
+  const double largest = largest_eigenvalue(a);
+  Lu<S> lu;
+  lu.set(a);
+  if (!lu.factor()) return std::numeric_limits<double>::infinity();
+  // The smallest one may be lost in double, but not the largest one of the inverse.
+  Matrix<S> inverse(a.rows(), a.rows());
+  for (Index j = 0; j < a.rows(); ++j) {
+    Vector<S> column = Vector<S>::Unit(a.rows(), j);
+    lu.solve(column);
+    inverse.col(j) = column;
+  }
+  return largest * largest_eigenvalue(inverse);
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -100,29 +126,26 @@ std::optional<Dependence> find_dependence(const Problem<S>& problem, const Vecto
 
 template <Scalar S>
 double gram_condition(const Problem<S>& problem, const Vector<S>& q) {
+  return problem.nu() == 0 ? 1 : condition(gram_matrix(problem, q));
+}
+
+template <Scalar S>
+double angle_condition(const Problem<S>& problem, const Vector<S>& q) {
+  using std::sqrt;
   const Index nu = problem.nu();
   if (nu == 0) return 1;
-  ConstraintGradient<S> gradient(problem, 1);
-  gradient.update(lanes(q));
-  Matrix<S> gram;
-  gradient.gram(gram);
-  const double largest = largest_eigenvalue(gram);
-  Lu<S> lu;
-  lu.set(gram);
-  if (!lu.factor()) return std::numeric_limits<double>::infinity();
-  // The smallest one may be lost in double, but not the largest one of the inverse.
-  Matrix<S> inverse(nu, nu);
-  for (Index a = 0; a < nu; ++a) {
-    Vector<S> column = Vector<S>::Unit(nu, a);
-    lu.solve(column);
-    inverse.col(a) = column;
-  }
-  return largest * largest_eigenvalue(inverse);
+  Matrix<S> gram = gram_matrix(problem, q);
+  Vector<S> length(nu);
+  for (Index a = 0; a < nu; ++a) length[a] = sqrt(gram(a, a));
+  for (Index b = 0; b < nu; ++b)
+    for (Index a = 0; a < nu; ++a) gram(a, b) = a == b ? S(1) : S(gram(a, b) / (length[a] * length[b]));
+  return condition(gram);
 }
 
 #define HBVM_DEFINE(S)                                                                        \
   template std::optional<Dependence> find_dependence<S>(const Problem<S>&, const Vector<S>&); \
-  template double gram_condition<S>(const Problem<S>&, const Vector<S>&);
+  template double gram_condition<S>(const Problem<S>&, const Vector<S>&);                     \
+  template double angle_condition<S>(const Problem<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -5,6 +5,7 @@
 #include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/rattle.hpp"
 #include "hbvm/integrate/runge_kutta_step.hpp"
+#include "hbvm/integrate/watched_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
 
@@ -67,6 +68,23 @@ void expect_none(const char* name, SolverKind kind) {
     HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 100), kind);
     EXPECT_EQ(allocations_of<S>(stepper, scene), 0) << name << ", " << name_of(kind) << ", " << k << "," << s;
   }
+}
+
+TEST(AWatchedStep, AllocatesNothing) {
+  const auto expect = []<Scalar S>(const S& step) {
+    for (const char* name : {"double_pendulum", "heavy_top"})
+      for (const int s : {1, 3}) {
+        const Assembled<S> scene = assemble<S>(load_scene(name));
+        const Hbvm<S> method = make_hbvm<S>(s, s);
+        HbvmStepper<S> stepper(scene.problem, method, step, SolverKind::fixed_point);
+        CoefficientDecay<S> decay(scene.problem, s, step);
+        WatchedStepper<S> watched(stepper, decay);
+        EXPECT_EQ(allocations_of<S>(watched, scene), 0) << name << s;
+      }
+  };
+  expect(1 / double{100});
+  const PrecisionScope digits(50);
+  expect(Mpfr(Mpfr(1) / 100));
 }
 
 constexpr SolverKind kinds[] = {SolverKind::automatic, SolverKind::newton, SolverKind::fixed_point, SolverKind::paper};

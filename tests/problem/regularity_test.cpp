@@ -199,5 +199,17 @@ TYPED_TEST(Regularity, ConditionBeyondDouble) {
   this->expect_condition(problem, this->vector({"0", "0"}), 4e16);
 }
 
+/// Two gradients with the cosine 1/2, whatever their lengths: eigenvalues 3/2 and 1/2.
+TYPED_TEST(Regularity, ConditionOfTheAnglesDoesNotDependOnLengthsOrMasses) {
+  auto problem = this->bodies({7, 1});
+  this->hold(problem, 0, {"1000", "0"});
+  this->hold(problem, 0, {"1/2", "sqrt(3)/2"});
+  this->hold(problem, 1, {"0", "1/1000"});
+  const auto q = this->vector({"0", "0", "0", "0"});
+  EXPECT_NEAR(angle_condition(problem, q), 3, 1e-12);
+  EXPECT_GT(gram_condition(problem, q), 1e6);
+  EXPECT_EQ(angle_condition(this->bodies({1}), this->vector({"0", "0"})), 1);
+}
+
 }  // namespace
 }  // namespace hbvm

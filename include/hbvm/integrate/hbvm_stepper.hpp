@@ -21,6 +21,8 @@ class HbvmStepper final : public Stepper<S> {
   /// The extrapolated multiplier (lagmul) of the last step: sum_i l_i(1) lambda_i.
   const Vector<S>& multiplier() const override { return multiplier_; }
 
+  const StageUnknowns<S>* unknowns() const override { return &solver_->unknowns(); }
+
   SolverCounts counts() const override { return solver_->counts(); }
   void measure_time() override { solver_->measure_time(); }
 

@@ -22,6 +22,10 @@ class Stepper {
   /// The multiplier at the end of the last step.
   virtual const Vector<S>& multiplier() const = 0;
 
+  /// The solution of the stage equations of the last step (of its last part, if it was divided); null if the method has
+  /// none.
+  virtual const StageUnknowns<S>* unknowns() const { return nullptr; }
+
   /// What was done since construction.
   virtual SolverCounts counts() const = 0;
   /// Also measure the time that effects and parts of the equations take.

@@ -22,9 +22,14 @@ std::optional<Dependence> find_dependence(const Problem<S>& problem, const Vecto
 template <Scalar S>
 double gram_condition(const Problem<S>& problem, const Vector<S>& q);
 
+/// The same with every gradient normalised, in the metric M^-1: of the angles between them alone.
+template <Scalar S>
+double angle_condition(const Problem<S>& problem, const Vector<S>& q);
+
 #define HBVM_DECLARE(S)                                                                              \
   extern template std::optional<Dependence> find_dependence<S>(const Problem<S>&, const Vector<S>&); \
-  extern template double gram_condition<S>(const Problem<S>&, const Vector<S>&);
+  extern template double gram_condition<S>(const Problem<S>&, const Vector<S>&);                     \
+  extern template double angle_condition<S>(const Problem<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

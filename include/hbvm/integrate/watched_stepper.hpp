@@ -1,0 +1,30 @@
+#pragma once
+
+#include "hbvm/integrate/coefficient_decay.hpp"
+#include "hbvm/integrate/stepper.hpp"
+
+namespace hbvm {
+
+/// Another stepper's steps, with the solution of each shown to `decay`. Both must outlive it.
+template <Scalar S>
+class WatchedStepper final : public Stepper<S> {
+ public:
+  WatchedStepper(Stepper<S>& inner, CoefficientDecay<S>& decay) : inner_(inner), decay_(decay) {}
+
+  const Problem<S>& problem() const override { return inner_.problem(); }
+  long step(State<S>& state) override {
+    const long sweeps = inner_.step(state);
+    if (const StageUnknowns<S>* const x = inner_.unknowns()) decay_.observe(*x, state.p);
+    return sweeps;
+  }
+  const Vector<S>& multiplier() const override { return inner_.multiplier(); }
+  const StageUnknowns<S>* unknowns() const override { return inner_.unknowns(); }
+  SolverCounts counts() const override { return inner_.counts(); }
+  void measure_time() override { inner_.measure_time(); }
+
+ private:
+  Stepper<S>& inner_;
+  CoefficientDecay<S>& decay_;
+};
+
+}  // namespace hbvm
