@@ -66,8 +66,12 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   }
   MomentumDrift<S> momenta(scene.problem, observed_momenta(request.scene, scene));
   if (!momenta.components().empty()) observers.push_back(&momenta);
-  const Simulated<S> simulated =
-      simulate(scene, method, request.solver, grid, observers, request.account ? &result.account : nullptr);
+  HealthWatch<S> health(scene.problem, result.method.s, grid);
+  observers.push_back(&health);
+  std::optional<ShadowedRun<S>> shadowed;
+  if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.m(), grid.steps()));
+  const Simulated<S> simulated = simulate(scene, method, request.solver, grid, observers,
+                                          request.account ? &result.account : nullptr, &health.decay());
 
   if (csv && !csv->flush()) throw InputError("cannot write '" + hooks.csv_name + "': is the disk full?");
 
@@ -91,6 +95,9 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   result.e_hid = to_text(simulated.e_hid);
   result.iterations_per_step =
       static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
+  result.health = health.report(result.method);
+  if (shadowed)
+    result.shadow = shadowed->compare(request.scene, result.method, request.solver, request.step, request.until);
   result.cpu_seconds = simulated.integration.cpu_seconds;
   if (request.scene.observes("energy"))
     result.observables.push_back({"energy", to_text(simulated.H0), to_text(simulated.e_H)});

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -23,8 +25,33 @@ struct Options {
   std::string precision = "double", solver = "auto";
   std::optional<std::string> out;
   long every = 1;
-  bool json = false, account = false;
+  bool json = false, account = false, strict = false, shadow = false;
 };
+
+nlohmann::ordered_json json_of(const Health& health) {
+  nlohmann::ordered_json j{{"condition", health.condition},
+                           {"worst_e_H", health.worst_e_H},
+                           {"worst_hidden", health.worst_hidden},
+                           {"warnings", nlohmann::ordered_json::array()}};
+  for (const Warning& warning : health.warnings)
+    j["warnings"].push_back({{"name", warning.name}, {"text", warning.text}});
+  return j;
+}
+
+nlohmann::ordered_json json_of(const Shadow& shadow) {
+  if (!shadow.failure.empty()) return {{"precision", shadow.precision}, {"failure", shadow.failure}};
+  const auto rounded = [](std::vector<double> digits) {
+    for (double& d : digits) d = std::round(100 * d) / 100;
+    return digits;
+  };
+  return {{"precision", shadow.precision},
+          {"digits", {{"q", rounded(shadow.q)}, {"p", rounded(shadow.p)}}},
+          {"worst",
+           {{"component", shadow.worst.component},
+            {"digits", rounded({shadow.worst.digits}).front()},
+            {"t", shadow.worst.t},
+            {"every", shadow.every}}}};
+}
 
 std::string json_of(const RunRequest& request, const RunResult& result) {
   nlohmann::ordered_json j;
@@ -43,6 +70,8 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
   j["e_H"] = result.e_H;
   j["e_g"] = result.e_g;
   j["e_hid"] = result.e_hid;
+  j["health"] = json_of(result.health);
+  if (result.shadow) j["shadow"] = json_of(*result.shadow);
   j["iterations_per_step"] = result.iterations_per_step;
   j["cpu_seconds"] = result.cpu_seconds;
   if (request.method.is_auto())
@@ -71,16 +100,21 @@ void print(const RunRequest& request, const RunResult& result) {
   if (request.method.is_auto())
     fmt::print("k = {}: {}; at the last step {}\n", result.method.k, result.chosen_because,
                result.choice_verified ? "it holds as well" : "IT DOES NOT HOLD: take a larger k");
-  const auto list = [](const char* name, const std::vector<std::string>& values) {
+  const auto list = [](const char* name, const std::vector<std::string>& values,
+                       const std::vector<double>& digits = {}) {
+    std::size_t width = 0;
+    for (const std::string& value : values) width = std::max(width, digits.empty() ? 0 : value.size());
     for (std::size_t i = 0; i < values.size(); ++i)
-      fmt::print("  {:<14} {}\n", fmt::format("{}_{}", name, i + 1), values[i]);
+      fmt::print("  {:<14} {:<{}}{}\n", fmt::format("{}_{}", name, i + 1), values[i], width,
+                 digits.empty() ? "" : fmt::format("  {:.1f} digits", digits[i]));
   };
+  const Shadow shadow = result.shadow.value_or(Shadow{});
   fmt::print("{}: {}\n", request.scene.name, request.scene.title);
   fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method.text(), request.precision.name(),
              name_of(request.solver), result.steps, result.step);
   fmt::print("state at t = {}\n", result.t);
-  list("q", result.q);
-  list("p", result.p);
+  list("q", result.q, shadow.q);
+  list("p", result.p, shadow.p);
   list("lambda", result.lambda);
   if (!result.lambda.empty()) {
     fmt::print("output state (p tangential, exact multiplier; its energy is off by {})\n", result.output_delta_H);
@@ -89,6 +123,8 @@ void print(const RunRequest& request, const RunResult& result) {
   }
   fmt::print("errors over the mesh\n  {:<14} {}\n  {:<14} {}\n  {:<14} {}\n", "e_H", result.e_H, "e_g", result.e_g,
              "e_hid", result.e_hid);
+  fmt::print("{}", to_text(result.health));
+  if (result.shadow) fmt::print("{}", to_text(shadow));
   if (!result.observables.empty()) fmt::print("conserved by the exact motion\n");
   for (const Observed& o : result.observables)
     fmt::print("  {:<14} {}, changed by up to {}\n", o.name, o.initial, o.drift);
@@ -122,7 +158,8 @@ void run_command(const Options& o) {
                            expression("step", o.step),
                            expression("until", o.until),
                            Precision::parse(o.precision),
-                           o.account};
+                           o.account,
+                           o.shadow};
   RunHooks hooks;
   hooks.every = o.every;
   ProgressBar bar(request.scene.name);
@@ -140,6 +177,8 @@ void run_command(const Options& o) {
     std::cout << json_of(request, result) << std::endl;
   else
     print(request, result);
+  constexpr int doubtful = 3;
+  if (o.strict && !result.health.warnings.empty()) throw CLI::RuntimeError(doubtful);
 }
 
 }  // namespace
@@ -159,6 +198,9 @@ void add_run_command(CLI::App& app) {
   command->add_option("--out", o->out, "Write the trajectory to this CSV file");
   command->add_option("--every", o->every, "Steps between two lines of the CSV file")->capture_default_str();
   command->add_flag("--account", o->account, "Also show what effects and parts of the solver did and took");
+  command->add_flag("--strict", o->strict, "Exit code 3 if a warning says that the run may be worth little");
+  command->add_flag("--shadow", o->shadow,
+                    "Repeat the run with 16 more digits and say how many of each component survived rounding");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
       "Example: hbvm run tethered_satellites --method hbvm:5,1 --step 0.1 --until 100 --out satellites.csv");

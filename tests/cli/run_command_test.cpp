@@ -45,7 +45,7 @@ TEST(RunJson, HasExactlyTheFieldsOfTheIssue) {
                                   "--precision", "quad", "--solver", "paper"});
   EXPECT_EQ(keys_of(j),
             (Texts{"scene", "method", "solver", "precision", "step", "until", "steps", "t", "q", "p", "lambda",
-                   "output", "e_H", "e_g", "e_hid", "iterations_per_step", "cpu_seconds", "version"}));
+                   "output", "e_H", "e_g", "e_hid", "health", "iterations_per_step", "cpu_seconds", "version"}));
   EXPECT_EQ(keys_of(j["output"]), (Texts{"p", "lambda", "delta_H"}));
   EXPECT_EQ(j["scene"], "simple_pendulum");
   EXPECT_EQ(j["method"], "hbvm:3,2");
@@ -96,6 +96,46 @@ TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
       return 0;
     });
   }
+}
+
+TEST(RunHealth, IsInTheJsonAndTheText) {
+  const Arguments lossy{"run", "tethered_satellites", "--method", "hbvm:1,1", "--step", "0.1", "--until", "20"};
+  const ordered_json health = json_of(lossy)["health"];
+  EXPECT_EQ(keys_of(health), (Texts{"condition", "worst_e_H", "worst_hidden", "warnings"}));
+  EXPECT_NEAR(number(health["condition"]), 2, 0.01);
+  ASSERT_EQ(health["warnings"].size(), 1u);
+  EXPECT_EQ(keys_of(health["warnings"][0]), (Texts{"name", "text"}));
+  EXPECT_EQ(health["warnings"][0]["name"], "energy_lost");
+  const std::string text = hbvm(lossy).out;
+  for (const char* word : {"condition", "worst_e_H", "worst_hidden", "WARNING energy_lost"})
+    EXPECT_NE(text.find(word), std::string::npos) << word;
+}
+
+TEST(RunStrict, MakesWarningsExitCode3AndPrintsAll) {
+  const auto arguments = [](const char* method) {
+    return Arguments{"run", "tethered_satellites", "--method", method, "--step", "0.1", "--until", "20", "--json"};
+  };
+  const Outcome strict = hbvm(arguments("hbvm:1,1") + Arguments{"--strict"});
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_EQ(ordered_json::parse(strict.out)["health"]["warnings"].size(), 1u);
+  EXPECT_EQ(hbvm(arguments("hbvm:1,1")).code, 0);
+  EXPECT_EQ(hbvm(arguments("hbvm:5,1") + Arguments{"--strict"}).code, 0);
+}
+
+TEST(RunShadow, IsInTheJsonAndTheTextIfAskedFor) {
+  const Arguments run{"run", "double_pendulum", "--method", "hbvm:2,2", "--step", "1/16", "--until", "2"};
+  EXPECT_FALSE(json_of(run).contains("shadow"));
+  const ordered_json shadow = json_of(run + Arguments{"--shadow"})["shadow"];
+  EXPECT_EQ(shadow["precision"], "mpfr:32");
+  for (const char* half : {"q", "p"}) {
+    ASSERT_EQ(shadow["digits"][half].size(), 4u);
+    for (const ordered_json& digits : shadow["digits"][half]) EXPECT_NEAR(digits.get<double>(), 16, 2);
+  }
+  EXPECT_EQ(keys_of(shadow["worst"]), (Texts{"component", "digits", "t", "every"}));
+  EXPECT_EQ(hbvm(run).out.find("digits"), std::string::npos);
+  const std::string text = hbvm(run + Arguments{"--shadow"}).out;
+  EXPECT_NE(text.find(" digits\n"), std::string::npos);
+  EXPECT_NE(text.find("against mpfr:32"), std::string::npos);
 }
 
 TEST(RunJson, WithoutConstraintsHasNoMultipliers) {

@@ -3,10 +3,13 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hbvm/analysis/account.hpp"
+#include "hbvm/analysis/health.hpp"
+#include "hbvm/analysis/shadow.hpp"
 #include "hbvm/method/method_name.hpp"
 #include "hbvm/scalar/precision.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -22,6 +25,7 @@ struct RunRequest {
   Expression step, until;
   Precision precision;
   bool account = false;  ///< measure where the time goes
+  bool shadow = false;   ///< repeat the run with 16 more digits
 };
 
 /// A quantity the exact motion conserves: its value at the start and its greatest change over the mesh.
@@ -42,6 +46,8 @@ struct RunResult {
   std::string e_H, e_g, e_hid;
   double iterations_per_step = 0, cpu_seconds = 0;
   Account account;
+  Health health;
+  std::optional<Shadow> shadow;
   std::vector<Observed> observables;  ///< those the scene names: the energy, conserved components of momenta
 };
 

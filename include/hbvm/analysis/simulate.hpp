@@ -5,6 +5,7 @@
 #include "hbvm/analysis/account.hpp"
 #include "hbvm/integrate/drift.hpp"
 #include "hbvm/integrate/hbvm_stepper.hpp"
+#include "hbvm/integrate/watched_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
 
 namespace hbvm {
@@ -17,17 +18,21 @@ struct Simulated {
 };
 
 /// Integrates an assembled scene with its drift observed, beside further observers. With `account`, the time of effects
-/// and parts of the solver is measured, too.
+/// and parts of the solver is measured, too; with `decay`, it sees every step.
 /// \throws StepError, IntegrationError
 template <Scalar S>
 Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKind solver, const TimeGrid<S>& grid,
-                      std::vector<Observer<S>*> observers = {}, Account* account = nullptr) {
+                      std::vector<Observer<S>*> observers = {}, Account* account = nullptr,
+                      CoefficientDecay<S>* decay = nullptr) {
   Drift<S> drift(scene.problem);
   observers.insert(observers.begin(), &drift);
   HbvmStepper<S> stepper(scene.problem, method, grid.step(), solver);
   if (account) stepper.measure_time();
   State<S> state(scene.q0, scene.p0);
-  Integration<S> integration = integrate(stepper, state, grid, observers);
+  std::optional<WatchedStepper<S>> watched;
+  if (decay) watched.emplace(stepper, *decay);
+  Integration<S> integration =
+      integrate<S>(decay ? static_cast<Stepper<S>&>(*watched) : stepper, state, grid, observers);
   if (account) {
     *account = account_of(scene.problem, stepper.counts());
     account->steps = static_cast<std::uint64_t>(integration.steps);
