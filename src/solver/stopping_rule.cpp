@@ -115,19 +115,23 @@ void StoppingRule<S>::take_scales() {
 
 template <Scalar S>
 void StoppingRule<S>::find_rate() {
-  set(last_rate_, rate_);
-  if (sweeps_ == 1) return;
+  S& now = left_;
   bool known = false;
-  for (Index j = 0; j < size_; ++j) {
+  for (Index j = 0; j < size_ && sweeps_ > 1; ++j) {
     set_rounding(j, t_);
     if (!exceeds(last_[j], t_)) continue;
-    if (!known) set(rate_, least_rate_);
+    if (!known) set(now, least_rate_);
     known = true;
-    set_product(t_, rate_, last_[j]);
-    if (exceeds(change_[j], t_)) set_quotient(rate_, change_[j], last_[j]);
+    set_product(t_, now, last_[j]);
+    if (exceeds(change_[j], t_)) set_quotient(now, change_[j], last_[j]);
   }
-  if (sweeps_ == 2 && known) set(last_rate_, rate_);
-  if (exceeds(rate_, last_rate_)) set(last_rate_, rate_);  // the greater of the last two
+  if (!known) {
+    if (sweeps_ == 1) set(last_rate_, rate_);
+    return;
+  }
+  // The greater of this one and the one before, which in the second sweep is none.
+  set(last_rate_, sweeps_ > 2 && exceeds(rate_, now) ? rate_ : now);
+  set(rate_, now);
 }
 
 template <Scalar S>

@@ -1,5 +1,7 @@
 #include "hbvm/solver/fixed_point.hpp"
 
+#include <cmath>
+
 #include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scalar/literal.hpp"
@@ -169,6 +171,47 @@ TEST(FixedPoint, AtRestNothingMoves) {
     EXPECT_EQ(state.q, scene.q0);
     EXPECT_NEAR(max_norm(state.p), 0, 1e-16);
     EXPECT_NEAR(stepper.multiplier()[0], 0.5, 1e-14);
+  }
+}
+
+/// A body that starts from rest: in the paper's order psi lags, and the first sweep from 0 changes no momentum.
+TEST(FixedPoint, ThePapersOrderWaitsForTheForceOfABodyAtRest) {
+  const Assembled<double> scene = assemble<double>(read_scene(
+      "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = 1, position = [1, "
+      "0], velocity = [0, 0] }]\neffect = [{ kind = \"central_gravity\", center = \"O\", strength = 1 }]\n",
+      "fall"));
+  const Hbvm<double> method = make_hbvm<double>(4, 2);
+  State<double> states[2] = {{scene.q0, scene.p0}, {scene.q0, scene.p0}};
+  for (std::size_t i = 0; i < 2; ++i) HbvmStepper<double>(scene.problem, method, 0.1, kinds[i]).step(states[i]);
+  EXPECT_LT(states[1].p[0], -0.1);
+  EXPECT_LE(std::abs(states[0].p[0] - states[1].p[0]), 4 * epsilon<double>() * std::abs(states[0].p[0]));
+}
+
+/// A light body moves as if it were alone, whoever else is in the scene: the digits of the paper's order, too.
+TEST(FixedPoint, ALightBodysDigitsDoNotDependOnAHeavyOne) {
+  const auto kepler = [](const std::string& mass, const std::string& beside) {
+    return "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = " + mass +
+           ", position = [\"1/2\", 0], velocity = [0, \"sqrt(3)\"] }" + beside +
+           "]\neffect = [{ kind = \"central_gravity\", center = \"O\", strength = 1, on = [\"a\"] }]\n";
+  };
+  const std::string heavy = ", { name = \"b\", mass = 1, position = [0, 10], velocity = [1, 0] }";
+  const Hbvm<double> method = make_hbvm<double>(6, 2);
+  for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::paper, SolverKind::newton}) {
+    for (const std::string mass : {"\"2^(-30)\"", "\"2^(-100)\""}) {
+      const auto alone = assemble<double>(read_scene(kepler(mass, ""), "alone")),
+                 both = assemble<double>(read_scene(kepler(mass, heavy), "both"));
+      State<double> one(alone.q0, alone.p0), two(both.q0, both.p0);
+      HbvmStepper<double> first(alone.problem, method, 0.1, kind), second(both.problem, method, 0.1, kind);
+      for (int n = 0; n < 100; ++n) {
+        first.step(one);
+        second.step(two);
+      }
+      for (Index j = 0; j < 2; ++j) {
+        // A hundred steps' rounding, and what the orbit makes of it.
+        EXPECT_LE(std::abs(one.q[j] - two.q[j]), 10'000 * epsilon<double>()) << name_of(kind);
+        EXPECT_LE(std::abs(one.p[j] - two.p[j]), 10'000 * epsilon<double>() * max_norm(one.p)) << name_of(kind);
+      }
+    }
   }
 }
 

@@ -141,5 +141,49 @@ TEST(Newton, LeavesWhatDoubleCannotHoldToTheFixedPoint) {
   EXPECT_LE(magnitude(Mpfr(solver->position_change()[1] / scene.p0[1] - Mpfr(1) / 10)), 100 * epsilon<Mpfr>());
 }
 
+/// The last residual is one of the full precision, and nothing of it is left: the step is the fixed point's, whose
+/// every sweep is, to a few roundings of each coordinate.
+TEST(Newton, EndsAtTheLastDigit) {
+  for (const unsigned digits : {20U, 40U, 62U, 100U}) {
+    const PrecisionScope scope(digits);
+    for (const char* name : {"double_pendulum", "kepler"}) {
+      const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
+      const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 3);
+      const Mpfr h = Mpfr(1) / 16;
+      State<Mpfr> newtons(scene.q0, scene.p0), swept = newtons;
+      HbvmStepper<Mpfr> newton(scene.problem, method, h, SolverKind::newton),
+          fixed_point(scene.problem, method, h, SolverKind::fixed_point);
+      for (int n = 0; n < 3; ++n) {
+        newton.step(newtons);
+        fixed_point.step(swept);
+      }
+      const Mpfr size = std::max(max_norm(swept.p), max_norm(swept.q));
+      EXPECT_LE(distance(newtons.p, swept.p), 24 * epsilon<Mpfr>() * size) << name << ", " << digits;
+      EXPECT_LE(distance(newtons.q, swept.q), 24 * epsilon<Mpfr>() * size) << name << ", " << digits;
+    }
+  }
+}
+
+/// A stiff spring, omega h = 1250: Gauss methods are stable there, and the solution near the start is the one that is
+/// meant. It was 1500 times too fast.
+TYPED_TEST(NewtonTest, TakesTheSolutionNearTheStartOnAStiffSpring) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(read_scene(
+      "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = 1, position = "
+      "[\"3/5\", \"-4/5\"], velocity = [\"2/5\", \"3/10\"] }]\neffect = [{ kind = \"uniform_gravity\", acceleration = "
+      "[0, -1] }, { kind = \"spring\", between = [\"o\", \"a\"], stiffness = \"10^8\", rest_length = 1 }]\n",
+      "stiff"));
+  for (const int s : {1, 2, 3}) {
+    const Hbvm<S> method = make_hbvm<S>(s, s);
+    HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 8), SolverKind::newton);
+    State<S> state(scene.q0, scene.p0);
+    for (int n = 0; n < 8; ++n) {
+      stepper.step(state);
+      EXPECT_LT(max_norm(state.p), 2) << s;
+      EXPECT_LT(magnitude(S(state.q.squaredNorm() - 1)), S(1) / 64) << s;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hbvm

@@ -1,0 +1,179 @@
+#include "hbvm/solver/stopping_rule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "hbvm/scalar/binary_exponent.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr long roundings = 100;
+
+/// Coordinates whose changes, sweep by sweep, are given; the terms behind each have a size of their own.
+template <Scalar S>
+class Sequence {
+ public:
+  using Rule = StoppingRule<S>;
+  using Verdict = typename Rule::Verdict;
+
+  explicit Sequence(std::vector<S> sizes, int least_rate_bits = 10)
+      : rule(static_cast<Index>(sizes.size()), roundings, least_rate_bits),
+        sizes_(Eigen::Map<const Vector<S>>(sizes.data(), static_cast<Index>(sizes.size()))),
+        terms_(sizes_.transpose()),
+        positions_(Vector<S>::Zero(sizes_.size())) {}
+
+  Vector<S>& positions() { return positions_; }
+
+  /// \return the verdict of the last of so many sweeps at most, change(sweep, coordinate) over the size being the
+  /// change
+  Verdict run(long sweeps, const std::function<S(long, Index)>& change) {
+    rule.start(sizes_, positions_);
+    Verdict verdict = Verdict::go_on;
+    for (long n = 1; n <= sweeps && verdict == Verdict::go_on; ++n) {
+      for (Index j = 0; j < sizes_.size(); ++j) rule.show_change(j, S(change(n, j) * sizes_[j]));
+      rule.show_terms(terms_);
+      verdict = rule.judge();
+    }
+    return verdict;
+  }
+
+  Rule rule;
+
+ private:
+  Vector<S> sizes_;
+  Matrix<S> terms_;
+  Vector<S> positions_;
+};
+
+template <class T>
+class StoppingRuleTest : public testing::Test {
+ protected:
+  PrecisionScope digits_{50};
+};
+TYPED_TEST_SUITE(StoppingRuleTest, AllScalars, ScalarNames);
+
+/// 2^-(bits n), and what is left after sweep n is 2^-bits of it: the first n with 2^-(bits (n + 1)) <= 2^-12 epsilon.
+TYPED_TEST(StoppingRuleTest, EndsWhereTheNextChangeIsBelow2ToTheMinus12OfRoundOff) {
+  using S = TypeParam;
+  const long round_off = significand_bits<S>() - 1 + 12;
+  for (const long bits : {2L, 5L, 8L}) {
+    Sequence<S> sequence({S(1), power_of_two<S>(-60), power_of_two<S>(70)});
+    EXPECT_EQ(sequence.run(10000, [&](long n, Index) { return power_of_two<S>(-bits * n); }),
+              Sequence<S>::Verdict::converged);
+    EXPECT_EQ(sequence.rule.sweeps(), (round_off + bits - 1) / bits - 1) << bits;
+  }
+}
+
+/// A light coordinate is no less worth than a heavy one.
+TYPED_TEST(StoppingRuleTest, WaitsForTheSmallestCoordinate) {
+  using S = TypeParam;
+  for (const int exponent : {0, -30, -200}) {
+    Sequence<S> sequence({S(1), power_of_two<S>(exponent)});
+    const auto change = [](long n, Index j) { return j == 0 ? S(0) : power_of_two<S>(-n); };
+    EXPECT_EQ(sequence.run(10000, change), Sequence<S>::Verdict::converged);
+    EXPECT_EQ(sequence.rule.sweeps(), significand_bits<S>() - 1 + 12 - 1) << exponent;
+  }
+}
+
+/// Rounding is taken for what it is once it has not fallen for two sweeps, up to C epsilon and no further.
+TYPED_TEST(StoppingRuleTest, TakesWhatDoesNotFallForRoundingBelowItsBoundOnly) {
+  using S = TypeParam;
+  const auto noise = [](long of_bound) {
+    return [of_bound](long n, Index) {
+      return n == 1 ? power_of_two<S>(-4) : S(S(of_bound) / 8 * S(roundings) * epsilon<S>());
+    };
+  };
+  Sequence<S> below({S(3)}), above({S(3)});
+  EXPECT_EQ(below.run(1000, noise(7)), Sequence<S>::Verdict::converged);
+  EXPECT_EQ(below.rule.sweeps(), 4);  // it fell to that in the second sweep, and not in the third and fourth
+  EXPECT_EQ(above.run(1000, noise(9)), Sequence<S>::Verdict::stagnant);
+  EXPECT_GT(above.rule.sweeps(), StoppingRule<S>::patience);
+  EXPECT_FALSE(above.rule.grows());
+  EXPECT_GT(above.rule.condition_wanted(), 1);
+  EXPECT_LT(above.rule.condition_wanted(), 2);
+}
+
+/// The bound is relative to what positions are rounded to, too, if that is more, and to the condition.
+TYPED_TEST(StoppingRuleTest, RoundingOfPositionsAndConditionRaiseTheBound) {
+  using S = TypeParam;
+  const auto noise = [](long n, Index) {
+    return n == 1 ? power_of_two<S>(-4) : S(S(1000) * S(roundings) * epsilon<S>());
+  };
+  Sequence<S> sequence({S(3)});
+  sequence.positions()[0] = 3001;
+  EXPECT_EQ(sequence.run(1000, noise), Sequence<S>::Verdict::converged);
+  sequence.positions()[0] = 2999;
+  EXPECT_EQ(sequence.run(1000, noise), Sequence<S>::Verdict::stagnant);
+}
+
+/// One fall is no rate: below the least one nothing is believed.
+TYPED_TEST(StoppingRuleTest, ExpectsNoFallBeyondTheLeastRate) {
+  using S = TypeParam;
+  Sequence<S> sequence({S(1)});
+  const int half = significand_bits<S>() / 2;
+  // Two falls to half of the digits each would promise an end after the second sweep.
+  const auto change = [&](long n, Index) { return power_of_two<S>(-half * (n - 1) - 14); };
+  EXPECT_EQ(sequence.run(2, change), Sequence<S>::Verdict::go_on);
+  Sequence<S> bold({S(1)}, half);
+  EXPECT_EQ(bold.run(2, change), Sequence<S>::Verdict::converged);
+}
+
+/// The rate is the slowest of the last two sweeps: changes may fall unevenly.
+TYPED_TEST(StoppingRuleTest, IsNotMisledByUnevenFalls) {
+  using S = TypeParam;
+  Sequence<S> even({S(1)}), uneven({S(1)});
+  even.run(10000, [](long n, Index) { return power_of_two<S>(-4 * n); });
+  uneven.run(10000, [](long n, Index) { return power_of_two<S>(-8 * (n / 2) - 1); });
+  EXPECT_GE(uneven.rule.sweeps(), even.rule.sweeps() + 1);
+}
+
+/// A coordinate that goes to 0 changes by all it is, for ever.
+TYPED_TEST(StoppingRuleTest, DoesNotWaitForWhatVanishes) {
+  using S = TypeParam;
+  StoppingRule<S> rule(2, roundings);
+  Vector<S> p0(2), positions(2);
+  p0 << S(1), S(0);
+  positions << S(8), S(8);
+  rule.start(p0, positions);
+  auto verdict = StoppingRule<S>::Verdict::go_on;
+  for (long n = 1; n < 1000 && verdict == StoppingRule<S>::Verdict::go_on; ++n) {
+    Matrix<S> terms(1, 2);
+    terms << S(1), power_of_two<S>(-20 - 6 * n);
+    rule.show_change(0, power_of_two<S>(-6 * n));
+    rule.show_change(1, S(63 * terms(0, 1)));
+    rule.show_terms(terms);
+    verdict = rule.judge();
+  }
+  EXPECT_EQ(verdict, StoppingRule<S>::Verdict::converged);
+  EXPECT_LE(rule.sweeps(), (significand_bits<S>() + 12) / 6 + 3);
+}
+
+TYPED_TEST(StoppingRuleTest, EndsTypedWhereNothingConverges) {
+  using S = TypeParam;
+  using Verdict = typename StoppingRule<S>::Verdict;
+  Sequence<S> sequence({S(1), S(1)});
+  using std::sqrt;
+  EXPECT_EQ(sequence.run(100000, [](long n, Index) { return S(S(1) / S(n)); }), Verdict::endless);
+  EXPECT_EQ(sequence.run(100000, [](long n, Index j) { return j == 0 ? S(0) : power_of_two<S>(n % 500); }),
+            Verdict::stagnant);
+  EXPECT_TRUE(sequence.rule.grows());
+  // Overflow is looked for before convergence: one coordinate that is still says nothing of another.
+  const S infinity = S(1) / S(0);
+  EXPECT_EQ(sequence.run(5, [&](long, Index j) { return j == 0 ? S(0) : infinity; }), Verdict::not_finite);
+  EXPECT_EQ(sequence.run(5, [&](long, Index j) { return j == 1 ? S(0) : S(infinity - infinity); }),
+            Verdict::not_finite);
+}
+
+/// Changes that begin small and rise with those of another coordinate are no divergence.
+TYPED_TEST(StoppingRuleTest, ForgivesAFirstChangeOfNothing) {
+  using S = TypeParam;
+  Sequence<S> sequence({S(1), S(1)});
+  const auto change = [](long n, Index j) { return j == 1 && n < 4 ? S(0) : power_of_two<S>(-n); };
+  EXPECT_EQ(sequence.run(100000, change), Sequence<S>::Verdict::converged);
+}
+
+}  // namespace
+}  // namespace hbvm
