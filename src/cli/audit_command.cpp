@@ -17,6 +17,7 @@
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
 #include "progress_bar.hpp"
+#include "write_text.hpp"
 
 namespace hbvm {
 namespace {
@@ -65,25 +66,18 @@ std::vector<Claim> claims_of(const Options& o) {
   return o.claims ? filtered(std::move(claims), *o.claims) : claims;
 }
 
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw InputError("--out: cannot write '" + path.string() + "'");
-}
-
 /// Where results go; with --json nowhere unless it is said.
 std::optional<fs::path> folder_of(const Options& o) {
   if (o.json && !o.out) return std::nullopt;
   const fs::path folder = o.out.value_or("audit-results");
   std::error_code failure;
   fs::create_directories(folder, failure);
-  write(folder / "audit.csv", "# this audit is not finished\n");
+  write_text(folder / "audit.csv", "# this audit is not finished\n");
   return folder;
 }
 
 void audit_command(const Options& o) {
-  if (o.jobs < 1 || o.jobs > 1024) throw InputError("--jobs " + std::to_string(o.jobs) + " is not between 1 and 1024");
+  check_jobs(o.jobs);
   const std::vector<Claim> claims = claims_of(o);
   std::string command = "hbvm audit";
   if (o.method) command += " --method " + *o.method;
@@ -122,9 +116,9 @@ void audit_command(const Options& o) {
   Table table = audit_table(findings);
   table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
   if (folder) {
-    write(*folder / "audit.csv", to_csv(table));
-    write(*folder / "audit.md", to_markdown(table));
-    write(*folder / "audit.tex", to_latex(table));
+    write_text(*folder / "audit.csv", to_csv(table));
+    write_text(*folder / "audit.md", to_markdown(table));
+    write_text(*folder / "audit.tex", to_latex(table));
     draw(audit_figure(folder->string()), (*folder / "orders.svg").string());
   }
   if (o.json) {

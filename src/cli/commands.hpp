@@ -11,5 +11,6 @@ void add_scenes_command(CLI::App& app);
 void add_scene_command(CLI::App& app);
 void add_study_command(CLI::App& app);
 void add_audit_command(CLI::App& app);
+void add_stability_command(CLI::App& app);
 
 }  // namespace hbvm

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   hbvm::add_scene_command(app);
   hbvm::add_study_command(app);
   hbvm::add_audit_command(app);
+  hbvm::add_stability_command(app);
   try {
     const CLI::App* command = &app;
     for (int i = 1; i < argc && argv[i][0] != '-' && command->get_require_subcommand_min() > 0; ++i) {

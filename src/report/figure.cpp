@@ -38,7 +38,10 @@ std::string plot_of(const Panel& panel) {
                       quoted(panel.y_label) + "\n";
   if (space)
     setup += "set zlabel " + quoted(panel.z_label) + " rotate parallel\nset view 65,35\nset xyplane relative 0.05\n";
-  setup += panel.logarithms ? "set format x '2^{%g}'\nset format y '10^{%g}'\n" : "set format '% h'\n";
+  if (panel.decades)
+    setup += "set format '10^{%g}'\n";
+  else
+    setup += panel.logarithms ? "set format x '2^{%g}'\nset format y '10^{%g}'\n" : "set format '% h'\n";
   setup += "unset label\n";
   for (const Label& label : panel.labels)
     setup += "set label " + quoted(label.text) + " at " + label.at.at(0) + "," + label.at.at(1) + "\n";

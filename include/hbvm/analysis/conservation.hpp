@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cmath>
 #include <string>
 #include <vector>
 
+#include "hbvm/analysis/round_off.hpp"
 #include "hbvm/method/method_name.hpp"
 #include "hbvm/scalar/precision.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -24,8 +24,8 @@ struct Conservation {
   long steps = 0;
   std::vector<ConservedQuantity> quantities;  ///< energy, constraints if any, then each momentum
 
-  /// The ulps that round-off explains: a few roundings each step, of either sign.
-  double round_off() const { return 16 * (1 + std::sqrt(static_cast<double>(steps))); }
+  /// The ulps that round-off explains.
+  double round_off() const { return round_off_units(steps); }
 };
 
 enum class Nodes {

@@ -41,6 +41,7 @@ struct Panel {
   std::vector<Polyline> lines;
   bool equal_axes = false;
   bool logarithms = false;  ///< x is a binary logarithm and y a decimal one: tics show the powers
+  bool decades = false;     ///< both are decimal logarithms: tics show the powers
   std::vector<Label> labels{};
 };
 

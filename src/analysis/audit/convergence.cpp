@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hbvm/analysis/line_fit.hpp"
+
 namespace hbvm {
 
 std::optional<Rate> convergence_rate(const std::vector<Rung>& rungs) {
@@ -17,27 +19,16 @@ std::optional<Rate> convergence_rate(const std::vector<Rung>& rungs) {
   Rate rate;
   rate.halvings = clean.front().step - clean.back().step;
   if (rate.halvings < needed - 1) return std::nullopt;
-  const double count = needed;
-  double mean_step = 0, mean_error = 0;
+  std::vector<double> steps, errors;
   for (const Rung& r : clean) {
-    mean_step += r.step / count;
-    mean_error += r.error / count;
+    steps.push_back(r.step);
+    errors.push_back(r.error);
   }
-  double xx = 0, xy = 0;
-  for (const Rung& r : clean) {
-    xx += (r.step - mean_step) * (r.step - mean_step);
-    xy += (r.step - mean_step) * (r.error - mean_error);
-  }
-  rate.value = xy / xx;
-  double squares = 0;
-  for (const Rung& r : clean) {
-    const double residual = r.error - mean_error - rate.value * (r.step - mean_step);
-    squares += residual * residual;
-  }
-  const double standard_error = std::sqrt(squares / (count - 2) / xx);
+  const LineFit fit = fit_line(steps, errors);
+  rate.value = fit.slope;
   const Rung &last = clean[needed - 1], &before = clean[needed - 2];
   const double finest = (before.error - last.error) / (before.step - last.step);
-  rate.uncertainty = std::max(student_t * standard_error, std::abs(finest - rate.value));
+  rate.uncertainty = std::max(student_t * fit.standard_error, std::abs(finest - rate.value));
   rate.decades = (clean.front().error - clean.back().error) * std::numbers::ln2 / std::numbers::ln10;
   return rate;
 }

@@ -5,31 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "analysis/json_lines.hpp"
 #include "hbvm/version.hpp"
 
 namespace hbvm {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 std::string_view name_of(Form form) {
   constexpr std::string_view names[] = {"at least", "exactly", "round-off", "near"};
   return names[static_cast<int>(form)];
 }
 std::string_view name_of(Span span) { return span == Span::step ? "step" : "interval"; }
-
-/// A number that JSON has, or null.
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-double number(const Json& json) {
-  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-/// Names of files may hold bytes that are no text.
-std::string dumped(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
 
 /// To three decimals, or a power of ten.
 std::string short_text(double x) {
@@ -56,8 +46,8 @@ Json evidence_of(const Finding& finding) {
     Json steps = Json::array(), errors = Json::array(), floors = Json::array();
     for (const Rung& rung : ladder.rungs) {
       steps.push_back(rung.step);
-      errors.push_back(number(rung.error));
-      floors.push_back(number(rung.floor));
+      errors.push_back(json_number(rung.error));
+      floors.push_back(json_number(rung.floor));
     }
     evidence.push_back(
         {{"precision", ladder.precision}, {"log2_h", steps}, {"log2_error", errors}, {"log2_floor", floors}});
@@ -76,8 +66,8 @@ Json json_of(const Finding& f) {
             {"over", name_of(c.span)},
             {"form", name_of(c.form)},
             {"predicted", c.predicted},
-            {"measured", number(f.measured)},
-            {"uncertainty", number(f.uncertainty)},
+            {"measured", json_number(f.measured)},
+            {"uncertainty", json_number(f.uncertainty)},
             {"precision", f.precision},
             {"verdict", hbvm::name_of(f.verdict)},
             {"reason", f.reason},
@@ -89,8 +79,8 @@ Json json_of(const Finding& f) {
 /// What json_of wrote, but the claim.
 Finding finding_of(const Json& j) {
   Finding f;
-  f.measured = number(j.at("measured"));
-  f.uncertainty = number(j.at("uncertainty"));
+  f.measured = number_of(j.at("measured"));
+  f.uncertainty = number_of(j.at("uncertainty"));
   f.precision = j.at("precision");
   f.reason = j.at("reason");
   f.reference = j.at("reference");
@@ -103,7 +93,7 @@ Finding finding_of(const Json& j) {
       const Json& error = ladder.at("log2_error").at(i);
       read.rungs.push_back({ladder.at("log2_h").at(i),
                             error.is_null() ? -std::numeric_limits<double>::infinity() : error.get<double>(),
-                            number(ladder.at("log2_floor").at(i))});
+                            number_of(ladder.at("log2_floor").at(i))});
     }
     f.evidence.push_back(std::move(read));
   }
@@ -156,21 +146,13 @@ std::string to_json(const std::vector<Finding>& findings, const std::string& com
   return dumped({{"version", version()}, {"command", command}, {"summary", summary(findings)}, {"claims", claims}}, 1);
 }
 
-std::string to_line(const Finding& finding, const std::string& key) {
-  return dumped({{"key", key}, {"version", version()}, {"finding", json_of(finding)}}, -1);
-}
+std::string to_line(const Finding& finding, const std::string& key) { return finding_line(key, json_of(finding)); }
 
 std::map<std::string, Finding> read_lines(const std::string& path) {
   std::map<std::string, Finding> result;
   std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
-    try {
-      const Json json = Json::parse(line);
-      if (json.at("version") == version()) result.insert_or_assign(json.at("key"), finding_of(json.at("finding")));
-    } catch (const Json::exception&) {
-      continue;  // cut off
-    }
-  }
+  read_finding_lines(
+      file, [&](const std::string& key, const Json& finding) { result.insert_or_assign(key, finding_of(finding)); });
   return result;
 }
 

@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include "../family.hpp"
+#include "../scenes.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/assemble.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Accuracy, and the energy within the size of its terms at the start: on a wrong root of the stage equations the
+/// spring's alone is greater by orders, in any number of digits.
+CaseResult on_the_right_root(const RunRequest& request) {
+  CaseResult result = accuracy(request);
+  if (!result.failure.empty()) return result;
+  const double e_H = evaluate<double>(Expression::parse(run(request, {}).e_H));
+  const Assembled<double> scene = assemble<double>(request.scene);
+  const double size = Point<double>(scene.problem).energy_size(scene.q0, scene.p0);
+  result.criteria.push_back({"e_H over the terms of H", e_H / size, 1});
+  return result;
+}
+
+}  // namespace
+
+void add_stiffness(std::vector<HardCase>& cases, Collection collection) {
+  const Family family(cases, "stiff springs", collection);
+  const std::vector<std::string> all{"double", "quad", "mpfr:50"};
+  const auto& some = family.precisions();
+  const Expected either = holds_or({"stage_equations_diverge"});
+  for (const std::string k : {"1e8", "1e12"})
+    for (int i = 3; i <= 9; ++i) {
+      if (!family.full() && i % 3 != 0) continue;
+      family.add_run(
+          "body on a spring", "stiffness " + k, i == 3 || family.full() ? all : some, either,
+          [k] { return spring_pendulum(k); }, {"hbvm:2,2", "auto", fmt::format("2^(-{})", i), i == 3 ? "1" : "1/4"},
+          on_the_right_root);
+    }
+  for (const std::string solver : {"auto", "newton", "fixed-point"})
+    family.add_run(
+        "body on a spring", "stiffness 1e8", {"mpfr:50"}, either, [] { return spring_pendulum("1e8"); },
+        {"hbvm:6,2", solver, "1/8", "1"}, on_the_right_root);
+  family.add_run(
+      "spring on a pendulum", "stiffness 1e8", all, either, [] { return pendulum_with_spring("1e8"); },
+      {"hbvm:1,1", "auto", "1/32", "1"}, on_the_right_root);
+  // Gauss methods are unconditionally stable: omega h from 1 to 1000.
+  for (const std::string omega : {"1", "10", "100", "1000"})
+    for (const std::string method : {"hbvm:1,1", "hbvm:3,3"})
+      for (const std::string solver : {"auto", "newton"}) {
+        if (!family.full() && omega != "1000") continue;
+        family.add_run("linear oscillator", "omega h = " + omega, solver == "auto" ? all : some, holds(),
+                       [omega] { return oscillator(omega + "^2"); }, {method, solver, "1", "64"});
+      }
+}
+
+}  // namespace hbvm

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+
+#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/stability/case.hpp"
+#include "motion.hpp"
+
+namespace hbvm {
+
+/// What the body returns; of a run that ended with a typed error, its cause and message. "refused" is an InputError,
+/// "integration_error" one without a cause.
+CaseResult guarded(const std::function<CaseResult()>& body);
+
+/// A request by its texts.
+RunRequest request_of(Scene scene, std::string_view method, std::string_view solver, std::string_view step,
+                      std::string_view until, std::string_view precision);
+
+/// Each coordinate, at eight times, against a run in 20 more digits by another solver. The criterion is the greatest
+///
+///     |x_i - X_i| / (epsilon scale_i + |Y_i - X_i|),
+///
+/// scale_i the greatest of what x_i is a sum of, over the run, and Y a run like X whose start is off by an ulp of the
+/// working precision in each coordinate: the problem's own condition and growth. Its bound is that of a few roundings a
+/// step, of either sign.
+CaseResult accuracy(const RunRequest& request);
+
+/// The worst coordinate of a run against the same run in more digits, and one there that was kicked: see accuracy.
+CaseResult compared(const RunRequest& request, const Motion& motion, const Motion& exact, const Motion& kicked);
+
+/// The start, after as many steps back as forth, likewise: against a run that is off by an ulp where it turns.
+CaseResult reversal(const RunRequest& request);
+
+/// The energy's greatest change over the run, in units of epsilon times the size of its terms, and the warnings that
+/// the run gives of itself. The number of nodes may be the program's choice.
+CaseResult energy(const RunRequest& request);
+
+}  // namespace hbvm

@@ -1,0 +1,118 @@
+#include "motion.hpp"
+
+#include <algorithm>
+
+#include "hbvm/integrate/hbvm_stepper.hpp"
+#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/problem/constraint_gradient.hpp"
+#include "hbvm/scalar/with_scalar.hpp"
+#include "hbvm/scene/assemble.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr long samples = 8;
+
+template <Scalar S>
+std::vector<BigFloat> exact(const Vector<S>& x) {
+  std::vector<BigFloat> result;
+  for (Index i = 0; i < x.size(); ++i) result.push_back(exactly(x[i]));
+  return result;
+}
+
+/// Keeps samples, and the size of each coordinate over all mesh points.
+template <Scalar S>
+class Recorder final : public Observer<S> {
+ public:
+  Recorder(const Problem<S>& problem, const TimeGrid<S>& grid)
+      : problem_(problem),
+        potential_(problem.potential, 1),
+        gradient_(problem, 1),
+        steps_(grid.steps()),
+        h_(grid.step()),
+        v_(problem.m()),
+        q_size_(Vector<S>::Zero(problem.m())),
+        p_size_(q_size_),
+        force_(1, problem.m()),
+        reaction_(problem.m()) {}
+
+  void observe(const Snapshot<S>& snapshot) override {
+    problem_.mass.velocity(lanes(snapshot.p), lanes(v_));
+    if (potential_.has_varying_force())
+      potential_.varying_force(lanes(snapshot.q), force_);
+    else
+      force_.setZero();
+    reaction_.setZero();
+    gradient_.update(lanes(snapshot.q));
+    gradient_.add_times(snapshot.lambda.transpose(), lanes(reaction_));
+    for (Index i = 0; i < v_.size(); ++i) {
+      raise_magnitude(q_size_[i], snapshot.q[i]);
+      raise_magnitude(q_size_[i], S(h_ * v_[i]));
+      raise_magnitude(p_size_[i], snapshot.p[i]);
+      raise_magnitude(p_size_[i], S(h_ * (force_(0, i) + potential_.constant_force()[i])));
+      raise_magnitude(p_size_[i], S(h_ * reaction_[i]));
+    }
+    const long n = snapshot.n, before = std::max(0L, n - 1);
+    if (n == 0 || n * samples / steps_ > before * samples / steps_)
+      seen_.push_back({exact(snapshot.q), exact(snapshot.p)});
+  }
+
+  std::vector<ExactState> take() { return std::move(seen_); }
+  ExactState scale() const { return {exact(q_size_), exact(p_size_)}; }
+
+ private:
+  const Problem<S>& problem_;
+  PotentialEvaluator<S> potential_;
+  ConstraintGradient<S> gradient_;
+  long steps_;
+  S h_;
+  Vector<S> v_, q_size_, p_size_;
+  Matrix<S> force_;
+  Vector<S> reaction_;
+  std::vector<ExactState> seen_;
+};
+
+/// Signs without a pattern.
+bool positive(Index i) { return (7919 * (i + 1) + 4271) % 10'007 % 2 == 0; }
+
+template <Scalar S>
+void kick(State<S>& state, long bits) {
+  S relative = 1;
+  for (long i = 0; i < bits; ++i) relative /= 2;
+  for (Index i = 0; i < state.q.size(); ++i) {
+    state.q[i] *= positive(2 * i) ? S(1 + relative) : S(1 - relative);
+    state.p[i] *= positive(2 * i + 1) ? S(1 + relative) : S(1 - relative);
+  }
+}
+
+template <Scalar S>
+Motion motion_in(const RunRequest& request, const Twist& twist) {
+  const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
+  const Assembled<S> scene = assemble<S>(request.scene);
+  const Hbvm<S> method = make_hbvm<S>(request.method.k, request.method.s);
+  State<S> state(scene.q0, scene.p0);
+  if (twist.kick_bits > 0 && !twist.back) kick(state, twist.kick_bits);
+  const auto run = [&] {
+    Recorder<S> recorder(scene.problem, grid);
+    HbvmStepper<S> stepper(scene.problem, method, grid.step(), request.solver);
+    integrate<S>(stepper, state, grid, {&recorder});
+    return Motion{recorder.take(), recorder.scale(), grid.steps()};
+  };
+  Motion motion = run();
+  if (!twist.back) return motion;
+  state.p = -state.p;
+  state.p_carry = -state.p_carry;
+  if (twist.kick_bits > 0) kick(state, twist.kick_bits);
+  const Motion back = run();
+  motion.steps += back.steps;
+  motion.samples.push_back(back.samples.back());
+  return motion;
+}
+
+}  // namespace
+
+Motion motion_of(const RunRequest& request, const Twist& twist) {
+  return with_scalar(request.precision, [&]<Scalar S>() { return motion_in<S>(request, twist); });
+}
+
+}  // namespace hbvm

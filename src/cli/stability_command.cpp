@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "commands.hpp"
+#include "hbvm/analysis/stability/collection.hpp"
+#include "hbvm/analysis/stability/report.hpp"
+#include "hbvm/analysis/stability/stability.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/version.hpp"
+#include "progress_bar.hpp"
+#include "write_text.hpp"
+
+namespace hbvm {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::optional<std::string> out, cases;
+  bool quick = false, full = false, json = false, figures = false;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+};
+
+std::vector<HardCase> cases_of(const Options& o) {
+  std::vector<HardCase> cases = hard_cases(o.full ? Collection::full : Collection::quick);
+  if (!o.cases) return cases;
+  std::string families;
+  for (const HardCase& c : cases)
+    if (families.find(c.family + "; ") == std::string::npos) families += c.family + "; ";
+  std::erase_if(cases, [&](const HardCase& c) { return c.key().find(*o.cases) == std::string::npos; });
+  if (cases.empty())
+    throw InputError("--cases: '" + *o.cases +
+                     "' occurs in no family, case, parameter or precision; the families are: " + families);
+  return cases;
+}
+
+void stability_command(const Options& o) {
+  check_jobs(o.jobs);
+  if (o.figures && !o.out) throw InputError("--figures needs a folder: --out FOLDER");
+  const std::vector<HardCase> cases = cases_of(o);
+  std::string command = std::string("hbvm stability") + (o.full ? " --full" : " --quick");
+  if (o.cases) command += " --cases '" + *o.cases + "'";
+
+  std::map<std::string, CaseFinding> known;
+  std::ofstream store;
+  if (o.out) {
+    std::error_code failure;
+    fs::create_directories(*o.out, failure);
+    const std::string path = (fs::path(*o.out) / "results.jsonl").string();
+    std::ifstream lines(path);
+    known = read_case_lines(lines);
+    store.open(path, std::ios::app);
+    // The last line may have been cut off.
+    store << std::endl;
+    if (!store) throw InputError("--out: cannot write to '" + *o.out + "'");
+  }
+
+  // A case of the same name runs longer in the full collection.
+  const std::string extent = o.full ? "full|" : "quick|";
+  StabilityOptions options;
+  options.jobs = o.jobs;
+  options.known = [&](const std::string& key) -> const CaseFinding* {
+    const auto place = known.find(extent + key);
+    return place == known.end() ? nullptr : &place->second;
+  };
+  options.found = [&](const std::string& key, const CaseFinding& finding) {
+    if (store.is_open()) store << to_line(finding, extent + key) << std::endl;
+  };
+  std::vector<CaseFinding> findings;
+  {
+    ProgressBar bar("stability");
+    options.progress = [&](long done, long total) { bar.update(done, total); };
+    findings = stability(cases, options);
+  }
+  Table table = stability_table(findings);
+  table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
+  if (o.out) {
+    const fs::path folder(*o.out);
+    write_text(folder / "stability.csv", to_csv(table));
+    write_text(folder / "stability.md", to_markdown(table));
+    write_text(folder / "stability.json", to_json(findings, command) + "\n");
+    if (o.figures)
+      for (const Figure& figure : stability_figures(*o.out, *o.out))
+        draw(figure, (folder / (figure.name + ".svg")).string());
+  }
+  if (o.json) {
+    std::cout << to_json(findings, command) << std::endl;
+  } else {
+    fmt::print("{}", to_text(table));
+    for (const CaseFinding& f : findings)
+      if (f.verdict == CaseVerdict::not_as_expected)
+        fmt::print("not as expected: {}, {}, {}: {}\n", f.name, f.parameter, f.precision, f.reason);
+    fmt::print("{}\n", summary(findings));
+    if (o.out) fmt::print("written to {}\n", *o.out);
+    std::fflush(stdout);
+  }
+  if (std::any_of(findings.begin(), findings.end(),
+                  [](const CaseFinding& f) { return f.verdict == CaseVerdict::not_as_expected; }))
+    throw CLI::RuntimeError(1);
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  CLI::App* const command =
+      app.add_subcommand("stability", "Run the collection of hard cases: each holds, or fails as it should");
+  auto* const quick = command->add_flag("--quick", o->quick, "Some cases of each family (default): about a minute");
+  command->add_flag("--full", o->full, "All, in double, quad and 50 digits, up to 10^7 steps: hours; see --out")
+      ->excludes(quick);
+  command->add_option("--cases", o->cases, "Only cases whose family, name, parameter or precision holds this text");
+  command->add_option("--out", o->out,
+                      "Folder for the table (CSV, Markdown, JSON) and results.jsonl, from which an interrupted run "
+                      "goes on");
+  command->add_flag("--figures", o->figures,
+                    "Also draw the study's figures there, beside what an earlier program gave (*_before.csv)");
+  command->add_option("--jobs", o->jobs, "Processes")->capture_default_str();
+  command->add_flag("--json", o->json, "Print one JSON object and nothing else");
+  command->footer(
+      "Exit code 1 if a case does not end as expected. See studies/stability.\n"
+      "Example: hbvm stability --cases separatrix --out stability");
+  command->callback([o] { stability_command(*o); });
+}
+
+}  // namespace hbvm

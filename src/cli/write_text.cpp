@@ -1,0 +1,20 @@
+#include "write_text.hpp"
+
+#include <fstream>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw InputError("--out: cannot write '" + path.string() + "'");
+}
+
+void check_jobs(int jobs) {
+  if (jobs < 1 || jobs > 1024) throw InputError("--jobs " + std::to_string(jobs) + " is not between 1 and 1024");
+}
+
+}  // namespace hbvm
