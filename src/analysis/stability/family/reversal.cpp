@@ -15,8 +15,8 @@ void add_reversal(std::vector<HardCase>& cases, Collection collection) {
     for (const std::string solver : {"auto", "newton"}) {
       if (!family.full() && solver == "newton" && scene == "tethered_satellites") continue;
       family.add_run(
-          scene, "until " + until, family.precisions(), holds(), [s = scene] { return load_scene(s); },
-          {method, solver, step, until}, reversal);
+          scene, "until " + until, std::vector<std::string>{"double", "quad", "mpfr:50"}, holds(),
+          [s = scene] { return load_scene(s); }, {method, solver, step, until}, reversal);
     }
   }
 }

@@ -9,8 +9,8 @@ void add_uncoupled(std::vector<HardCase>& cases, Collection collection) {
   for (const std::string m : {"1e-4", "1e-8", "1e-12", "1e-16"})
     for (const std::string solver : {"auto", "newton", "paper"}) {
       if (!family.full() && (m == "1e-4" || m == "1e-16")) continue;
-      family.add_run("orbit beside a heavy body", "mass " + m, solver == "auto" ? all : family.precisions(), holds(),
-                     [m] { return beside_kepler(m); }, {"hbvm:6,2", solver, "2*pi/64", "4*pi"});
+      family.add_run("orbit beside a heavy body", "mass " + m, all, holds(), [m] { return beside_kepler(m); },
+                     {"hbvm:6,2", solver, "2*pi/64", "4*pi"});
     }
   for (const std::string m : {"1e-8", "1e-12"}) {
     if (!family.full() && m == "1e-8") continue;
