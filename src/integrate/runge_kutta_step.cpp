@@ -47,12 +47,14 @@ RungeKuttaStep<S>::RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>
       force_(Matrix<S>::Zero(1, problem.m())),
       position_change_(force_),
       momentum_change_(force_),
-      extrapolation_(P_.rows(), P_.cols()) {
+      extrapolation_(P_.rows(), P_.cols()),
+      position_scale_(problem, step),
+      positions_(problem.m()),
+      // The lengths of the sums of one sweep, and 4 for what they are passed through, as roundings_of_a_sweep has it.
+      rule_(problem.m(), static_cast<long>(4 * (3 * method.b.size() + problem.m()))) {
   if (problem.nu() > 0) throw InputError("a Runge-Kutta method takes no constraints, and the problem has some");
   const Index s = method.b.size();
   if (s < 1 || A_.rows() != s || A_.cols() != s) throw InputError("A must have as many rows and columns as b entries");
-  tolerance_ = S(static_cast<long>(4 * (3 * s + problem.m()))) * epsilon<S>();
-  eighth_epsilon_ = epsilon<S>() / 8;
 }
 
 template <Scalar S>
@@ -92,11 +94,7 @@ void RungeKuttaStep<S>::stages_in_turn(const State<S>& state) {
 
 template <Scalar S>
 long RungeKuttaStep<S>::solve(const State<S>& state) {
-  problem_.mass.momentum(state.q, v_);
-  set_max_norm(t_, v_);
-  set_quotient(t_, t_, h_);
-  set_zero(position_scale_);
-  raise_magnitude(position_scale_, t_);
+  position_scale_.evaluate(state.q, positions_);
   long sweeps = 0;
   if (!extrapolation_.empty()) {
     try {
@@ -126,52 +124,27 @@ void RungeKuttaStep<S>::sweep(const State<S>& state) {
   P_.swap(P_before_);
   product(P_, A_, F_);
   scale_and_shift(P_, h_, state.p);
-
-  set_zero(increment_);
-  for (Index n = 0; n < P_.size(); ++n) {
-    set_difference(t_, P_.data()[n], P_before_.data()[n]);
-    raise_magnitude(increment_, t_);
-  }
-  set_max_norm(t_, F_);
-  set_product(t_, t_, h_);
-  set_zero(size_);
-  raise_magnitude(size_, t_);
-  for (Index j = 0; j < P_.cols(); ++j) raise_magnitude(size_, state.p[j]);
-  for (Index n = 0; n < P_.size(); ++n) raise_magnitude(size_, P_.data()[n]);
 }
 
 template <Scalar S>
 long RungeKuttaStep<S>::iterate(const State<S>& state) {
-  long waiting = 0;
-  for (long sweeps = 1;; ++sweeps) {
+  using Verdict = typename StoppingRule<S>::Verdict;
+  rule_.start(state.p, positions_);
+  for (;;) {
     sweep(state);
-    // Left to change, if the next increments fall by as much as this one did.
-    set_sum(left_, increment_, increment_);
-    if (sweeps > 1 && left_ < last_) {
-      set_quotient(left_, increment_, last_);
-      set_product(left_, left_, increment_);
-    } else {
-      set(left_, increment_);
+    rule_.show_change(P_, P_before_);
+    if (rule_.is_coarse()) {
+      rule_.show_terms(P_);
+      rule_.show_terms(F_, &h_);
     }
-    set_product(t_, size_, eighth_epsilon_);
-    if (left_ <= t_ && sweeps > 1) return sweeps;
-    set(last_, increment_);
-    set(scaled_, increment_);
-    if (increment_ != 0) set_quotient(scaled_, increment_, size_ > position_scale_ ? size_ : position_scale_);
-    if (!is_finite(scaled_))
-      throw StageFailure(FailureCause::stage_equations_diverge, "an iterate is not finite", to_scientific(scaled_, 3),
-                         sweeps);
-    if (sweeps == 1 || scaled_ < least_) {
-      set(least_, scaled_);
-      waiting = 0;
-      continue;
-    }
-    ++waiting;
-    if (scaled_ <= tolerance_ && waiting >= 2) return sweeps;
-    if (waiting >= patience)
-      throw StageFailure(FailureCause::stage_equations_diverge,
-                         scaled_ > 10 * least_ ? "the increments grow" : "the increments stagnate",
-                         to_scientific(scaled_, 3), sweeps);
+    const Verdict verdict = rule_.judge();
+    if (verdict == Verdict::go_on) continue;
+    if (verdict == Verdict::converged) return rule_.sweeps();
+    throw StageFailure(FailureCause::stage_equations_diverge,
+                       verdict == Verdict::not_finite ? "an iterate is not finite"
+                       : rule_.grows()                ? "the increments grow"
+                                                      : "the increments stagnate",
+                       to_scientific(rule_.relative_change(), 3), rule_.sweeps());
   }
 }
 

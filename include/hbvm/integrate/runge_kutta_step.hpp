@@ -3,6 +3,8 @@
 #include "hbvm/integrate/stepper.hpp"
 #include "hbvm/method/runge_kutta.hpp"
 #include "hbvm/solver/extrapolation.hpp"
+#include "hbvm/solver/position_scale.hpp"
+#include "hbvm/solver/stopping_rule.hpp"
 
 namespace hbvm {
 
@@ -15,16 +17,10 @@ namespace hbvm {
 /// fixed-point iteration, a sweep being V from P, Q, F, and P anew; it starts from the extrapolation of the last
 /// steps' P, and if that leads nowhere, once more from P = p0.
 ///
-/// The iteration stops when the increment of P times the factor by which it fell is below epsilon/8 of the scale, the
-/// largest of |p0|, |P| and h |F|; or when it is below C epsilon, for a scale that includes |M q0|/h, and has not
-/// fallen below its least value for two sweeps in a row: then it is round-off. C = 4 (3 s + m) is an upper bound of the
-/// lengths of the sums of one sweep, as in FixedPoint. It fails if the increments, above C epsilon, do not fall below
-/// their least value for `patience` sweeps.
+/// StoppingRule says when the iteration ends, from the change of P; it fails as FixedPoint does.
 template <Scalar S>
 class RungeKuttaStep {
  public:
-  static constexpr long patience = 40;
-
   /// The problem must outlive it.
   /// \throws InputError if the problem has constraints, or A is not s x s
   RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>& method, const S& step);
@@ -53,9 +49,10 @@ class RungeKuttaStep {
   Vector<S> q_, p_, v_;
   Matrix<S> force_, position_change_, momentum_change_;  // 1 x m
   Extrapolation<S> extrapolation_;                       ///< of P
-  S position_scale_ = 0, tolerance_ = 0, eighth_epsilon_ = 0;
-  // Kept from sweep to sweep: creating them allocates.
-  S increment_ = 0, scaled_ = 0, size_ = 0, left_ = 0, last_ = 0, least_ = 0, t_ = 0;
+  PositionScale<S> position_scale_;
+  Vector<S> positions_;
+  StoppingRule<S> rule_;
+  S size_ = 0, t_ = 0;  // kept: creating them allocates
 };
 
 #define HBVM_DECLARE(S) extern template class RungeKuttaStep<S>;
