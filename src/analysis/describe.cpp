@@ -30,8 +30,13 @@ std::string describe_in(const Scene& scene) {
   line("coordinates m", std::to_string(problem.m()));
   line("constraints nu", std::to_string(problem.nu()));
   line("degrees of freedom", std::to_string(problem.m() - problem.nu()));
-  for (Index a = 0; a < problem.nu(); ++a)
-    line(fmt::format("  g_{}", a + 1), problem.constraints[static_cast<std::size_t>(a)].name);
+  Index listed = 0;
+  for (Index place = 0; listed < problem.nu(); ++place) {
+    const auto here = [&](const RedundantConstraint<S>& redundant) { return redundant.place == place; };
+    if (std::none_of(problem.redundant.begin(), problem.redundant.end(), here))
+      line(fmt::format("  g_{}", place + 1), problem.constraints[static_cast<std::size_t>(listed++)].name);
+  }
+  for (const Redundancy& redundancy : assembled.redundant) line("  redundant", to_text(redundancy));
   if (problem.nu() > 0) line("Gram matrix", fmt::format("condition {:.3g} at the start", gram_condition(problem, q)));
   if (problem.potential.terms.empty()) line("effects", "none");
   for (const EffectTerm<S>& term : problem.potential.terms) {

@@ -84,11 +84,12 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   result.steps = grid.steps();
   result.q = texts(end.q);
   result.p = texts(end.p);
-  result.lambda = texts(end.lambda);
+  RedundantConstraints<S> redundant(scene.problem);
+  result.lambda = texts(redundant.multipliers(end.q, end.lambda));
   Point<S> point(scene.problem);
   const OutputState<S> output = output_state(point, end.q, end.p);
   result.output_p = texts(output.p);
-  result.output_lambda = texts(output.lambda);
+  result.output_lambda = texts(redundant.multipliers(end.q, output.lambda));
   result.output_delta_H = to_text(S(point.energy(end.q, output.p) - simulated.H0));
   result.e_H = to_text(simulated.e_H);
   result.e_g = to_text(simulated.e_g);
@@ -96,6 +97,10 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   result.iterations_per_step =
       static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
   result.health = health.report(result.method);
+  for (const Redundancy& redundancy : scene.redundant)
+    result.health.warnings.push_back(
+        {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +
+                                      to_scientific(simulated.redundancy, 3) + " of their terms"});
   if (shadowed)
     result.shadow = shadowed->compare(request.scene, result.method, request.solver, request.step, request.until);
   result.cpu_seconds = simulated.integration.cpu_seconds;

@@ -19,16 +19,17 @@ void write(std::ostream& out, const Vector<S>& v) {
 template <Scalar S>
 Trajectory<S>::Trajectory(const Problem<S>& problem, std::ostream& out, long every, long steps,
                           const std::vector<std::string>& provenance)
-    : point_(problem), out_(out), every_(every), steps_(steps) {
+    : point_(problem), redundant_(problem), out_(out), every_(every), steps_(steps) {
   out << "# t";
   const auto names = [&](const char* name, Index count) {
     for (Index i = 1; i <= count; ++i) out << ',' << name << i;
   };
   names("q", problem.m());
   names("p", problem.m());
-  names("lambda", problem.nu());
+  const Index constraints = problem.nu() + static_cast<Index>(problem.redundant.size());
+  names("lambda", constraints);
   names("output_p", problem.m());
-  names("output_lambda", problem.nu());
+  names("output_lambda", constraints);
   out << ",delta_H,g,hidden\n";
   for (std::string line : provenance) {
     std::replace(line.begin(), line.end(), '\n', ' ');
@@ -45,12 +46,14 @@ void Trajectory<S>::observe(const Snapshot<S>& s) {
   out_ << to_text(s.t);
   write(out_, s.q);
   write(out_, s.p);
-  write(out_, s.lambda);
+  write(out_, redundant_.multipliers(s.q, s.lambda));
   const OutputState<S> output = output_state(point_, s.q, s.p);
   write(out_, output.p);
-  write(out_, output.lambda);
-  out_ << ',' << to_text(S(H - H0_)) << ',' << to_text(max_norm(point_.constraints(s.q))) << ','
-       << to_text(max_norm(point_.hidden_constraints(s.q, s.p))) << '\n';
+  write(out_, redundant_.multipliers(s.q, output.lambda));
+  S g = max_norm(point_.constraints(s.q)), hidden = max_norm(point_.hidden_constraints(s.q, s.p));
+  raise_to(g, max_norm(redundant_.values(s.q)));
+  raise_to(hidden, max_norm(redundant_.hidden(s.q, s.p)));
+  out_ << ',' << to_text(S(H - H0_)) << ',' << to_text(g) << ',' << to_text(hidden) << '\n';
 }
 
 #define HBVM_DEFINE(S) template class Trajectory<S>;

@@ -97,10 +97,32 @@ S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& v
   return 2 * sum;
 }
 
+template <Scalar S>
+S curvature_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& v) {
+  // The same of what has no negative entries.
+  const auto magnitudes = [](auto a) {
+    for (Index i = 0; i < a.size(); ++i) a.data()[i] = magnitude(a.data()[i]);
+    return a;
+  };
+  const auto displacement = [](Displacement<S> x) {
+    for (auto& block : x.blocks) block.weight = magnitude(block.weight);
+    return x;
+  };
+  Constraint<S> positive = constraint;
+  std::visit(Overloaded{[&](DisplacementProduct<S>& f) {
+                          f.x = displacement(f.x);
+                          f.y = displacement(f.y);
+                        },
+                        [&](Quadric<S>& f) { f.A = magnitudes(f.A); }, [](Plane<S>&) {}},
+             positive.form);
+  return curvature(positive, dimension, magnitudes(v));
+}
+
 #define HBVM_DEFINE(S)                                                                 \
   template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);             \
   template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&); \
-  template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&);
+  template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&);              \
+  template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

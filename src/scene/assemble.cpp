@@ -1,5 +1,7 @@
 #include "hbvm/scene/assemble.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -316,35 +318,76 @@ class Assembler {
           for (Index l = 0; l < block.size; ++l) sum += magnitude(S(block.W(j, l) * result_.p0[block.offset + l]));
           raise_to(speed, sum);
         }
-    check_rank();
+    const Independence<S> independence = find_independent(p, result_.q0, v);
+    for (const Dependence<S>& dependence : independence.redundant) check_agreement(dependence);
     ConstraintGradient<S> gradient(p, 1);
     gradient.update(lanes(result_.q0));
     for (Index a = 0; a < p.nu(); ++a) {
       const Constraint<S>& constraint = p.constraints[static_cast<std::size_t>(a)];
       const auto at_start = value(constraint, d_, result_.q0);
-      report(constraint, a, "position", at_start.g, S(tolerance * at_start.size));
+      report(a, "position", at_start.g, S(tolerance * at_start.size));
       S w;
       gradient.transposed_times(a, lanes(v), &w);
-      report(constraint, a, "velocity", w, S(tolerance * speed * gradient_size(constraint, result_.q0)));
+      report(a, "velocity", w, S(tolerance * speed * gradient_size(constraint, result_.q0)));
     }
+    for (const Dependence<S>& dependence : independence.redundant) check_bending(dependence);
+    check_angle(independence);
+    if (independence.redundant.empty()) return;
+    for (const Dependence<S>& dependence : independence.redundant)
+      result_.redundant.push_back({name(dependence.constraint), names(dependence.others)});
+    set_aside(problem(), independence);
   }
 
-  /// Redundant constraints leave the multipliers undetermined, contradictory ones leave no state at all.
-  void check_rank() const {
-    const Problem<S>& p = result_.problem;
-    const auto dependence = find_dependence(p, result_.q0);
-    if (!dependence) return;
-    const auto name = [&](Index a) {
-      return "constraint " + std::to_string(a + 1) + " (" + p.constraints[static_cast<std::size_t>(a)].name + ")";
-    };
-    std::string others;
-    for (const Index b : dependence->others) others += (others.empty() ? "" : ", ") + name(b);
-    const auto at_start = value(p.constraints[static_cast<std::size_t>(dependence->constraint)], d_, result_.q0);
-    const bool holds = magnitude(at_start.g) <= S(64) * epsilon<S>() * at_start.size;
-    throw InputError(scene_.name + ": " + name(dependence->constraint) + " is " +
-                     (holds ? "redundant" : "contradictory") + ": at the start its gradient " +
-                     (others.empty() ? std::string("vanishes") : "is a combination of those of " + others) +
-                     (holds ? "" : ", and its residual there is " + to_scientific(at_start.g, 3)));
+  std::string name(Index a) const {
+    return "constraint " + std::to_string(a + 1) + " (" +
+           result_.problem.constraints[static_cast<std::size_t>(a)].name + ")";
+  }
+  std::vector<std::string> names(const std::vector<Index>& constraints) const {
+    std::vector<std::string> result;
+    for (const Index a : constraints) result.push_back(name(a));
+    return result;
+  }
+  std::string list(const std::vector<Index>& constraints) const {
+    std::string text;
+    for (const std::string& other : names(constraints)) text += (text.empty() ? "" : ", ") + other;
+    return text;
+  }
+
+  /// Contradictory constraints leave no state at all, and one whose gradient vanishes has no multiplier.
+  void check_agreement(const Dependence<S>& dependence) const {
+    const std::string who = scene_.name + ": " + name(dependence.constraint) + " is ",
+                      why = ": at the start its gradient " +
+                            (dependence.others.empty() ? std::string("vanishes")
+                                                       : "is a combination of those of " + list(dependence.others));
+    std::vector<Index> all = dependence.others;
+    all.insert(all.begin(), dependence.constraint);
+    for (const Index a : all) {
+      const auto at_start = value(result_.problem.constraints[static_cast<std::size_t>(a)], d_, result_.q0);
+      if (magnitude(at_start.g) <= S(64) * epsilon<S>() * at_start.size) continue;
+      const std::string whose = a == dependence.constraint ? "its residual" : "the residual of " + name(a);
+      throw InputError(who + "contradictory" + why + ", and " + whose + " there is " + to_scientific(at_start.g, 3));
+    }
+    if (dependence.others.empty()) throw InputError(who + "redundant" + why);
+  }
+
+  /// A motion that the others allow must not leave the constraint at once.
+  void check_bending(const Dependence<S>& dependence) const {
+    if (magnitude(dependence.bending) <= dependence.round_off) return;
+    throw InputError(scene_.name + ": " + name(dependence.constraint) +
+                     " is contradictory: at the start its gradient is a combination of those of " +
+                     list(dependence.others) + ", but along the initial velocity its second derivative is " +
+                     to_scientific(dependence.bending, 3) + " where they hold, tolerance " +
+                     to_scientific(dependence.round_off, 3));
+  }
+
+  /// Below an angle of sqrt(epsilon) the multipliers have no digit.
+  void check_angle(const Independence<S>& independence) const {
+    using std::sqrt;
+    if (independence.square_of_sine > epsilon<S>()) return;
+    throw InputError(scene_.name + ": the Gram matrix of the constraints is singular to this precision at the start: " +
+                     "the gradient of " + name(independence.nearest) + " is a combination of those of " +
+                     list(independence.near) + " but for an angle of " +
+                     to_scientific(S(sqrt(independence.square_of_sine)), 3) + "; take more digits");
   }
 
   /// An upper bound of the sum of the magnitudes in grad g.
@@ -361,12 +404,10 @@ class Assembler {
     return S(d_) * max_norm(std::get<Plane<S>>(constraint.form).normal);
   }
 
-  void report(const Constraint<S>& constraint, Index a, const std::string& what, const S& residual,
-              const S& tolerance) const {
+  void report(Index a, const std::string& what, const S& residual, const S& tolerance) const {
     if (magnitude(residual) <= tolerance) return;
-    throw InputError(scene_.name + ": the initial " + what + " is not consistent with constraint " +
-                     std::to_string(a + 1) + " (" + constraint.name + "): residual " + to_scientific(residual, 3) +
-                     ", tolerance " + to_scientific(tolerance, 3) + " at this precision");
+    throw InputError(scene_.name + ": the initial " + what + " is not consistent with " + name(a) + ": residual " +
+                     to_scientific(residual, 3) + ", tolerance " + to_scientific(tolerance, 3) + " at this precision");
   }
 
   const Scene& scene_;
@@ -378,6 +419,10 @@ class Assembler {
 };
 
 }  // namespace
+
+std::string to_text(const Redundancy& redundancy) {
+  return fmt::format("{} follows from {}", redundancy.name, fmt::join(redundancy.others, ", "));
+}
 
 template <Scalar S>
 Assembled<S> assemble(const Scene& scene, Consistency consistency) {

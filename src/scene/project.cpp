@@ -2,10 +2,16 @@
 
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/problem/point.hpp"
+#include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/text.hpp"
 
 namespace hbvm {
 namespace {
+
+[[noreturn]] void throw_no_position(const std::string& name) {
+  throw InputError(name +
+                   ": no consistent position was found near the given one; the constraints may contradict one another");
+}
 
 /// q with g(q) = 0 nearest to `target` in the metric M. Each sweep minimises the distance under the constraints
 /// linearised at the last q: q = target - M^-1 grad g mu with
@@ -45,8 +51,7 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, c
     const S tolerance = S(static_cast<long>(16 * (problem.m() + nu))) * epsilon<S>() * max_norm(q);
     if (increment == 0 || (increment <= tolerance && waiting >= 2)) return q;
   }
-  throw InputError(name +
-                   ": no consistent position was found near the given one; the constraints may contradict one another");
+  throw_no_position(name);
 }
 
 template <Scalar S>
@@ -61,8 +66,15 @@ SceneVector as_expressions(const Vector<S>& v, Index offset) {
 template <Scalar S>
 Scene project(const Scene& scene) {
   Assembled<S> assembled = assemble<S>(scene, Consistency::unchecked);
+  // What follows from other constraints is fulfilled with them, or contradicts them.
+  set_aside(assembled.problem,
+            find_independent<S>(assembled.problem, assembled.q0, Vector<S>::Zero(assembled.problem.m())));
   const Problem<S>& problem = assembled.problem;
   const Vector<S> q = problem.nu() > 0 ? nearest_position(problem, assembled.q0, scene.name) : assembled.q0;
+  for (const auto& redundant : problem.redundant) {
+    const auto found = value(redundant.constraint, problem.dimension, q);
+    if (!(magnitude(found.g) <= S(64) * epsilon<S>() * found.size)) throw_no_position(scene.name);
+  }
   Point<S> point(problem);
   const Vector<S> p = point.tangential(q, assembled.p0);
   Vector<S> v(problem.m());

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -401,6 +403,40 @@ TEST(FailedRun, LeavesWhatWasComputedOnDisk) {
   for (std::size_t n = 0; n < csv.rows.size(); ++n) {
     EXPECT_NEAR(csv.at(n, 0), 0.01 * static_cast<double>(n), 1e-14);
     for (std::size_t i = 0; i < csv.rows[0].size(); ++i) EXPECT_TRUE(std::isfinite(csv.at(n, i)));
+  }
+}
+
+/// The multipliers of all constraints are told, in JSON and in every line of the CSV.
+TEST(Run, IntegratesRedundantConstraints) {
+  const Folder folder;
+  std::string twice = pendulum("1");
+  twice += "[[constraint]]\nkind = \"rod\"\nbetween = [\"bob\", \"O\"]\nlength = 1\n";
+  const std::string once = folder.write("once.toml", pendulum("1")), path = folder.write("twice.toml", twice),
+                    csv = folder / "twice.csv";
+  const auto json = [&](const std::string& scene, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run", scene, "--method", "hbvm:2,2", "--step", "1/8", "--until", "1", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = hbvm(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  };
+  const auto one = json(once, {}), two = json(path, {"--out", csv});
+  EXPECT_EQ(two["q"], one["q"]);
+  EXPECT_EQ(two["e_g"], one["e_g"]);
+  EXPECT_NE(two["health"]["warnings"].dump().find("redundant_constraints"), std::string::npos);
+  EXPECT_EQ(one["health"]["warnings"].dump().find("redundant_constraints"), std::string::npos);
+  ASSERT_EQ(two["lambda"].size(), 2u);
+  ASSERT_EQ(two["output"]["lambda"].size(), 2u);
+  const double whole = std::stod(one["lambda"][0].get<std::string>());
+  for (int a = 0; a < 2; ++a) EXPECT_NEAR(std::stod(two["lambda"][a].get<std::string>()), whole / 2, 1e-14);
+  std::ifstream file(csv);
+  std::string header, line;
+  std::getline(file, header);
+  EXPECT_NE(header.find("lambda2"), std::string::npos);
+  EXPECT_NE(header.find("output_lambda2"), std::string::npos);
+  while (std::getline(file, line)) {
+    if (line[0] == '#') continue;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ','));
   }
 }
 

@@ -87,5 +87,66 @@ TEST(Drift, RefusesAStateWithoutEnergy) {
   }
 }
 
+/// A pendulum and, set aside, the wall x = 0, which it should not leave.
+TEST(Drift, WatchesRedundantConstraints) {
+  Assembled<double> scene = assemble<double>(load_scene("simple_pendulum"));
+  Vector<double> normal = Vector<double>::Zero(2);
+  normal[0] = 1;
+  scene.problem.redundant.push_back({1, {"wall", Plane<double>{0, normal, 0}}});
+  Drift<double> drift(scene.problem);
+  Snapshot<double> snapshot{3, 0.5, scene.q0, scene.p0, Vector<double>::Zero(1)};
+  snapshot.q << 0, -1;
+  snapshot.p << 4, 0;
+  drift.observe(snapshot);
+  EXPECT_EQ(drift.e_hid(), 4);
+  EXPECT_EQ(drift.e_g(), 0);
+  EXPECT_EQ(drift.redundancy(), 0);
+  snapshot.q[0] = 1e-3;
+  try {
+    drift.observe(snapshot);
+    FAIL() << "the wall is left";
+  } catch (const RedundancyLost& error) {
+    EXPECT_EQ(error.cause(), FailureCause::inconsistent_state);
+    EXPECT_EQ(error.constraint(), "wall");
+    EXPECT_EQ(error.time(), "0.5");
+    for (const char* word : {"step 3", "t = 0.5", "constraint 2 (wall)", "1.00e-03", "inconsistent_state"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(drift.e_g(), 1e-3);
+  EXPECT_EQ(drift.redundancy(), 1);
+}
+
+/// Below the root of epsilon of its terms a violation is told, but does not end the run.
+TEST(Drift, ToleratesSmallViolationsOfRedundantConstraints) {
+  Assembled<double> scene = assemble<double>(load_scene("simple_pendulum"));
+  Vector<double> normal = Vector<double>::Ones(2);
+  scene.problem.redundant.push_back({0, {"wall", Plane<double>{0, normal, -1}}});
+  Drift<double> drift(scene.problem);
+  Snapshot<double> snapshot{0, 0, scene.q0, scene.p0, Vector<double>::Zero(1)};
+  snapshot.q << 0, -1 + 0x1p-27;  // terms of 2
+  drift.observe(snapshot);
+  EXPECT_NEAR(drift.redundancy() / 0x1p-28, 1, 1e-6);
+  snapshot.q << 0, -1 + 0x1p-24;
+  EXPECT_THROW(drift.observe(snapshot), RedundancyLost);
+}
+
+/// A rod twice is one rod with half the multiplier each, and the motion is the same to the last bit.
+TEST(Drift, OfADoubledRodIsThatOfARod) {
+  Scene once = load_scene("double_pendulum"), twice = once;
+  twice.constraints.push_back(twice.constraints[0]);
+  SceneRun<double> one(once, 3, 2, "1/16", "4"), two(twice, 3, 2, "1/16", "4");
+  Drift<double> drift(one.scene.problem), same(two.scene.problem);
+  const auto end = one({&drift}).end, also = two({&same}).end;
+  EXPECT_EQ(also.q, end.q);
+  EXPECT_EQ(also.p, end.p);
+  EXPECT_EQ(same.e_H(), drift.e_H());
+  EXPECT_EQ(same.e_g(), drift.e_g());
+  const Vector<double> all = RedundantConstraints<double>(two.scene.problem).multipliers(also.q, also.lambda);
+  ASSERT_EQ(all.size(), 3);
+  EXPECT_NEAR(all[0], end.lambda[0] / 2, 1e-14);
+  EXPECT_NEAR(all[2], end.lambda[0] / 2, 1e-14);
+  EXPECT_NEAR(all[1], end.lambda[1], 1e-14);
+}
+
 }  // namespace
 }  // namespace hbvm

@@ -486,5 +486,126 @@ TEST(Consistency, OfTheBuiltInScenesHoldsAtAnyPrecision) {
   }
 }
 
+/// Scenes with more constraints than they need: which are set aside, by number.
+struct Overconstrained {
+  const char* name;
+  std::string text;
+  std::vector<Index> redundant;
+};
+
+std::string rod(const char* a, const char* b, const char* length) {
+  return "[[constraint]]\nkind = \"rod\"\nbetween = [\"" + std::string(a) + "\", \"" + b + "\"]\nlength = " + length +
+         "\n";
+}
+
+std::string line_of_three(const char* zero) {
+  const std::string dimension = std::string(zero).empty() ? "2" : "3";
+  const auto body = [&](const char* name, const char* x, const char* v) {
+    return "[[body]]\nname = \"" + std::string(name) + "\"\nmass = 1\nposition = [" + x + ", 0" + zero +
+           "]\nvelocity = [0, " + v + zero + "]\n";
+  };
+  return "dimension = " + dimension + "\n" + body("a", "0", "1") + body("b", "1", "0") + body("c", "2", "-1") +
+         rod("a", "b", "1") + rod("b", "c", "1") + rod("a", "c", "2");
+}
+
+/// Three parallel cranks that carry a triangle.
+std::string three_cranks(const char* third_velocity) {
+  return std::string(R"(dimension = 2
+point = [{ name = "O", position = [0, 0] }, { name = "P", position = [2, 0] }, { name = "Q", position = [1, 1] }]
+body = [{ name = "a", mass = 1, position = ["3/5", "4/5"], velocity = [-4, 3] },
+        { name = "b", mass = 2, position = ["13/5", "4/5"], velocity = [-4, 3] },
+        { name = "c", mass = 3, position = ["8/5", "9/5"], velocity = )") +
+         third_velocity + " }]\n" + rod("O", "a", "1") + rod("P", "b", "1") + rod("a", "b", "2") +
+         rod("a", "c", "\"sqrt(2)\"") + rod("b", "c", "\"sqrt(2)\"") + rod("Q", "c", "1");
+}
+
+std::vector<Overconstrained> overconstrained() {
+  const std::string pair = R"(dimension = 2
+body = [{ name = "a", mass = 1, position = [0, 0], velocity = [0, 1] },
+        { name = "b", mass = "1e-20", position = [3, 4], velocity = [0, 1] }]
+)";
+  const std::string plane = R"(dimension = 3
+body = [{ name = "a", mass = 1, position = [1, 2, 3], velocity = [1, 1, 0] }]
+[[constraint]]
+kind = "plane"
+body = "a"
+normal = [0, 0, 1]
+offset = 3
+[[constraint]]
+kind = "plane"
+body = "a"
+normal = [0, 0, "-1e-7"]
+offset = "-3e-7"
+)";
+  return {{"a doubled rod", pair + rod("a", "b", "5") + rod("b", "a", "5"), {1}},
+          {"a rod thrice", pair + rod("a", "b", "5") + rod("a", "b", "5") + rod("b", "a", "5"), {1, 2}},
+          {"a rod and an angle",
+           pair + rod("a", "b", "5") +
+               "[[constraint]]\nkind = \"angle\"\nfirst = [\"a\", \"b\"]\nsecond = [\"b\", \"a\"]\nvalue = -25\n",
+           {1}},
+          {"a line in the plane", line_of_three(""), {2}},
+          {"a line in space", line_of_three(", 0"), {2}},
+          {"a plane twice", plane, {1}},
+          {"three cranks", three_cranks("[-4, 3]"), {3}}};
+}
+
+TEST(Assemble, SetsRedundantConstraintsAside) {
+  for (const auto& [name, text, redundant] : overconstrained()) {
+    const auto check = [&, &title = name, &expected = redundant]<Scalar S>(S) {
+      const PrecisionScope digits(50);
+      const auto scene = assembled<S>(text);
+      ASSERT_EQ(scene.problem.redundant.size(), expected.size()) << title;
+      ASSERT_EQ(scene.redundant.size(), expected.size()) << title;
+      for (std::size_t r = 0; r < expected.size(); ++r) {
+        EXPECT_EQ(scene.problem.redundant[r].place, expected[r]) << title;
+        expect_words(scene.redundant[r].name,
+                     {"constraint " + std::to_string(expected[r] + 1), scene.problem.redundant[r].constraint.name});
+        EXPECT_FALSE(scene.redundant[r].others.empty()) << title;
+      }
+      Point<S> point(scene.problem);
+      EXPECT_TRUE(is_finite(max_norm(point.multiplier(scene.q0, scene.p0)))) << title;
+    };
+    check(double());
+    check(Quad());
+    check(Mpfr());
+  }
+}
+
+TEST(Assemble, RefusesContradictoryConstraints) {
+  const PrecisionScope digits(50);
+  const std::string cranks = three_cranks("[-4, 3]");
+  std::string longer = cranks;
+  longer.replace(longer.rfind("length = 1"), 10, "length = 2");
+  // The middle one leaves the line at once, which the outer rod does not allow.
+  std::string sideways = line_of_three("");
+  sideways.replace(sideways.find("velocity = [0, 0]"), 17, "velocity = [0, 1]");
+  for (const std::string& message : {inconsistency<double>(longer), inconsistency<Mpfr>(longer)})
+    expect_words(message, {"contradictory", "residual", "constraint 6", "-3.00e+00"});
+  for (const std::string& message : {inconsistency<double>(sideways), inconsistency<Quad>(sideways)})
+    expect_words(message, {"constraint 3 (rod 'a'-'c')", "contradictory", "constraint 1", "constraint 2",
+                           "second derivative", "tolerance"});
+}
+
+/// Two walls at an angle of 1e-10: in double no digit of the multipliers is left.
+TEST(Assemble, RefusesASingularGramMatrix) {
+  const PrecisionScope digits(50);
+  const std::string text = R"(dimension = 2
+body = [{ name = "a", mass = 1, position = [0, 0], velocity = [0, 0] }]
+[[constraint]]
+kind = "plane"
+body = "a"
+normal = [0, 1]
+offset = 0
+[[constraint]]
+kind = "plane"
+body = "a"
+normal = ["1e-10", 1]
+offset = 0
+)";
+  expect_words(inconsistency<double>(text), {"constraint 2 (plane of 'a')", "constraint 1", "1.00e-10", "more digits"});
+  EXPECT_EQ(inconsistency<Quad>(text), "");
+  EXPECT_EQ(inconsistency<Mpfr>(text), "");
+}
+
 }  // namespace
 }  // namespace hbvm

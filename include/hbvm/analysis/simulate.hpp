@@ -15,6 +15,7 @@ template <Scalar S>
 struct Simulated {
   Integration<S> integration;
   S H0, e_H, e_g, e_hid;
+  S redundancy;  ///< of Drift
 };
 
 /// Integrates an assembled scene with its drift observed, beside further observers. With `account`, the time of effects
@@ -38,7 +39,7 @@ Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKi
     account->steps = static_cast<std::uint64_t>(integration.steps);
     account->sweeps = static_cast<std::uint64_t>(integration.sweeps);
   }
-  return {std::move(integration), drift.H0(), drift.e_H(), drift.e_g(), drift.e_hid()};
+  return {std::move(integration), drift.H0(), drift.e_H(), drift.e_g(), drift.e_hid(), drift.redundancy()};
 }
 
 }  // namespace hbvm

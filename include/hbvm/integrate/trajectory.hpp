@@ -6,12 +6,14 @@
 
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/problem/point.hpp"
+#include "hbvm/problem/redundant_constraints.hpp"
 
 namespace hbvm {
 
 /// Writes every `every`-th mesh point and the last as a line of comma-separated decimals that read back exactly:
 /// t, q, p, (lagmul), the output state's p and multiplier, H - H_0, and the max-norms of g and of the hidden
-/// constraint. Column names and provenance stand above in lines that begin with #, the names first.
+/// constraint. Multipliers are those of all constraints, redundant ones included. Column names and provenance stand
+/// above in lines that begin with #, the names first.
 template <Scalar S>
 class Trajectory final : public Observer<S> {
  public:
@@ -22,6 +24,7 @@ class Trajectory final : public Observer<S> {
 
  private:
   Point<S> point_;
+  RedundantConstraints<S> redundant_;
   std::ostream& out_;
   long every_, steps_;
   S H0_;

@@ -55,11 +55,15 @@ ConstraintValue<S> value(const Constraint<S>& constraint, Index dimension, const
 /// The constant second derivative applied to v twice: (nabla^2 g)(v, v).
 template <Scalar S>
 S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& v);
+/// The sum of the magnitudes of its terms in the coordinates of v.
+template <Scalar S>
+S curvature_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& v);
 
 #define HBVM_DECLARE(S)                                                                       \
   extern template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);             \
   extern template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&); \
-  extern template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&);
+  extern template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&);              \
+  extern template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

@@ -15,6 +15,13 @@ struct SpaceBlock {
   bool translates;
 };
 
+/// A constraint that follows from others: its number among all of them, from 0.
+template <Scalar S>
+struct RedundantConstraint {
+  Index place;
+  Constraint<S> constraint;
+};
+
 /// The constrained Hamiltonian problem (constrp)
 ///
 ///     H(q, p) = 1/2 p^T M^-1 p - U(q),   g(q) = 0 in R^nu,
@@ -28,6 +35,7 @@ struct Problem {
   std::vector<Constraint<S>> constraints;
   Potential<S> potential;
   std::vector<SpaceBlock> blocks;
+  std::vector<RedundantConstraint<S>> redundant = {};  ///< not among `constraints`, which are independent; ascending
 
   Index m() const { return mass.m(); }
   Index nu() const { return static_cast<Index>(constraints.size()); }
