@@ -21,7 +21,7 @@ RunRequest request_of(Scene scene, std::string_view method, std::string_view sol
 ///     |x_i - X_i| / (epsilon scale_i + |Y_i - X_i|),
 ///
 /// scale_i the greatest of what x_i is a sum of, over the run, and Y a run like X whose start is off by an ulp of the
-/// working precision in each coordinate: the problem's own condition and growth. Its bound is that of a few roundings a
+/// working precision in each coordinate and each hidden constraint: the problem's own condition and growth. Its bound is that of a few roundings a
 /// step, of either sign.
 CaseResult accuracy(const RunRequest& request);
 

@@ -4,6 +4,7 @@
 
 #include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
+#include "hbvm/linear/lu.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/assemble.hpp"
@@ -75,10 +76,37 @@ class Recorder final : public Observer<S> {
 /// Signs without a pattern.
 bool positive(Index i) { return (7919 * (i + 1) + 4271) % 10'007 % 2 == 0; }
 
+/// Changes each hidden constraint by so much of its terms, through the smallest change of momenta (grad g Gram^-1 r)
+/// that does. Redundant constraints cannot be changed one by one.
 template <Scalar S>
-void kick(State<S>& state, long bits) {
+void kick_hidden_constraints(const Problem<S>& problem, State<S>& state, const S& relative) {
+  const Index nu = problem.nu();
+  if (nu == 0) return;
+  Vector<S> v(problem.m());
+  problem.mass.velocity(lanes(state.p), lanes(v));
+  ConstraintGradient<S> gradient(problem, 1);
+  gradient.update(lanes(state.q));
+  Matrix<S> gram(nu, nu);
+  gradient.gram(gram);
+  Lu<S> lu;
+  lu.set(gram);
+  if (!lu.factor()) return;
+  Vector<S> r = Vector<S>::Zero(nu);
+  for (Index a = 0; a < nu; ++a) {
+    const auto& pattern = gradient.pattern(a);
+    for (std::size_t c = 0; c < pattern.coordinates.size(); ++c)
+      r[a] += magnitude(S(gradient.values()(0, pattern.first + static_cast<Index>(c)) * v[pattern.coordinates[c]]));
+    r[a] *= positive(a) ? relative : S(-relative);
+  }
+  lu.solve(r);
+  gradient.add_times(r.transpose(), lanes(state.p));
+}
+
+template <Scalar S>
+void kick(const Problem<S>& problem, State<S>& state, long bits) {
   S relative = 1;
   for (long i = 0; i < bits; ++i) relative /= 2;
+  kick_hidden_constraints(problem, state, relative);
   for (Index i = 0; i < state.q.size(); ++i) {
     state.q[i] *= positive(2 * i) ? S(1 + relative) : S(1 - relative);
     state.p[i] *= positive(2 * i + 1) ? S(1 + relative) : S(1 - relative);
@@ -91,7 +119,7 @@ Motion motion_in(const RunRequest& request, const Twist& twist) {
   const Assembled<S> scene = assemble<S>(request.scene);
   const Hbvm<S> method = make_hbvm<S>(request.method.k, request.method.s);
   State<S> state(scene.q0, scene.p0);
-  if (twist.kick_bits > 0 && !twist.back) kick(state, twist.kick_bits);
+  if (twist.kick_bits > 0 && !twist.back) kick(scene.problem, state, twist.kick_bits);
   const auto run = [&] {
     Recorder<S> recorder(scene.problem, grid);
     HbvmStepper<S> stepper(scene.problem, method, grid.step(), request.solver);
@@ -102,7 +130,7 @@ Motion motion_in(const RunRequest& request, const Twist& twist) {
   if (!twist.back) return motion;
   state.p = -state.p;
   state.p_carry = -state.p_carry;
-  if (twist.kick_bits > 0) kick(state, twist.kick_bits);
+  if (twist.kick_bits > 0) kick(scene.problem, state, twist.kick_bits);
   const Motion back = run();
   motion.steps += back.steps;
   motion.samples.push_back(back.samples.back());

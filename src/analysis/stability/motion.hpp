@@ -20,7 +20,9 @@ struct Motion {
   long steps = 0;
 };
 
-/// Changes that a run makes on purpose. A kick multiplies each coordinate by 1 + 2^-bits or 1 - 2^-bits.
+/// Changes that a run makes on purpose. A kick multiplies each coordinate by 1 + 2^-bits or 1 - 2^-bits, and
+/// changes each hidden constraint by 2^-bits of its terms: where the constraints' gradients are nearly dependent, by
+/// far more than the former of the momenta.
 struct Twist {
   long kick_bits = 0;  ///< 0: no kick
   bool back = false;   ///< at the end momenta are reversed (and kicked, not the start), and as many steps lead back

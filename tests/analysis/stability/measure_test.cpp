@@ -4,6 +4,7 @@
 
 #include "analysis/stability/motion.hpp"
 #include "analysis/stability/scenes.hpp"
+#include "hbvm/scene/assemble.hpp"
 
 namespace hbvm {
 namespace {
