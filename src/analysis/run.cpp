@@ -2,8 +2,8 @@
 
 #include <ostream>
 
-#include "hbvm/analysis/choose_k.hpp"
 #include "hbvm/analysis/simulate.hpp"
+#include "hbvm/integrate/energy_scale.hpp"
 #include "hbvm/integrate/momentum_drift.hpp"
 #include "hbvm/integrate/output_state.hpp"
 #include "hbvm/integrate/trajectory.hpp"
@@ -43,19 +43,43 @@ std::vector<MomentumComponent<S>> observed_momenta(const Scene& text, const Asse
   return components;
 }
 
+/// What the chosen k came to: judged by the energy over the whole run, and by the steps for which no k was enough.
+template <Scalar S>
+NodesReport report_nodes(const RunStepper<S>& stepper, const TimeGrid<S>& grid, const EnergyScale<S>& scale,
+                         const S& e_H) {
+  const NodeLog& log = stepper.nodes();
+  NodesReport report;
+  report.because = stepper.chosen()->reason;
+  for (const NodeLog::Raise& raise : log.raised) report.raised.push_back({to_text(grid.time(raise.step)), raise.k});
+  const long substeps = stepper.halving() ? stepper.halving()->substeps : 0;
+  const bool conserved = e_H <= scale.round_off(grid.steps() + substeps);
+  report.verified = conserved && log.unresolved == 0;
+  report.verdict = conserved ? "energy conserved to round-off over the run"
+                             : "energy NOT conserved: e_H = " + to_scientific(e_H, 3) + ", " +
+                                   to_scientific(S(e_H / scale.size()), 3) + " of the terms of H";
+  if (log.unresolved > 0)
+    report.verdict += std::string(conserved ? ", but" : ";") + " from t = " + to_text(grid.time(log.first_unresolved)) +
+                      " on there are steps whose forces no k integrates to round-off: take a smaller step";
+  else if (!conserved)
+    report.verdict += "; more nodes do not help: take a smaller step";
+  return report;
+}
+
+template <Scalar S>
+HalvingReport report_halving(const HalvingLog& log, const TimeGrid<S>& grid) {
+  HalvingReport report{log.steps, log.substeps, log.depth, to_text(S(grid.step() / S(1L << log.depth))), {}};
+  if (log.steps > 0) report.first_t = to_text(grid.time(log.first_step));
+  return report;
+}
+
 template <Scalar S>
 RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
   const Assembled<S> scene = assemble<S>(request.scene);
   std::unique_ptr<std::ostream> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
   RunResult result;
-  result.method = request.method;
-  if (request.method.is_auto()) {
-    const ChosenK chosen = choose_k(scene, request.method.s, grid.step(), request.solver);
-    result.method.k = chosen.k;
-    result.chosen_because = chosen.reason;
-  }
-  const Hbvm<S> method = make_hbvm<S>(result.method.k, result.method.s);
+  RunStepper<S> stepper(scene, request.method, grid.step(), request.solver, request.on_failure);
+  result.method = stepper.method();
 
   Progress<S> progress(hooks.progress, grid.steps());
   std::vector<Observer<S>*> observers{&progress};
@@ -70,15 +94,16 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   observers.push_back(&health);
   std::optional<ShadowedRun<S>> shadowed;
   if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.m(), grid.steps()));
-  const Simulated<S> simulated = simulate(scene, method, request.solver, grid, observers,
-                                          request.account ? &result.account : nullptr, &health.decay());
+  std::optional<EnergyScale<S>> scale;
+  if (stepper.chosen()) observers.push_back(&scale.emplace(scene.problem));
+  const Simulated<S> simulated =
+      simulate<S>(scene, stepper, grid, observers, request.account ? &result.account : nullptr, &health.decay());
 
   if (csv && !csv->flush()) throw InputError("cannot write '" + hooks.csv_name + "': is the disk full?");
 
   const Snapshot<S>& end = simulated.integration.end;
-  if (request.method.is_auto() && !degree_of_U(scene.problem))
-    result.choice_verified = quadrature_defect(scene.problem, result.method.k, result.method.s, grid.step(),
-                                               request.solver, end.q, end.p) <= 1;
+  if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_H);
+  if (stepper.halving()) result.halving = report_halving(*stepper.halving(), grid);
   result.step = to_text(grid.step());
   result.t = to_text(end.t);
   result.steps = grid.steps();

@@ -22,7 +22,7 @@ namespace {
 
 struct Options {
   std::string scene, method, step, until;
-  std::string precision = "double", solver = "auto";
+  std::string precision = "double", solver = "auto", on_failure = "stop";
   std::optional<std::string> out;
   long every = 1;
   bool json = false, account = false, strict = false, shadow = false;
@@ -74,8 +74,25 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
   if (result.shadow) j["shadow"] = json_of(*result.shadow);
   j["iterations_per_step"] = result.iterations_per_step;
   j["cpu_seconds"] = result.cpu_seconds;
-  if (request.method.is_auto())
-    j["chosen"] = {{"k", result.method.k}, {"because", result.chosen_because}, {"verified", result.choice_verified}};
+  if (result.nodes) {
+    nlohmann::ordered_json raised = nlohmann::ordered_json::array();
+    for (const auto& raise : result.nodes->raised) raised.push_back({{"t", raise.t}, {"k", raise.k}});
+    j["chosen"] = {{"k", result.method.k},
+                   {"because", result.nodes->because},
+                   {"raised", raised},
+                   {"verified", result.nodes->verified},
+                   {"verdict", result.nodes->verdict}};
+  }
+  if (result.halving) {
+    const HalvingReport& halving = *result.halving;
+    j["halved"] = {{"steps", halving.steps}, {"substeps", halving.substeps}};
+    if (halving.steps > 0) {
+      j["halved"]["smallest"] = halving.smallest;
+      j["halved"]["first_t"] = halving.first_t;
+    } else {
+      j["halved"]["smallest"] = j["halved"]["first_t"] = nullptr;
+    }
+  }
   if (!request.scene.observables.empty()) {
     j["observables"] = nlohmann::ordered_json::object();
     for (const Observed& o : result.observables)
@@ -97,9 +114,23 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
 }
 
 void print(const RunRequest& request, const RunResult& result) {
-  if (request.method.is_auto())
-    fmt::print("k = {}: {}; at the last step {}\n", result.method.k, result.chosen_because,
-               result.choice_verified ? "it holds as well" : "IT DOES NOT HOLD: take a larger k");
+  if (result.nodes) {
+    fmt::print("k = {}: {}\n", result.method.k, result.nodes->because);
+    const auto& raised = result.nodes->raised;
+    if (!raised.empty())
+      fmt::print("raised to {}, {} times, first to {} in the step from t = {}\n", raised.back().k, raised.size(),
+                 raised.front().k, raised.front().t);
+    fmt::print("{}\n", result.nodes->verdict);
+  }
+  if (result.halving) {
+    const HalvingReport& halving = *result.halving;
+    if (halving.steps == 0)
+      fmt::print("no step was divided\n");
+    else
+      fmt::print("{} divided, down to h/{}, first at t = {}\n",
+                 halving.steps == 1 ? "1 step was" : fmt::format("{} steps were", halving.steps), 1L << halving.depth,
+                 halving.first_t);
+  }
   const auto list = [](const char* name, const std::vector<std::string>& values,
                        const std::vector<double>& digits = {}) {
     std::size_t width = 0;
@@ -159,7 +190,8 @@ void run_command(const Options& o) {
                            expression("until", o.until),
                            Precision::parse(o.precision),
                            o.account,
-                           o.shadow};
+                           o.shadow,
+                           parse_on_failure(o.on_failure)};
   RunHooks hooks;
   hooks.every = o.every;
   ProgressBar bar(request.scene.name);
@@ -170,7 +202,8 @@ void run_command(const Options& o) {
     hooks.provenance = {std::string("hbvm ") + version(), "scene " + request.scene.name + ": " + request.scene.title,
                         "command hbvm run " + o.scene + " --method " + request.method.text() + " --step '" + o.step +
                             "' --until '" + o.until + "' --precision " + request.precision.name() + " --solver " +
-                            std::string(name_of(request.solver)) + " --every " + std::to_string(o.every)};
+                            std::string(name_of(request.solver)) + " --every " + std::to_string(o.every) +
+                            (request.on_failure == OnFailure::halve ? " --on-failure halve" : "")};
   }
   const RunResult result = run(request, hooks);
   if (o.json)
@@ -194,6 +227,10 @@ void add_run_command(CLI::App& app) {
   command
       ->add_option("--solver", o->solver,
                    "auto, newton (mixed precision), fixed-point (newest values, warm start) or paper (iter)")
+      ->capture_default_str();
+  command
+      ->add_option("--on-failure", o->on_failure,
+                   "What to do with a step that cannot be made: stop, or halve it, again and again, to at most 2^-20")
       ->capture_default_str();
   command->add_option("--out", o->out, "Write the trajectory to this CSV file");
   command->add_option("--every", o->every, "Steps between two lines of the CSV file")->capture_default_str();

@@ -2,7 +2,9 @@
 
 #include <cstdlib>
 
+#include "hbvm/integrate/halving_stepper.hpp"
 #include "hbvm/integrate/hbvm_stepper.hpp"
+#include "hbvm/integrate/raising_stepper.hpp"
 #include "hbvm/integrate/rattle.hpp"
 #include "hbvm/integrate/runge_kutta_step.hpp"
 #include "hbvm/integrate/watched_stepper.hpp"
@@ -106,6 +108,31 @@ TEST(AStep, AllocatesNothingInMpfr) {
     for (const char* name : {"simple_pendulum", "double_pendulum", "kepler", "heavy_top", "bead_on_ellipsoid", "chain",
                              "charged_tetrahedron"})
       for (const SolverKind kind : kinds) expect_none<Mpfr>(name, kind);
+  }
+}
+
+/// More than an interval of them, so that some are examined.
+template <Scalar S>
+void expect_none_where_nodes_may_be_raised_and_steps_divided(const char* name) {
+  const Assembled<S> scene = assemble<S>(load_scene(name));
+  NodeLog log;
+  HalvingStepper<S> stepper(S(S(1) / 100), [&](const S& step) {
+    return std::make_unique<RaisingStepper<S>>(scene.problem, std::same_as<S, double> ? 16 : 40, 2, step,
+                                               SolverKind::fixed_point, log);
+  });
+  State<S> state(scene.q0, scene.p0);
+  for (int i = 0; i < 2; ++i) stepper.step(state);
+  const long before = allocations;
+  for (int i = 0; i < 2 * RaisingStepper<S>::interval; ++i) stepper.step(state);
+  EXPECT_EQ(allocations - before, 0) << name;
+  EXPECT_TRUE(log.raised.empty());
+}
+
+TEST(AStep, ThatWatchesItsNodesAllocatesNothing) {
+  const PrecisionScope digits(50);
+  for (const char* name : {"kepler", "charged_tetrahedron", "charged_double_pendulum"}) {
+    expect_none_where_nodes_may_be_raised_and_steps_divided<double>(name);
+    expect_none_where_nodes_may_be_raised_and_steps_divided<Mpfr>(name);
   }
 }
 

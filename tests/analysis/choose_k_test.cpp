@@ -166,5 +166,30 @@ TYPED_TEST(ChooseK, OfAStepThatCannotBeMadeIsAnIntegrationError) {
   EXPECT_THROW(this->chosen(assembled<TypeParam>({attraction}), 1, "20"), StepError);
 }
 
+/// A stone falls into the center within the first steps: whatever comes before is integrated by a k that is enough for
+/// it, and the run ends where it must.
+TYPED_TEST(ChooseK, OfALaterStepThatCannotBeMadeIsThatOfTheStepsBefore) {
+  using S = TypeParam;
+  const auto scene = assembled<S>({attraction}, "[0, 0]");
+  const ChosenK chosen = this->chosen(scene, 2, "1/8");
+  EXPECT_NE(chosen.reason.find("no k makes more than the first"), std::string::npos) << chosen.reason;
+  const Hbvm<S> method = make_hbvm<S>(chosen.k, 2);
+  HbvmStepper<S> stepper(scene.problem, method, literal<S>("1/8"), SolverKind::fixed_point);
+  State<S> state(scene.q0, scene.p0);
+  stepper.step(state);
+}
+
+/// A stiff spring amplifies the round-off of positions; that no k agrees with k + s to the round-off of its force
+/// alone is no lack of nodes.
+TEST(ChooseK, TakesAmplifiedRoundOffForWhatItIs) {
+  for (const char* stiffness : {"10^4", "10^6", "10^8"}) {
+    const auto scene = assembled<double>({"kind = \"spring\"\nbetween = [\"a\", \"O\"]\nstiffness = \"" +
+                                          std::string(stiffness) + "\"\nrest_length = 1"},
+                                         "[\"1/100\", \"1/3\"]");
+    const double step = 1 / std::sqrt(literal<double>(stiffness)) / 4;
+    EXPECT_LE(choose_k<double>(scene, 2, step, SolverKind::automatic).k, 12) << stiffness;
+  }
+}
+
 }  // namespace
 }  // namespace hbvm

@@ -131,6 +131,11 @@ TEST(BadSolver, IsRefused) {
     expect_refused(run_with("--solver", solver), {"solver"});
 }
 
+TEST(BadOnFailure, IsRefused) {
+  for (const char* action : {"", "retry", "HALVE", "halve "})
+    expect_refused(run_with("--on-failure", action), {"--on-failure", "stop or halve"});
+}
+
 TEST(BadOutput, UnwritableIsRefused) {
   const Folder folder;
   expect_refused(run_with("--out", "/nonexistent/trajectory.csv"), {"'/nonexistent/trajectory.csv'"});

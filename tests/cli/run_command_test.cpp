@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "cli/program.hpp"
 #include "hbvm/integrate/drift.hpp"
@@ -267,7 +268,105 @@ TEST(RunAuto, ReportsTheKThatReachesRoundOff) {
   EXPECT_LT(number(j["e_H"]), 1e-31);
   const std::string text = hbvm(run + Arguments{"hbvm:auto,1"}).out;
   EXPECT_TRUE(text.starts_with("k = " + std::to_string(k) + ": U is not a polynomial")) << text;
-  EXPECT_NE(text.find("it holds as well"), std::string::npos) << text;
+  EXPECT_NE(text.find("energy conserved to round-off over the run"), std::string::npos) << text;
+}
+
+/// A bob on a circle of radius 1, and a like charge 1/10 outside of it.
+std::string charged_pendulum() {
+  return "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }, { name = \"C\", position = [\"1.1\", 0], charge "
+         "= "
+         "1 }]\nbody = [{ name = \"bob\", mass = 1, charge = 1, position = [0, -1], velocity = [4, 0] }]\n"
+         "constraint = [{ kind = \"rod\", between = [\"O\", \"bob\"], length = 1 }]\neffect = [{ kind = "
+         "\"uniform_gravity\", acceleration = [0, -1] }, { kind = \"coulomb\", strength = -1 }]\n";
+}
+
+std::string two_bodies(const std::string& speed) {
+  return "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [-1, 0], velocity = [0, \"" + speed +
+         "\"] }, { name = \"b\", mass = 1, position = [1, 0], velocity = [0, \"-(" + speed +
+         ")\"] }]\neffect = [{ kind = \"mutual_gravity\", strength = 1 }]\n";
+}
+
+TEST(RunAuto, RaisesKOnTheWay) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.toml", charged_pendulum());
+  const Arguments run{"run", scene, "--step", "1/32", "--until", "10", "--method"};
+  const ordered_json j = json_of(run + Arguments{"hbvm:auto,2"});
+  EXPECT_EQ(j["chosen"]["verified"], true);
+  ASSERT_FALSE(j["chosen"]["raised"].empty());
+  EXPECT_GT(j["chosen"]["raised"][0]["k"], j["chosen"]["k"]);
+  EXPECT_GT(number(j["chosen"]["raised"][0]["t"]), 0.5);
+  EXPECT_LT(number(j["e_H"]), 1e-12);
+  EXPECT_GT(number(json_of(run + Arguments{"hbvm:8,2"})["e_H"]), 1e-6) << "a hard case";
+  const std::string text = hbvm(run + Arguments{"hbvm:auto,2"}).out;
+  EXPECT_NE(text.find("\nraised to "), std::string::npos) << text;
+}
+
+TEST(RunAuto, SaysThatTheEnergyIsNotConserved) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.toml", two_bodies("1e-6"));
+  const Arguments run{"run", scene, "--method", "hbvm:auto,3", "--step", "1/256", "--until", "3"};
+  const ordered_json j = json_of(run);
+  EXPECT_GT(number(j["e_H"]), 1);
+  EXPECT_EQ(j["chosen"]["verified"], false);
+  const std::string text = hbvm(run).out;
+  for (const char* word : {"energy NOT conserved: e_H = ", "of the terms of H", "take a smaller step"})
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+}
+
+TEST(RunAuto, RaisesNoFalseAlarm) {
+  const Folder folder;
+  const std::string stiff = folder.write(
+      "stiff.toml",
+      "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = 1, position = "
+      "[\"3/5\", \"-4/5\"], velocity = [\"2/5\", \"3/10\"] }]\neffect = [{ kind = \"spring\", between = [\"O\", "
+      "\"a\"], stiffness = \"10^6\", rest_length = 1 }]\n");
+  for (const auto& [scene, step, until] :
+       std::vector<std::tuple<std::string, const char*, const char*>>{{"kepler", "2*pi/64", "20*pi"},
+                                                                      {stiff, "1/1024", "2"},
+                                                                      {"tethered_satellites", "1/10", "50"},
+                                                                      {"satellites_with_oblateness", "1/10", "20"},
+                                                                      {"charged_double_pendulum", "1/32", "10"},
+                                                                      {"charged_tetrahedron", "1/32", "10"},
+                                                                      {"modified_pendulum", "1/16", "20"},
+                                                                      {"quartic_oscillator", "1/8", "40"}})
+    for (const char* precision : {"double", "quad"}) {
+      const ordered_json j = json_of(
+          {"run", scene, "--method", "hbvm:auto,2", "--step", step, "--until", until, "--precision", precision});
+      EXPECT_EQ(j["chosen"]["verified"], true) << scene << " " << precision << j["chosen"];
+    }
+}
+
+/// A pendulum so fast that no step of 1 can be made.
+TEST(RunOnFailure, HalvesWhatCannotBeMade) {
+  const Folder folder;
+  const std::string scene = folder.write("scene.toml", pendulum("8"));
+  for (const char* solver : {"paper", "fixed-point"}) {
+    const Arguments run{"run", scene, "--method", "hbvm:2,2", "--step", "1", "--until", "12", "--solver", solver};
+    EXPECT_EQ(hbvm(run).code, 3);
+    EXPECT_EQ(hbvm(run + Arguments{"--on-failure", "stop"}).code, 3);
+    const Arguments halve = run + Arguments{"--on-failure", "halve"};
+    const ordered_json j = json_of(halve);
+    EXPECT_EQ(keys_of(j["halved"]), (Texts{"steps", "substeps", "smallest", "first_t"}));
+    EXPECT_EQ(j["halved"]["steps"], 12);
+    EXPECT_GE(j["halved"]["substeps"], 48);
+    EXPECT_LE(number(j["halved"]["smallest"]), 0.25);
+    EXPECT_EQ(number(j["halved"]["first_t"]), 0);
+    EXPECT_LT(number(j["e_H"]), 1e-12);
+    EXPECT_LT(number(j["e_g"]), 1e-13);
+    EXPECT_EQ(j["steps"], 12);
+    const std::string text = hbvm(halve).out;
+    EXPECT_NE(text.find("12 steps were divided, down to h/"), std::string::npos) << text;
+  }
+}
+
+TEST(RunOnFailure, HalvesNothingThatCanBeMade) {
+  const Arguments run{"run", "simple_pendulum", "--method", "hbvm:2,2", "--step", "1/8", "--until", "2"};
+  const ordered_json plain = json_of(run), j = json_of(run + Arguments{"--on-failure", "halve"});
+  EXPECT_FALSE(plain.contains("halved"));
+  EXPECT_EQ(j["halved"]["steps"], 0);
+  EXPECT_EQ(j["q"], plain["q"]);
+  EXPECT_EQ(j["p"], plain["p"]);
+  EXPECT_EQ(hbvm(run).out.find("divided"), std::string::npos);
 }
 
 /// A stone on a narrow orbit about a centre.

@@ -11,6 +11,7 @@ namespace hbvm {
 struct ChosenK {
   int k = 0;
   std::string reason;
+  bool exact = false;  ///< for every motion: U is a polynomial
 };
 
 /// Degree of U as a polynomial in q; nothing if it is none. 0 without effects.
@@ -18,13 +19,13 @@ template <Scalar S>
 std::optional<int> degree_of_U(const Problem<S>& problem);
 
 /// For a polynomial U of degree mu the least k >= s that integrates it exactly, k >= mu s/2, (hDj). Otherwise the least
-/// k for which, at the solutions of the first steps, psi_hat agrees with that of k + s to round-off.
-/// \throws InputError if no k up to max_k will do, StepError if the first steps cannot be made
+/// k for which, at the solutions of the first 16 steps, psi_hat agrees with that of k + s to round-off; or, if with no
+/// k that many steps can be made, the one that comes farthest. \throws InputError if no k up to max_k will do,
+/// StepError if the first step cannot be made with any k
 template <Scalar S>
 ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind solver);
 
-/// max |psi_hat of k - psi_hat of k + s| at the stages of the step that starts from (q, p), over the round-off of
-/// psi_hat: at most 1 if more nodes would change nothing.
+/// The QuadratureDefect of the step that starts from (q, p): at most 1 if more nodes would change nothing.
 template <Scalar S>
 S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, const Vector<S>& q,
                     const Vector<S>& p);

@@ -9,6 +9,7 @@
 
 #include "hbvm/analysis/account.hpp"
 #include "hbvm/analysis/health.hpp"
+#include "hbvm/analysis/run_stepper.hpp"
 #include "hbvm/analysis/shadow.hpp"
 #include "hbvm/method/method_name.hpp"
 #include "hbvm/scalar/precision.hpp"
@@ -26,6 +27,7 @@ struct RunRequest {
   Precision precision;
   bool account = false;  ///< measure where the time goes
   bool shadow = false;   ///< repeat the run with 16 more digits
+  OnFailure on_failure = OnFailure::stop;
 };
 
 /// A quantity the exact motion conserves: its value at the start and its greatest change over the mesh.
@@ -33,11 +35,31 @@ struct Observed {
   std::string name, initial, drift;
 };
 
+/// What became of the k that hbvm:auto chose.
+struct NodesReport {
+  struct Raise {
+    std::string t;
+    int k;
+  };
+  std::string because;        ///< why k was chosen
+  std::vector<Raise> raised;  ///< where it had to be raised
+  bool verified = false;      ///< the energy is conserved to round-off over the run, and k was enough in all of it
+  std::string verdict;        ///< the same for people, with what to do
+};
+
+/// What was done to steps that failed.
+struct HalvingReport {
+  long steps = 0, substeps = 0;
+  int depth = 0;         ///< the smallest substep is the step over 2^depth
+  std::string smallest;  ///< the same as a time
+  std::string first_t;   ///< where the first of them began; empty if there was none
+};
+
 /// What came out, every number of the working precision as decimal text that reads back exactly.
 struct RunResult {
-  MethodName method;            ///< with k as chosen
-  std::string chosen_because;   ///< empty unless k was chosen
-  bool choice_verified = true;  ///< at the last step more nodes would have changed nothing either
+  MethodName method;                     ///< with k as chosen
+  std::optional<NodesReport> nodes;      ///< if k was chosen
+  std::optional<HalvingReport> halving;  ///< if steps might be divided
   std::string step, t;
   long steps = 0;
   std::vector<std::string> q, p, lambda;             ///< lambda: (lagmul)

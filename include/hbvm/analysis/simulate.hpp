@@ -18,16 +18,15 @@ struct Simulated {
   S redundancy;  ///< of Drift
 };
 
-/// Integrates an assembled scene with its drift observed, beside further observers. With `account`, the time of effects
-/// and parts of the solver is measured, too; with `decay`, it sees every step.
+/// Integrates an assembled scene by a stepper with its drift observed, beside further observers. With `account`, the
+/// time of effects and parts of the solver is measured, too; with `decay`, it sees every step.
 /// \throws StepError, IntegrationError
 template <Scalar S>
-Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKind solver, const TimeGrid<S>& grid,
+Simulated<S> simulate(const Assembled<S>& scene, Stepper<S>& stepper, const TimeGrid<S>& grid,
                       std::vector<Observer<S>*> observers = {}, Account* account = nullptr,
                       CoefficientDecay<S>* decay = nullptr) {
   Drift<S> drift(scene.problem);
   observers.insert(observers.begin(), &drift);
-  HbvmStepper<S> stepper(scene.problem, method, grid.step(), solver);
   if (account) stepper.measure_time();
   State<S> state(scene.q0, scene.p0);
   std::optional<WatchedStepper<S>> watched;
@@ -40,6 +39,14 @@ Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKi
     account->sweeps = static_cast<std::uint64_t>(integration.sweeps);
   }
   return {std::move(integration), drift.H0(), drift.e_H(), drift.e_g(), drift.e_hid(), drift.redundancy()};
+}
+
+/// The same by steps of one method.
+template <Scalar S>
+Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKind solver, const TimeGrid<S>& grid,
+                      std::vector<Observer<S>*> observers = {}, Account* account = nullptr) {
+  HbvmStepper<S> stepper(scene.problem, method, grid.step(), solver);
+  return simulate<S>(scene, stepper, grid, std::move(observers), account);
 }
 
 }  // namespace hbvm

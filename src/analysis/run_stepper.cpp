@@ -1,0 +1,65 @@
+#include "hbvm/analysis/run_stepper.hpp"
+
+#include "hbvm/integrate/integrate.hpp"
+
+namespace hbvm {
+
+OnFailure parse_on_failure(std::string_view name) {
+  for (const OnFailure on_failure : {OnFailure::stop, OnFailure::halve})
+    if (name == name_of(on_failure)) return on_failure;
+  throw InputError("--on-failure '" + std::string(name) + "': use stop or halve");
+}
+
+std::string_view name_of(OnFailure on_failure) { return on_failure == OnFailure::stop ? "stop" : "halve"; }
+
+namespace {
+
+/// Of the given step, or of the first of its halves that can be made.
+template <Scalar S>
+ChosenK choose_k_of_halves(const Assembled<S>& scene, int s, S step, SolverKind solver) {
+  for (int depth = 0;; ++depth, step /= 2) {
+    try {
+      return choose_k(scene, s, step, solver);
+    } catch (const StepError&) {
+      if (depth == HalvingStepper<S>::deepest) throw;
+    }
+  }
+}
+
+}  // namespace
+
+template <Scalar S>
+RunStepper<S>::RunStepper(const Assembled<S>& scene, MethodName name, const S& step, SolverKind solver,
+                          OnFailure on_failure)
+    : name_(name) {
+  const bool halve = on_failure == OnFailure::halve;
+  if (name_.is_auto()) {
+    chosen_ = halve ? choose_k_of_halves(scene, name_.s, step, solver) : choose_k(scene, name_.s, step, solver);
+    name_.k = chosen_->k;
+  }
+  const bool raise = chosen_ && !chosen_->exact;
+  if (!raise) method_ = make_hbvm<S>(name_.k, name_.s);
+  const auto make = [this, raise, solver, &problem = scene.problem](const S& h) -> std::unique_ptr<Stepper<S>> {
+    if (raise) return std::make_unique<RaisingStepper<S>>(problem, name_.k, name_.s, h, solver, nodes_);
+    return std::make_unique<HbvmStepper<S>>(problem, *method_, h, solver);
+  };
+  if (halve) {
+    auto halving = std::make_unique<HalvingStepper<S>>(step, make);
+    halving_ = halving.get();
+    outer_ = std::move(halving);
+  } else {
+    outer_ = make(step);
+  }
+}
+
+template <Scalar S>
+long RunStepper<S>::step(State<S>& state) {
+  const long sweeps = outer_->step(state);
+  ++nodes_.step;
+  return sweeps;
+}
+
+#define HBVM_DEFINE(S) template class RunStepper<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

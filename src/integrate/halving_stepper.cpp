@@ -1,0 +1,90 @@
+#include "hbvm/integrate/halving_stepper.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "copy_state.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+HalvingStepper<S>::HalvingStepper(const S& step, Make make)
+    : h_(step), make_(std::move(make)), before_(Vector<S>(), Vector<S>()) {
+  const Index m = stepper(0).problem().m();
+  before_ = State<S>(Vector<S>::Zero(m), Vector<S>::Zero(m));
+}
+
+template <Scalar S>
+Stepper<S>& HalvingStepper<S>::stepper(int depth) {
+  while (static_cast<int>(steppers_.size()) <= depth) steppers_.emplace_back();
+  std::unique_ptr<Stepper<S>>& made = steppers_[static_cast<std::size_t>(depth)];
+  if (!made) {
+    made = make_(S(h_ / S(1L << depth)));
+    if (timed_) made->measure_time();
+  }
+  return *made;
+}
+
+template <Scalar S>
+long HalvingStepper<S>::step(State<S>& state) {
+  copy_state(before_, state);
+  long sweeps = 0, substeps = 0;
+  int smallest = 0;
+  std::optional<StageFailure> first;
+  // Time within the step in units of 2^-deepest h.
+  constexpr long whole = 1L << deepest;
+  for (long done = 0; done < whole;) {
+    try {
+      sweeps += stepper(depth_).step(state);
+    } catch (const StageFailure& failure) {
+      sweeps += failure.sweeps();
+      if (!first) first = failure;
+      // An attempt at twice the last size was in vain.
+      if (depth_ < last_) patience_ = std::min(2 * patience_, longest_patience);
+      successes_ = 0;
+      if (++depth_ <= deepest) continue;
+      copy_state(state, before_);
+      depth_ = last_ = 0;
+      throw StageFailure(first->cause(),
+                         first->what() + std::string("; nor could it be made of steps down to 2^-") +
+                             std::to_string(deepest) + " of it, where " + failure.what(),
+                         first->increment(), sweeps);
+    }
+    if (depth_ < last_) patience_ = 1;
+    last_ = depth_;
+    smallest = std::max(smallest, depth_);
+    ++substeps;
+    done += whole >> depth_;
+    if (depth_ > 0 && ++successes_ >= patience_ && done % (whole >> (depth_ - 1)) == 0) {
+      --depth_;
+      successes_ = 0;
+    }
+  }
+  if (substeps > 1) {
+    if (log_.steps++ == 0) log_.first_step = made_;
+    log_.substeps += substeps;
+    log_.depth = std::max(log_.depth, smallest);
+  }
+  ++made_;
+  return sweeps;
+}
+
+template <Scalar S>
+SolverCounts HalvingStepper<S>::counts() const {
+  SolverCounts sum;
+  for (const auto& stepper : steppers_)
+    if (stepper) add_counts(sum, stepper->counts(), problem());
+  return sum;
+}
+
+template <Scalar S>
+void HalvingStepper<S>::measure_time() {
+  timed_ = true;
+  for (const auto& stepper : steppers_)
+    if (stepper) stepper->measure_time();
+}
+
+#define HBVM_DEFINE(S) template class HalvingStepper<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

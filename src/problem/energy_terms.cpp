@@ -1,0 +1,88 @@
+#include "hbvm/problem/energy_terms.hpp"
+
+#include "hbvm/scalar/in_place.hpp"
+
+namespace hbvm {
+namespace {
+
+/// sum += |a|.
+template <Scalar S>
+void add_magnitude(S& sum, const S& a) {
+  if (a < 0)
+    set_difference(sum, sum, a);
+  else
+    set_sum(sum, sum, a);
+}
+
+}  // namespace
+
+template <Scalar S>
+EnergyTerms<S>::Work::Work(const EffectTerm<S>& effect, Index dimension)
+    : term(effect),
+      displacement(Matrix<S>::Zero(static_cast<Index>(effect.displacements.size()), dimension)),
+      value(effect.value, effect.value_coefficients, displacement, 1),
+      gradient(effect.gradient, effect.gradient_coefficients, displacement, 1) {}
+
+template <Scalar S>
+EnergyTerms<S>::EnergyTerms(const Problem<S>& problem)
+    : problem_(problem), v_(problem.m()), count_(problem.m()), half_(S(1) / 2) {
+  for (const EffectTerm<S>& term : problem.potential.terms) {
+    work_.emplace_back(term, problem.dimension);
+    count_ += static_cast<long>(term.displacements.size());
+  }
+}
+
+template <Scalar S>
+void EnergyTerms<S>::evaluate_potential(const Vector<S>& q) {
+  set_zero(U_);
+  for (Work& work : work_) {
+    S* out = work.displacement.data();
+    for (const Displacement<S>& x : work.term.displacements)
+      displace(x, problem_.dimension, lanes(q), out++, work.displacement.rows());
+    work.value.run();
+    for (Index n = 0; n < work.displacement.rows(); ++n) set_sum(U_, U_, work.value.output(0, n));
+  }
+}
+
+template <Scalar S>
+void EnergyTerms<S>::evaluate_energy(const Vector<S>& q, const Vector<S>& p) {
+  problem_.mass.velocity(lanes(p), lanes(v_));
+  evaluate_potential(q);
+  set_zero(H_);
+  for (Index j = 0; j < p.size(); ++j) add_product(H_, p[j], v_[j], t_);
+  set_product(H_, H_, half_);
+  set_difference(H_, H_, U_);
+}
+
+template <Scalar S>
+void EnergyTerms<S>::evaluate(const Vector<S>& q, const Vector<S>& p) {
+  evaluate_energy(q, p);
+  set_zero(round_off_size_);
+  for (Index j = 0; j < p.size(); ++j) {
+    set_product(t_, p[j], v_[j]);
+    add_magnitude(round_off_size_, t_);
+  }
+  set_product(size_, round_off_size_, half_);
+  for (Work& work : work_) {
+    work.gradient.run();
+    for (Index n = 0; n < work.displacement.rows(); ++n) {
+      add_magnitude(size_, work.value.output(0, n));
+      for (Index j = 0; j < problem_.dimension; ++j) {
+        set_zero(sum_);
+        add_magnitude(sum_, work.displacement(n, j));
+        for (const auto& block : work.term.displacements[static_cast<std::size_t>(n)].blocks) {
+          set_product(t_, block.weight, q[block.offset + j]);
+          add_magnitude(sum_, t_);
+        }
+        set_product(t_, work.gradient.output(j, n), sum_);
+        add_magnitude(round_off_size_, t_);
+      }
+    }
+  }
+  set_sum(round_off_size_, round_off_size_, size_);
+}
+
+#define HBVM_DEFINE(S) template class EnergyTerms<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

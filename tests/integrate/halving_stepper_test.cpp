@@ -1,0 +1,161 @@
+#include "hbvm/integrate/halving_stepper.hpp"
+
+#include "hbvm/integrate/hbvm_stepper.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Steps of the motion q' = 1 that fail where a rule says so: on the size and the time, which is q.
+class Marching final : public Stepper<double> {
+ public:
+  using Fails = std::function<bool(double t, double size)>;
+  Marching(const Problem<double>& problem, double size, Fails fails, std::vector<double>& tried)
+      : problem_(problem), size_(size), fails_(std::move(fails)), tried_(tried), multiplier_(1) {}
+
+  const Problem<double>& problem() const override { return problem_; }
+  long step(State<double>& state) override {
+    tried_.push_back(size_);
+    if (fails_(state.q[0], size_))
+      throw StageFailure(FailureCause::precision_exhausted, "a step of " + std::to_string(size_), "1", 10);
+    state.q[0] += size_;
+    multiplier_[0] = size_;
+    return 1;
+  }
+  const Vector<double>& multiplier() const override { return multiplier_; }
+  SolverCounts counts() const override { return {}; }
+  void measure_time() override {}
+
+ private:
+  const Problem<double>& problem_;
+  double size_;
+  Fails fails_;
+  std::vector<double>& tried_;
+  Vector<double> multiplier_;
+};
+
+class Halving : public ::testing::Test {
+ protected:
+  HalvingStepper<double> stepper(Marching::Fails fails) {
+    return {1, [this, fails = std::move(fails)](double size) {
+              return std::make_unique<Marching>(scene.problem, size, fails, tried);
+            }};
+  }
+  const Assembled<double> scene = assemble<double>(load_scene("kepler"));
+  State<double> state{Vector<double>::Zero(2), Vector<double>::Zero(2)};
+  std::vector<double> tried;
+};
+
+TEST_F(Halving, LeavesStepsThatSucceedAlone) {
+  HalvingStepper<double> halving = stepper([](double, double) { return false; });
+  for (int n = 0; n < 5; ++n) EXPECT_EQ(halving.step(state), 1);
+  EXPECT_EQ(tried, std::vector<double>(5, 1));
+  EXPECT_EQ(halving.log().steps, 0);
+  EXPECT_EQ(halving.log().substeps, 0);
+}
+
+TEST_F(Halving, DividesOneThatFailsAndReturnsToTheWhole) {
+  // Between 2 and 3 a step of 1/4 at most.
+  HalvingStepper<double> halving =
+      stepper([](double t, double size) { return t + size > 2 && t < 3 && size > 1.0 / 4; });
+  for (int n = 1; n <= 8; ++n) {
+    halving.step(state);
+    EXPECT_EQ(state.q[0], n);
+  }
+  EXPECT_EQ(halving.log().steps, 1);
+  EXPECT_EQ(halving.log().first_step, 2);
+  EXPECT_EQ(halving.log().depth, 2);
+  EXPECT_EQ(halving.log().substeps, 4);
+  EXPECT_EQ(tried.back(), 1);
+}
+
+TEST_F(Halving, SweepsOfFailuresCount) {
+  HalvingStepper<double> halving = stepper([](double, double size) { return size > 1.0 / 2; });
+  EXPECT_EQ(halving.step(state), 12);
+}
+
+TEST_F(Halving, TheMultiplierIsThatOfTheLastSubstep) {
+  // The second half of the step can be made whole.
+  HalvingStepper<double> halving = stepper([](double t, double size) { return t < 1.0 / 2 && size > 1.0 / 8; });
+  halving.step(state);
+  EXPECT_EQ(state.q[0], 1);
+  EXPECT_EQ(halving.multiplier()[0], tried.back());
+  EXPECT_GT(halving.multiplier()[0], 1.0 / 8);
+}
+
+/// Where every whole step fails, one in about a thousand attempts is in vain.
+TEST_F(Halving, DoesNotPayTheFailureEveryTime) {
+  HalvingStepper<double> halving = stepper([](double, double size) { return size > 1.0 / 4; });
+  for (int n = 0; n < 4096; ++n) halving.step(state);
+  EXPECT_EQ(state.q[0], 4096);
+  EXPECT_EQ(halving.log().steps, 4096);
+  EXPECT_EQ(halving.log().substeps, 4 * 4096);
+  EXPECT_LE(tried.size(), 4 * 4096 + 40);
+}
+
+TEST_F(Halving, ThatFailsAtTheSmallestSizeLeavesTheStateAndTellsTheCause) {
+  HalvingStepper<double> halving = stepper([](double t, double size) { return t + size > 1.75; });
+  halving.step(state);
+  state.q_carry[0] = 3;
+  try {
+    halving.step(state);
+    ADD_FAILURE() << "it was made";
+  } catch (const StageFailure& failure) {
+    EXPECT_EQ(failure.cause(), FailureCause::precision_exhausted);
+    const std::string what = failure.what();
+    EXPECT_TRUE(what.starts_with("a step of 1.0")) << what;
+    EXPECT_NE(what.find("2^-20"), std::string::npos) << what;
+    EXPECT_GE(failure.sweeps(), 21 * 10);
+  }
+  EXPECT_EQ(state.q[0], 1);
+  EXPECT_EQ(state.q_carry[0], 3);
+  EXPECT_EQ(tried.back(), std::ldexp(1, -20));
+}
+
+template <Scalar S>
+class NeverMade final : public Stepper<S> {
+ public:
+  explicit NeverMade(const Problem<S>& problem) : problem_(problem), multiplier_(Vector<S>::Zero(problem.nu())) {}
+  const Problem<S>& problem() const override { return problem_; }
+  long step(State<S>&) override { throw StageFailure(FailureCause::stage_equations_diverge, "too long", "1", 1); }
+  const Vector<S>& multiplier() const override { return multiplier_; }
+  SolverCounts counts() const override { return {}; }
+  void measure_time() override {}
+
+ private:
+  const Problem<S>& problem_;
+  Vector<S> multiplier_;
+};
+
+template <class S>
+class HalvingOfAPendulum : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+};
+TYPED_TEST_SUITE(HalvingOfAPendulum, AllScalars, ScalarNames);
+
+/// The substeps are steps of the method: divided once throughout, they are those of half the size, bit for bit.
+TYPED_TEST(HalvingOfAPendulum, IsTheMethodWithSmallerSteps) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("simple_pendulum"));
+  const Hbvm<S> method = make_hbvm<S>(2, 2);
+  const S h = S(1) / 8;
+  HalvingStepper<S> halving(h, [&](const S& size) -> std::unique_ptr<Stepper<S>> {
+    if (size == h) return std::make_unique<NeverMade<S>>(scene.problem);
+    return std::make_unique<HbvmStepper<S>>(scene.problem, method, size, SolverKind::fixed_point);
+  });
+  State<S> state(scene.q0, scene.p0), expected = state;
+  HbvmStepper<S> half(scene.problem, method, S(h / 2), SolverKind::fixed_point);
+  for (int n = 0; n < 4; ++n) {
+    halving.step(state);
+    for (int i = 0; i < 2; ++i) half.step(expected);
+    EXPECT_EQ(state.q, expected.q);
+    EXPECT_EQ(state.p, expected.p);
+    EXPECT_EQ(state.p_carry, expected.p_carry);
+    EXPECT_EQ(halving.multiplier(), half.multiplier());
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
