@@ -13,7 +13,6 @@
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/assemble.hpp"
-#include "warnings.hpp"
 
 namespace hbvm {
 namespace {
@@ -123,6 +122,12 @@ CaseResult guarded(const std::function<CaseResult()>& body) {
   return result;
 }
 
+std::vector<std::string> warnings_of(const RunResult& run) {
+  std::vector<std::string> names;
+  for (const Warning& warning : run.health.warnings) names.push_back(warning.name);
+  return names;
+}
+
 RunRequest request_of(Scene scene, std::string_view method, std::string_view solver, std::string_view step,
                       std::string_view until, std::string_view precision) {
   return {std::move(scene),
@@ -175,7 +180,7 @@ CaseResult energy(const RunRequest& request) {
     CaseResult result;
     result.criteria = {
         {"e_H, units of round-off", units / energy_size(request.scene, csv), round_off_units(run.steps)}};
-    result.warnings = warnings_of(run).names;
+    result.warnings = warnings_of(run);
     result.message = run.method.text();
     return result;
   });

@@ -12,6 +12,9 @@ namespace hbvm {
 /// "integration_error" one without a cause.
 CaseResult guarded(const std::function<CaseResult()>& body);
 
+/// What a run says against itself, by the names of its warnings.
+std::vector<std::string> warnings_of(const RunResult& run);
+
 /// A request by its texts.
 RunRequest request_of(Scene scene, std::string_view method, std::string_view solver, std::string_view step,
                       std::string_view until, std::string_view precision);
@@ -21,8 +24,8 @@ RunRequest request_of(Scene scene, std::string_view method, std::string_view sol
 ///     |x_i - X_i| / (epsilon scale_i + |Y_i - X_i|),
 ///
 /// scale_i the greatest of what x_i is a sum of, over the run, and Y a run like X whose start is off by an ulp of the
-/// working precision in each coordinate and each hidden constraint: the problem's own condition and growth. Its bound is that of a few roundings a
-/// step, of either sign.
+/// working precision in each coordinate and each hidden constraint: the problem's own condition and growth. Its bound
+/// is that of a few roundings a step, of either sign.
 CaseResult accuracy(const RunRequest& request);
 
 /// The worst coordinate of a run against the same run in more digits, and one there that was kicked: see accuracy.

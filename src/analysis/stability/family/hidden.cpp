@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "../family.hpp"
-#include "../warnings.hpp"
 #include "hbvm/scalar/literal.hpp"
 
 namespace hbvm {
@@ -19,9 +18,7 @@ CaseResult growth(const RunRequest& request) {
   // For odd s every second step takes back what the first added; for even s it adds up, at most like t.
   const bool odd = request.method.s % 2 == 1;
   result.criteria = {{"growth of e_hid", factor, odd ? 2 : 2 * time}};
-  const Warnings warnings = warnings_of(whole);
-  result.warnings = warnings.names;
-  if (warnings.pending && !odd) result.message = "runs do not carry this warning yet";
+  result.warnings = warnings_of(whole);
   return result;
 }
 
