@@ -60,12 +60,7 @@ Agreement check(const Experiment& experiment, const std::vector<Block>& blocks, 
     if (experiment.precision.kind() == Precision::Kind::binary64 || !found) continue;
     for (const std::string& column : round_off) {
       ++agreement.further;
-      const double ulps = column == "e_g"     ? found->ulps_g
-                          : column == "e_H"   ? found->ulps_H
-                          : column == "e_hid" ? found->ulps_hid
-                                              : found->ulps_lambda;
-      // A few roundings each step; the multiplier divides momenta by the step, and so do their roundings.
-      if (ulps <= static_cast<double>(64 * (1 + found->steps)))
+      if (found->is_round_off(column))
         ++agreement.further_agreed;
       else
         agreement.complaints.push_back(place + column + " is " + found->cell(column) + ", not round-off");

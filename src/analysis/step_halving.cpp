@@ -87,6 +87,15 @@ std::string HalvingRow::cell(const std::string& column) const {
   throw InputError("a table of step halvings has no column '" + column + "'");
 }
 
+bool HalvingRow::is_round_off(const std::string& column) const {
+  const double n = static_cast<double>(1 + steps), walk = std::sqrt(n);
+  if (column == "e_lambda") return ulps_lambda <= 32 * n;
+  if (column == "e_hid") return ulps_hid <= 16 * walk;
+  if (column == "e_g") return ulps_g <= 4 * walk;
+  if (column == "e_H") return ulps_H <= 4 * walk;
+  throw InputError("column '" + column + "' cannot be round-off");
+}
+
 std::vector<HalvingRow> step_halving(const HalvingRequest& request, const Precision& precision,
                                      const std::function<void()>& after_each_run) {
   return with_scalar(precision, [&]<Scalar S>() { return step_halving_in<S>(request, after_each_run); });

@@ -1,5 +1,6 @@
 #include "hbvm/analysis/choose_k.hpp"
 
+#include "hbvm/analysis/run.hpp"
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/error.hpp"
 #include "printing.hpp"
@@ -82,6 +83,16 @@ TYPED_TEST(ChooseK, ForAPolynomialIsTheLeastOfTheTheory) {
   }
 }
 
+/// No effect of today has an odd degree above 1, for which s nodes do; should one come, half of mu s is rounded up.
+TYPED_TEST(ChooseK, ForAPolynomialOfOddDegreeRoundsUp) {
+  auto scene = assembled<TypeParam>({spring("4")});
+  for (const auto& [degree, s, k] : {std::tuple(3, 1, 2), {3, 2, 3}, {3, 3, 5}, {5, 1, 3}, {5, 3, 8}, {1, 3, 3}}) {
+    scene.problem.potential.terms[0].degree = degree;
+    EXPECT_EQ(degree_of_U(scene.problem), degree);
+    EXPECT_EQ(this->chosen(scene, s, "1/8").k, k) << "degree " << degree << ", s = " << s;
+  }
+}
+
 TYPED_TEST(ChooseK, ForAPolynomialConservesEnergyAndOneNodeLessDoesNot) {
   for (const auto& [exponent, s] : {std::pair("4", 1), {"4", 2}, {"6", 1}}) {
     const auto scene = assembled<TypeParam>({spring(exponent)}, "[0.5, 0.75]");
@@ -136,6 +147,19 @@ TYPED_TEST(ChooseK, OtherwiseConservesEnergyToRoundOff) {
   const int k = this->chosen(scene, 1, "1/32").k;
   EXPECT_LE(this->energy_error(scene, k, 1, "1/32", "1/2"), 1'000 * epsilon<TypeParam>());
   EXPECT_GT(this->energy_error(scene, 1, 1, "1/32", "1/2"), literal<TypeParam>("1e-6"));
+}
+
+/// From the apocentre of a long orbit the first steps need few nodes, and the passage of the pericentre in the last
+/// ones many: hbvm:auto must conserve energy through it.
+TEST(ChosenK, ServesTheWholeRunAndNotItsFirstStepAlone) {
+  const Scene scene = read_scene(with({attraction}, "[0, \"sqrt(3/5)\"]"), "ellipse");  // excentricity 2/5
+  for (const char* precision : {"double", "quad"}) {
+    const RunResult result = run({scene, MethodName::parse("hbvm:auto,1"), SolverKind::fixed_point,
+                                  Expression::parse("1/8"), Expression::parse("2"), Precision::parse(precision), false},
+                                 {});
+    EXPECT_LE(std::stod(result.e_H), 1'000 * (std::string(precision) == "double" ? 2.2e-16 : 1.9e-34))
+        << precision << ", k = " << result.method.k;
+  }
 }
 
 TYPED_TEST(ChooseK, SmallerStepsNeedFewerNodes) {

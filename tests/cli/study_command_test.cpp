@@ -75,6 +75,17 @@ TEST_F(StudyCommand, ExitsWithOneIfAFigureDoesNotAgree) {
   EXPECT_TRUE(outcome.out.ends_with("1 of 2 printed figures agree\n")) << outcome.out;
 }
 
+/// Whatever the studies after it say.
+TEST_F(StudyCommand, ExitsWithOneIfAnyStudyDoesNotAgree) {
+  const std::string good = folder / "good", bad = path;
+  fs::copy(path, good);
+  expect("1.00e-01");
+  EXPECT_EQ(hbvm({"study", bad, good, "--check"}).code, 1);
+  EXPECT_EQ(hbvm({"study", good, bad, "--check"}).code, 1);
+  EXPECT_EQ(hbvm({"study", good, good, "--check"}).code, 0);
+  EXPECT_EQ(hbvm({"study", bad, good}).code, 0) << "without --check";
+}
+
 TEST_F(StudyCommand, WithoutCheckComparesNothing) {
   fs::remove(path + "/expected.csv");
   const Outcome outcome = hbvm({"study", path});

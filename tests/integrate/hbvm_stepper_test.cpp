@@ -1,6 +1,7 @@
 #include "hbvm/integrate/hbvm_stepper.hpp"
 
 #include "hbvm/scene/assemble.hpp"
+#include "integrate/compensated_sum.hpp"
 #include "printing.hpp"
 #include "solver/stage_formulas.hpp"
 
@@ -11,17 +12,6 @@ template <Scalar S>
 Assembled<S> assembled(const std::string& toml) {
   return assemble<S>(read_scene(toml, "scene"));
 }
-
-const std::string falling = R"(dimension = 2
-[[body]]
-name = "a"
-mass = 1
-position = [1, -3]
-velocity = [0.1, 100]
-[[effect]]
-kind = "uniform_gravity"
-acceleration = ["1/3", "-1/7"]
-)";
 
 TEST(Step, IsThePapersUpdate) {
   const PrecisionScope digits(50);
@@ -69,33 +59,7 @@ TEST(Step, ReturnsTheSweepsOfItsSolver) {
   EXPECT_EQ(stepper.step(state), solver->solve(scene.q0, scene.p0));
 }
 
-/// What equal increments add up to exactly, and how far plain additions miss it, in units of the last place.
-struct Sum {
-  Mpfr exact;
-  double naive_miss;
-};
-double ulps(const Mpfr& value, double ulp) { return approximately(Mpfr(magnitude(value) / Mpfr(ulp))); }
-Sum sum(double start, double increment, int count) {
-  double naive = start;
-  for (int n = 0; n < count; ++n) naive += increment;
-  const Mpfr exact = Mpfr(start) + Mpfr(increment) * count;
-  return {exact, ulps(Mpfr(Mpfr(naive) - exact), epsilon<double>() * std::abs(naive))};
-}
-
-class CompensatedUpdate : public ::testing::Test {
- protected:
-  static constexpr int steps = 100'000;
-  /// x, to which `increment` was added `steps` times, and what it carries on.
-  static void expect_exact_sum(double start, double increment, double x, double carry) {
-    const Sum expected = sum(start, increment, steps);
-    const double ulp = epsilon<double>() * std::abs(x);
-    EXPECT_GE(expected.naive_miss, 50) << "the plain sum should be wrong";
-    EXPECT_LE(ulps(Mpfr(Mpfr(x) - expected.exact), ulp), 1);
-    EXPECT_LE(ulps(Mpfr(Mpfr(x) + Mpfr(carry) - expected.exact), ulp), 0.001);
-  }
-  PrecisionScope digits{60};
-  const double h = literal<double>("1e-7");
-};
+using CompensatedUpdate = CompensatedSum;
 
 TEST_F(CompensatedUpdate, OfMomentaLosesNothingOverManySmallSteps) {
   const Assembled<double> scene = assembled<double>(falling);
@@ -108,7 +72,7 @@ TEST_F(CompensatedUpdate, OfMomentaLosesNothingOverManySmallSteps) {
 }
 
 TEST_F(CompensatedUpdate, OfPositionsLosesNothingOverManySmallSteps) {
-  const Assembled<double> scene = assembled<double>(falling.substr(0, falling.find("[[effect]]")));
+  const Assembled<double> scene = assembled<double>(floating);
   const Hbvm<double> method = make_hbvm<double>(2, 2);
   HbvmStepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
   State<double> state(scene.q0, scene.p0);

@@ -34,6 +34,21 @@ TYPED_TEST(RattleTest, KeepsBothKindsOfConstraints) {
   }
 }
 
+/// To round-off, whatever the step: Newton's iteration is quadratic, so that only some steps show where it stops.
+TYPED_TEST(RattleTest, KeepsTheRodToRoundOffAtEveryStep) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("simple_pendulum"));
+  for (int divisor = 2; divisor < 12; ++divisor) {
+    Rattle<S> rattle(scene.problem, S(S(1) / divisor));
+    State<S> state(scene.q0, scene.p0);
+    for (int n = 0; n < 50; ++n) {
+      rattle.step(state);
+      const S length2 = state.q[0] * state.q[0] + state.q[1] * state.q[1];
+      ASSERT_LE(magnitude(S(length2 - 1)), 8 * epsilon<S>()) << "h = 1/" << divisor << ", step " << n;
+    }
+  }
+}
+
 /// It is symmetric: with the momentum turned it goes back to where it came from.
 TYPED_TEST(RattleTest, IsReversible) {
   using S = TypeParam;

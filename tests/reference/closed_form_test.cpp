@@ -26,6 +26,20 @@ class Jacobi : public ::testing::Test {
                                  literal<Mpfr>("0.9")};
 };
 
+/// The mean converges in steps that double the digits: each number of digits tries its end anew.
+TEST_F(Jacobi, HaveAllDigitsHoweverManyAreAsked) {
+  for (unsigned n = 10; n <= 100; ++n) {
+    const PrecisionScope few(n);
+    const JacobiFunctions f = jacobi_functions(literal<Mpfr>("3/2"), literal<Mpfr>("1/2"));
+    const Mpfr tolerance = few_ulps();
+    const PrecisionScope many(130);
+    const JacobiFunctions exact = jacobi_functions(literal<Mpfr>("3/2"), literal<Mpfr>("1/2"));
+    expect_near(f.sn, exact.sn, tolerance, "sn in " + std::to_string(n) + " digits");
+    expect_near(f.cn, exact.cn, tolerance, "cn in " + std::to_string(n) + " digits");
+    expect_near(f.dn, exact.dn, tolerance, "dn in " + std::to_string(n) + " digits");
+  }
+}
+
 TEST_F(Jacobi, AgreesWithBoost) {
   for (const Mpfr& u : arguments)
     for (const Mpfr& kappa : moduli) {

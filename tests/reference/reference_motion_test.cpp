@@ -49,6 +49,25 @@ TEST_F(ReferenceMotionTest, ErrorIsAtLeastTheTrueOneAndNotFarAbove) {
   }
 }
 
+/// The estimates are the errors of the run before, of two stages less, which a run of one's own shows.
+TEST_F(ReferenceMotionTest, ErrorsAreThoseOfTheRunBefore) {
+  const ExactPoint exact = *closed_form("simple_pendulum", duration);
+  Point<Mpfr> point(pendulum.problem);
+  const Vector<Mpfr> exact_lambda = point.multiplier(exact.q, exact.p);
+  for (const auto& [steps, stages] : {std::pair(1, 2), {2, 3}, {4, 4}}) {
+    const Hbvm<Mpfr> method = make_hbvm<Mpfr>(stages, stages);
+    HbvmStepper<Mpfr> stepper(pendulum.problem, method, Mpfr(duration / steps), SolverKind::fixed_point);
+    State<Mpfr> state(pendulum.q0, pendulum.p0);
+    for (int n = 0; n < steps; ++n) stepper.step(state);
+    const Vector<Mpfr> p = point.tangential(state.q, state.p), lambda = point.multiplier(state.q, p);
+    const ReferenceMotion::Errors errors = motion(steps, stages).errors();
+    constexpr double bits = 0.1;  // the run of two stages more is not exact either
+    EXPECT_NEAR(errors.q, log2_of(distance(state.q, exact.q)), bits) << stages << " stages";
+    EXPECT_NEAR(errors.p, log2_of(distance(p, exact.p)), bits) << stages << " stages";
+    EXPECT_NEAR(errors.lambda, log2_of(distance(lambda, exact_lambda)), bits) << stages << " stages";
+  }
+}
+
 TEST_F(ReferenceMotionTest, RefiningLowersTheErrorDownToRoundOff) {
   ReferenceMotion m = motion(2, 2);
   double error = greatest_error(m), truth = true_error(m);

@@ -41,6 +41,18 @@ TYPED_TEST(Project, OnACircleMovesAlongTheRadius) {
   this->expect_near(scene.bodies[0].velocity, {"16/25", "-12/25"}, "velocity");
 }
 
+/// (9/5, 12/5) is (6/5, 4/5), on the ellipse x^2 + 4 y^2 = 4, and a quarter of the gradient there. The sweeps converge
+/// by a factor 2/3 each and must go on to the last digit: an end at the first small increment would leave some 80
+/// epsilon.
+TYPED_TEST(Project, ConvergesSlowlyToRoundOff) {
+  using S = TypeParam;
+  const Scene scene =
+      this->projected("dimension = 2\n" + body("a", "1", "[\"9/5\", \"12/5\"]") +
+                      "[[constraint]]\nkind = \"quadric\"\nbody = \"a\"\nA = [[1, 0], [0, 4]]\nb = [0, 0]\nc = -4\n");
+  EXPECT_LE(magnitude(S(evaluate<S>(scene.bodies[0].position[0]) - literal<S>("6/5"))), 24 * epsilon<S>());
+  EXPECT_LE(magnitude(S(evaluate<S>(scene.bodies[0].position[1]) - literal<S>("4/5"))), 24 * epsilon<S>());
+}
+
 TYPED_TEST(Project, HasAllDigitsOfThePrecision) {
   const Scene scene = this->projected(plane_with_origin + body("a", "1", "[0.7, 0.7]") + rod("O", "a", "1"));
   this->expect_near(scene.bodies[0].position, {"sqrt(1/2)", "sqrt(1/2)"}, "position");
