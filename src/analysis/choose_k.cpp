@@ -23,16 +23,16 @@ namespace {
 
 constexpr int first_steps = 16;
 
-/// The first steps with k nodes.
+/// The first steps with k nodes, up to one that fails or whose defect is no round-off.
 template <Scalar S>
 struct Trial {
   int k = 0, made = 0;
-  S defect = 0;    ///< the worst of the steps made
-  S relative = 0;  ///< the same, over the forces' size alone
-  bool may_be_round_off = true;
-  std::optional<StageFailure> failure;  ///< why fewer than first_steps were made
+  S defect = 0;                         ///< the worst of the steps made
+  S relative = 0;                       ///< the same, over the forces' size alone
+  bool may_be_round_off = true;         ///< all of them
+  std::optional<StageFailure> failure;  ///< of the step after those made
 
-  bool is_complete() const { return made == first_steps; }
+  bool is_complete() const { return made == first_steps && may_be_round_off; }
 };
 
 template <Scalar S>
@@ -44,12 +44,12 @@ Trial<S> try_nodes(const Assembled<S>& scene, int k, int s, const S& step, Solve
   QuadratureDefect<S> defect(scene.problem, k, s, step);
   State<S> state(scene.q0, scene.p0);
   try {
-    for (; !trial.is_complete(); ++trial.made) {
+    for (; trial.made < first_steps && trial.may_be_round_off; ++trial.made) {
       const Vector<S> q = state.q, p = state.p;
       stepper.step(state);
       raise_to(trial.defect, defect.measure(q, p, stepper.solver().unknowns()));
       raise_to(trial.relative, defect.relative());
-      trial.may_be_round_off = trial.may_be_round_off && defect.may_be_round_off();
+      trial.may_be_round_off = defect.may_be_round_off();
     }
   } catch (const StageFailure& failure) {
     trial.failure = failure;
@@ -81,34 +81,42 @@ ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind sol
   }
   const auto attempt = [&](int k) { return try_nodes(scene, k, s, step, solver); };
   // Doubling finds an upper bound, bisection the least: more nodes never do worse. A k whose steps fail is not enough;
-  // if those of all k do, the one that comes farthest is taken, and the run ends where they fail. Where a defect that
-  // may be round-off does not fall, it is: twice as much is then tolerated.
+  // if those of `patience` k in a row do and none came farther than the one before, all will. Where a defect that may
+  // be round-off does not fall, it is: twice as much is then tolerated.
+  constexpr int patience = 3;
   const int most = max_k - s;
-  S tolerated = 1;
-  const auto enough = [&](const Trial<S>& trial) { return trial.is_complete() && trial.defect <= tolerated; };
-  Trial<S> trial = attempt(s), best = trial;
-  int low = s, high = s;
-  while (!enough(trial)) {
-    if (high == most) break;
+  S noise = 0;
+  const auto passes = [&](const Trial<S>& trial) { return trial.defect <= 1 || trial.relative <= noise; };
+  const auto enough = [&](const Trial<S>& trial) { return trial.is_complete() && passes(trial); };
+  Trial<S> trial = attempt(s);
+  std::optional<Trial<S>> farthest;  // of those that end with a failure, and are sound before
+  int low = s, high = s, in_vain = 0;
+  const auto count_failure = [&] {
+    const bool farther = passes(trial) && (!farthest || trial.made > farthest->made);
+    in_vain = trial.failure && !farther ? in_vain + 1 : 0;
+    if (trial.failure && farther) farthest = trial;
+  };
+  count_failure();
+  while (!enough(trial) && high < most && in_vain < patience) {
     low = high + 1;
     high = std::min(2 * high, most);
     const Trial<S> last = std::exchange(trial, attempt(high));
-    const bool sounder = trial.defect <= 1 && !(best.defect <= 1);
-    if (trial.made > best.made || (trial.made == best.made && sounder)) best = trial;
-    if (trial.is_complete() && last.is_complete() && last.may_be_round_off && trial.relative * 2 > last.relative) {
-      tolerated = std::max(last.defect, trial.defect) * 2;
+    count_failure();
+    if (trial.is_complete() && last.is_complete() && trial.relative * 2 > last.relative && !enough(trial)) {
+      noise = std::max(last.relative, trial.relative) * 2;
       low = s;
       high = last.k;
       trial = last;
     }
   }
   if (!enough(trial)) {
-    if (best.made == 0) throw StepError(1, to_text(S(0)), *best.failure);
-    if (!best.is_complete())
-      return {best.k,
-              "U is not a polynomial, and no k makes more than the first " + std::to_string(best.made) + " steps"};
-    throw InputError("method hbvm:auto," + std::to_string(s) + ": no k up to " + std::to_string(most) +
-                     " reaches round-off; U is not smooth where the motion leads, or the step is too large");
+    if (!trial.failure)
+      throw InputError("method hbvm:auto," + std::to_string(s) + ": no k up to " + std::to_string(most) +
+                       " reaches round-off; U is not smooth where the motion leads, or the step is too large");
+    if (!farthest || farthest->made == 0)
+      throw StepError(trial.made + 1, to_text(S(S(trial.made) * step)), *trial.failure);
+    return {farthest->k,
+            "U is not a polynomial, and no k makes more than the first " + std::to_string(farthest->made) + " steps"};
   }
   while (low < high) {
     const int middle = (low + high) / 2;

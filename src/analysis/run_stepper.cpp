@@ -14,13 +14,13 @@ std::string_view name_of(OnFailure on_failure) { return on_failure == OnFailure:
 
 namespace {
 
-/// Of the given step, or of the first of its halves that can be made.
+/// Of the given step, or of the first of its halves for which there is one.
 template <Scalar S>
 ChosenK choose_k_of_halves(const Assembled<S>& scene, int s, S step, SolverKind solver) {
   for (int depth = 0;; ++depth, step /= 2) {
     try {
       return choose_k(scene, s, step, solver);
-    } catch (const StepError&) {
+    } catch (const Error&) {
       if (depth == HalvingStepper<S>::deepest) throw;
     }
   }
@@ -39,8 +39,12 @@ RunStepper<S>::RunStepper(const Assembled<S>& scene, MethodName name, const S& s
   }
   const bool raise = chosen_ && !chosen_->exact;
   if (!raise) method_ = make_hbvm<S>(name_.k, name_.s);
-  const auto make = [this, raise, solver, &problem = scene.problem](const S& h) -> std::unique_ptr<Stepper<S>> {
-    if (raise) return std::make_unique<RaisingStepper<S>>(problem, name_.k, name_.s, h, solver, nodes_);
+  // The smallest parts of a step are kept as they are.
+  const S least = step / S(1L << HalvingStepper<S>::deepest);
+  const auto make = [=, this, &problem = scene.problem](const S& h) -> std::unique_ptr<Stepper<S>> {
+    if (raise)
+      return std::make_unique<RaisingStepper<S>>(problem, name_.k, name_.s, h, solver, nodes_,
+                                                 halve && h > least ? OnShortage::fail : OnShortage::keep);
     return std::make_unique<HbvmStepper<S>>(problem, *method_, h, solver);
   };
   if (halve) {

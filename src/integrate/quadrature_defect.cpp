@@ -13,7 +13,10 @@ QuadratureDefect<S>::QuadratureDefect(const Problem<S>& problem, int k, int s, c
     : problem_(problem),
       few_(problem, k, s, step),
       more_(problem, k + s, s, step),
-      unit_(S(16 * (k + s)) * epsilon<S>()) {}
+      unit_(S(16 * (k + s)) * epsilon<S>()) {
+  using std::sqrt;
+  least_ = 4 * sqrt(S(k + s)) * epsilon<S>();
+}
 
 template <Scalar S>
 const S& QuadratureDefect<S>::measure(const Vector<S>& q, const Vector<S>& p, const StageUnknowns<S>& x) {

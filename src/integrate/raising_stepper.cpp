@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "copy_state.hpp"
+#include "hbvm/scalar/text.hpp"
 
 namespace hbvm {
 
@@ -12,19 +13,20 @@ RaisingStepper<S>::Nodes::Nodes(const Problem<S>& problem, int k, int s, const S
 
 template <Scalar S>
 RaisingStepper<S>::RaisingStepper(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver,
-                                  NodeLog& log)
+                                  NodeLog& log, OnShortage on_shortage)
     : problem_(problem),
       s_(s),
-      most_(max_k - s),
+      most_(on_shortage == OnShortage::keep ? max_k - s : std::min(max_k - s, 8 * k)),
       h_(step),
       solver_(solver),
       log_(log),
+      on_shortage_(on_shortage),
       nodes_(make_nodes(k)),
       epsilon_(epsilon<S>()),
       nine_eighths_(S(9) / 8),
       energy_(problem),
       before_(Vector<S>::Zero(problem.m()), Vector<S>::Zero(problem.m())),
-      tolerated_(1),
+      after_(before_),
       records_(Matrix<S>::Zero(static_cast<Index>(problem.blocks.size()), 2)) {}
 
 template <Scalar S>
@@ -37,13 +39,23 @@ auto RaisingStepper<S>::make_nodes(int k) const -> std::unique_ptr<Nodes> {
 template <Scalar S>
 long RaisingStepper<S>::step(State<S>& state) {
   copy_state(before_, state);
-  if (!started_) take_energy(state);
+  // The state need not be that after its last step, if others make steps, too.
+  if (!started_ || state.q != after_.q || state.p != after_.p) take_energy(state);
+  if (!started_) set(first_H_, H_);
   started_ = true;
   long sweeps = nodes_->stepper.step(state);
+  ++made_;
   set(change_, H_);
   take_energy(state);
   set_difference(change_, H_, change_);
-  if (is_due(state)) sweeps += examine(state);
+  ++since_;
+  if (wait_ > 0)
+    --wait_;
+  else if (energy_changed(state))
+    sweeps += examine(state, Look::strict);
+  else if (since_ >= interval || exceeds_records(false))
+    sweeps += examine(state, Look::usual);
+  copy_state(after_, state);
   return sweeps;
 }
 
@@ -65,16 +77,22 @@ void RaisingStepper<S>::take_round_off(const State<S>& state) {
 }
 
 template <Scalar S>
-bool RaisingStepper<S>::is_due(const State<S>& state) {
-  ++since_;
-  if (wait_ > 0) {
-    --wait_;
-    return false;
-  }
-  if (since_ >= interval || exceeds_records(false)) return true;
+bool RaisingStepper<S>::energy_changed(const State<S>& state) {
+  set_difference(t_, H_, first_H_);
+  const bool drifted = exceeds(t_, alarm_), jumped = exceeds(change_, round_off_);
   // What round-off was when it was last looked at usually shows enough.
-  if (!exceeds(change_, round_off_)) return false;
+  if (!drifted && !jumped) return false;
   take_round_off(state);
+  if (drifted) {
+    // As it grows by itself: like the square root of the number of steps.
+    while (root_ * root_ < made_ + energy_.count()) ++root_;
+    u_ = root_;
+    set_product(alarm_, round_off_, u_);
+    if (exceeds(t_, alarm_)) {
+      set_sum(alarm_, t_, t_);
+      return true;
+    }
+  }
   return exceeds(change_, round_off_);
 }
 
@@ -101,14 +119,21 @@ bool RaisingStepper<S>::exceeds_records(bool keep) {
 }
 
 template <Scalar S>
-int RaisingStepper<S>::enough_nodes(Nodes& nodes) const {
+bool RaisingStepper<S>::passes(const QuadratureDefect<S>& defect, Look look) const {
+  return defect.relative() <= noise_ || (look == Look::usual ? defect.defect() <= 1 : defect.is_least());
+}
+
+template <Scalar S>
+int RaisingStepper<S>::enough_nodes(Nodes& nodes, Look look) const {
+  const S first = nodes.defect.relative();
   int reference_k = nodes.method.k;
-  S reference = nodes.defect.relative();
+  S reference = first;
   bool small = nodes.defect.may_be_round_off();
   for (int k = nodes.method.k;;) {
     k = std::min(k + std::max(1, k / 4), most_);
     QuadratureDefect<S> defect(problem_, k, s_, h_);
-    if (defect.measure(before_.q, before_.p, nodes.stepper.solver().unknowns()) <= tolerated_ || k == most_) return k;
+    defect.measure(before_.q, before_.p, nodes.stepper.solver().unknowns());
+    if (k == most_ || (passes(defect, look) && 4 * defect.relative() <= first)) return k;
     // Once it is small, the error of the quadrature of a smooth force falls by far more when k is doubled.
     if (small && k < 2 * reference_k) continue;
     if (small && 2 * defect.relative() > reference) return reference_k == nodes.method.k ? 0 : reference_k;
@@ -119,12 +144,20 @@ int RaisingStepper<S>::enough_nodes(Nodes& nodes) const {
 }
 
 template <Scalar S>
-long RaisingStepper<S>::examine(State<S>& state) {
+bool RaisingStepper<S>::is_round_off(Nodes& nodes) const {
+  if (!nodes.defect.may_be_round_off()) return false;
+  QuadratureDefect<S> half(problem_, std::max(s_, nodes.method.k / 2), s_, h_);
+  half.measure(before_.q, before_.p, nodes.stepper.solver().unknowns());
+  return half.relative() <= 2 * nodes.defect.relative();
+}
+
+template <Scalar S>
+long RaisingStepper<S>::examine(State<S>& state, Look look) {
   since_ = 0;
   exceeds_records(true);
   take_round_off(state);
-  QuadratureDefect<S>* defect = &nodes_->defect;
-  if (defect->measure(before_.q, before_.p, nodes_->stepper.solver().unknowns()) <= tolerated_) return 0;
+  nodes_->defect.measure(before_.q, before_.p, nodes_->stepper.solver().unknowns());
+  if (passes(nodes_->defect, look)) return 0;
 
   // Rare: allocations do not matter from here on.
   long sweeps = 0;
@@ -133,13 +166,14 @@ long RaisingStepper<S>::examine(State<S>& state) {
   bool enough = false;
   while (!enough) {
     Nodes& last = more ? *more : *nodes_;
-    const int k = last.method.k < most_ ? enough_nodes(last) : 0;
-    if (k == 0) {
-      enough = last.defect.may_be_round_off();
-      if (enough) raise_to(tolerated_, S(2 * last.defect.defect()));
+    const bool greatest = last.method.k >= most_;
+    const int next_k = greatest ? 0 : enough_nodes(last, look);
+    if (next_k == 0) {
+      enough = !greatest || is_round_off(last);
+      if (enough) raise_to(noise_, S(2 * last.defect.relative()));
       break;
     }
-    std::unique_ptr<Nodes> next = make_nodes(k);
+    std::unique_ptr<Nodes> next = make_nodes(next_k);
     copy_state(repeated, before_);
     try {
       sweeps += next->stepper.step(repeated);
@@ -149,7 +183,15 @@ long RaisingStepper<S>::examine(State<S>& state) {
     }
     if (more) add_counts(past_, more->stepper.counts(), problem_);
     more = std::move(next);
-    enough = more->defect.measure(before_.q, before_.p, more->stepper.solver().unknowns()) <= tolerated_;
+    more->defect.measure(before_.q, before_.p, more->stepper.solver().unknowns());
+    enough = passes(more->defect, look);
+  }
+  if (!enough && on_shortage_ == OnShortage::fail) {
+    copy_state(state, before_);
+    if (more) add_counts(past_, more->stepper.counts(), problem_);
+    throw StageFailure(FailureCause::stage_equations_diverge,
+                       "no number of nodes up to " + std::to_string(most_) + " integrates the forces to round-off",
+                       to_scientific(nodes_->defect.relative(), 3), sweeps);
   }
   if (!enough) wait();
   if (!more) return sweeps;

@@ -236,7 +236,8 @@ std::pair<long, bool> Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0
     }
     if (rule_.is_coarse()) rule_.show_terms(x_.gamma);
     const Verdict verdict = rule_.judge();
-    if (verdict == Verdict::not_finite) return {sweeps, false};
+    if (verdict == Verdict::not_finite || verdict == Verdict::stagnant || verdict == Verdict::endless)
+      return {sweeps, false};
     if (verdict == Verdict::converged) {
       if (full) {
         if (sweeps > 1) set(rate_, rule_.rate());

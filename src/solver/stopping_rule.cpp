@@ -167,7 +167,7 @@ typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
       set_product(left_, left_, expected_[j]);
     }
     set_product(t_, scale_[j], negligible_);
-    const bool negligible = !exceeds(left_, t_);
+    const bool negligible = !exceeds(left_, t_) || (!first && !exceeds(change_[j], t_) && !exceeds(last_[j], t_));
     set_rounding(j, t_);
     set_product(t_, t_, kappa_);
     const bool rounding = !exceeds(change_[j], t_) || !exceeds(change_[j], tiny_);

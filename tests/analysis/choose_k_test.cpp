@@ -187,7 +187,7 @@ TYPED_TEST(ChooseK, DefectIsMeasuredInRoundOff) {
 }
 
 TYPED_TEST(ChooseK, OfAStepThatCannotBeMadeIsAnIntegrationError) {
-  EXPECT_THROW(this->chosen(assembled<TypeParam>({attraction}), 1, "20"), StepError);
+  EXPECT_THROW(this->chosen(assembled<TypeParam>({attraction}, "[0, 0]"), 1, "20"), StepError);
 }
 
 /// A stone falls into the center within the first steps: whatever comes before is integrated by a k that is enough for

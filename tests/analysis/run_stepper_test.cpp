@@ -65,7 +65,7 @@ TYPED_TEST(RunSteps, AreDividedWhereTheyFailAndConserve) {
 TYPED_TEST(RunSteps, MayBeDividedAndHaveTheirNodesChosen) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(read_scene(charged_pendulum("\"3/2\""), "test"));
-  const TimeGrid<S> grid(Expression::parse("1/2"), Expression::parse("8"));
+  const TimeGrid<S> grid(Expression::parse("1"), Expression::parse("8"));
   RunStepper<S> stepper(scene, MethodName::parse("hbvm:auto,2"), grid.step(), SolverKind::fixed_point,
                         OnFailure::halve);
   EnergyScale<S> scale(scene.problem);

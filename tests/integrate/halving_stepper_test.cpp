@@ -63,10 +63,11 @@ TEST_F(Halving, DividesOneThatFailsAndReturnsToTheWhole) {
     halving.step(state);
     EXPECT_EQ(state.q[0], n);
   }
-  EXPECT_EQ(halving.log().steps, 1);
+  // 1/4 four times; the next step begins with a half.
+  EXPECT_EQ(halving.log().steps, 2);
   EXPECT_EQ(halving.log().first_step, 2);
   EXPECT_EQ(halving.log().depth, 2);
-  EXPECT_EQ(halving.log().substeps, 4);
+  EXPECT_EQ(halving.log().substeps, 6);
   EXPECT_EQ(tried.back(), 1);
 }
 

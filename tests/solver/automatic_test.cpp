@@ -54,8 +54,8 @@ TEST(Automatic, InDoubleTurnsToNewtonAfterASlowStep) {
   EXPECT_GT(first, Automatic<double>::slow);
   EXPECT_EQ(automatic.step(), first) << "the first step is the fixed point's";
   for (int n = 0; n < 10; ++n) {
-    EXPECT_LE(automatic.step(), 10) << n;
-    EXPECT_GT(fixed_point.step(), 10) << n;
+    EXPECT_LE(automatic.step(), 14) << n;
+    EXPECT_GT(fixed_point.step(), 14) << n;
   }
   EXPECT_NEAR(energy(automatic.state), start, 64 * epsilon<double>() * start);
 }
@@ -65,11 +65,13 @@ TEST(Automatic, InDoubleTurnsToNewtonWhereTheFixedPointFails) {
   EXPECT_THROW(fixed_point.step(), StageFailure);
   Motion<double> automatic(SolverKind::automatic, 3.0);
   const double start = energy(automatic.state);
-  long sweeps = 0;
+  long sweeps = 0, first = 0;
   for (int n = 0; n < 10; ++n) {
     ASSERT_NO_THROW(sweeps = automatic.step()) << n;
+    if (n == 0) first = sweeps;
+    // Newton follows the solution of so long a step from shorter ones.
     if (n > 0) {
-      EXPECT_LE(sweeps, 10) << "it is not tried again at step " << n;
+      EXPECT_LT(sweeps, first - 20) << "it is not tried again at step " << n;
     }
   }
   EXPECT_NEAR(energy(automatic.state), start, 64 * epsilon<double>() * start);

@@ -21,7 +21,7 @@ std::optional<int> degree_of_U(const Problem<S>& problem);
 /// For a polynomial U of degree mu the least k >= s that integrates it exactly, k >= mu s/2, (hDj). Otherwise the least
 /// k for which, at the solutions of the first 16 steps, psi_hat agrees with that of k + s to round-off; or, if with no
 /// k that many steps can be made, the one that comes farthest. \throws InputError if no k up to max_k will do,
-/// StepError if the first step cannot be made with any k
+/// StepError if no k makes the first step
 template <Scalar S>
 ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind solver);
 

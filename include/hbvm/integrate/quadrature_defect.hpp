@@ -21,6 +21,8 @@ class QuadratureDefect {
   /// The same change over the size alone. One that is more than sqrt(epsilon) is no round-off, however ill-conditioned
   /// the force.
   const S& relative() const { return relative_; }
+  /// Whether it is no more than what rounding usually makes of a mean of k + s terms: 4 sqrt(k + s) epsilon.
+  bool is_least() const { return relative_ <= least_; }
   bool may_be_round_off() const { return relative_ * relative_ < epsilon<S>(); }
 
  private:
@@ -34,7 +36,7 @@ class QuadratureDefect {
 
   const Problem<S>& problem_;
   Nodes few_, more_;
-  S unit_, defect_ = 0, relative_ = 0, difference_ = 0, size_ = 0, t_ = 0;
+  S unit_, least_, defect_ = 0, relative_ = 0, difference_ = 0, size_ = 0, t_ = 0;
 };
 
 #define HBVM_DECLARE(S) extern template class QuadratureDefect<S>;

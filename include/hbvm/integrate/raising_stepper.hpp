@@ -21,23 +21,34 @@ struct NodeLog {
   long first_unresolved = 0;  ///< the first of them
 };
 
+/// What to do with a step for which no number of nodes is enough.
+enum class OnShortage {
+  keep,  ///< it is kept, and logged
+  fail   ///< it fails, as one does whose stage equations cannot be solved: who divides it needs fewer nodes
+};
+
 /// Steps of HBVM(k, s) whose k is raised where it no longer suffices, and never falls. As long as it suffices the
 /// digits are those of HbvmStepper.
 ///
-/// A step is examined if its energy changed by more than round-off, if a body's force or momentum is greater by 1/8
-/// than in any step examined before, and every `interval` steps: by the QuadratureDefect, which sees each body with its
-/// own scale, where the energy is blind to a light one. If more nodes would change the step, their number is raised by
-/// quarters until they do not, along the polynomial of the step as made, and the step is repeated from its start; and
-/// so on until a repeated step passes. A defect that more nodes do not make smaller is round-off, and tolerated from
-/// then on. If no number of nodes is enough, or steps with more nodes fail, the step is too large for the motion:
-/// that is logged, the step is kept, and none is examined for a while, each time twice as long.
+/// A step is examined if its energy, or that since the first step, changed by more than round-off, if a body's force or
+/// momentum is greater by 1/8 than in any step examined before, and every `interval` steps: by the QuadratureDefect,
+/// which sees each body with its own scale, where the energy is blind to a light one. If more nodes would change the
+/// step, their number is raised by quarters until they do not, along the polynomial of the step as made, and the step
+/// is repeated from its start; and so on until a repeated step passes. A defect that more nodes do not make smaller is
+/// round-off, and tolerated from then on.
+///
+/// If no number of nodes is enough, or steps with more nodes fail, the step is too large for the motion. Where such
+/// steps fail, eight times as many nodes as at first are the most. Where they are kept, that is logged, the step is
+/// as it was (unless more nodes reduce the change of its energy by 2^10), and none is examined for a while, each time
+/// twice as long.
 template <Scalar S>
 class RaisingStepper final : public Stepper<S> {
  public:
   static constexpr long interval = 16;
 
   /// Starts with k nodes. The problem and the log must outlive it.
-  RaisingStepper(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, NodeLog& log);
+  RaisingStepper(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, NodeLog& log,
+                 OnShortage on_shortage = OnShortage::keep);
 
   const Problem<S>& problem() const override { return problem_; }
   long step(State<S>& state) override;
@@ -57,20 +68,28 @@ class RaisingStepper final : public Stepper<S> {
     Nodes(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver);
   };
 
+  /// How closely a step is looked at: by QuadratureDefect's own measure, or, where the energy shows an error, by what
+  /// rounding makes of a mean of k + s terms.
+  enum class Look { usual, strict };
+
   std::unique_ptr<Nodes> make_nodes(int k) const;
   /// Takes the energy at the state.
   void take_energy(const State<S>& state);
-  /// Takes the sizes of the terms of the energy at the start and at the end of the step just made, for its round-off.
+  /// Takes the round-off of the energy at the start and at the end of the step just made.
   void take_round_off(const State<S>& state);
-  /// Whether the step just made is to be examined.
-  bool is_due(const State<S>& state);
+  /// Whether the energy shows an error: in the step just made, or since the first.
+  bool energy_changed(const State<S>& state);
   /// Whether a body's psi or gamma is greater by 1/8 than its record; with `keep`, makes it the record.
   bool exceeds_records(bool keep);
+
+  bool passes(const QuadratureDefect<S>& defect, Look look) const;
   /// Examines the step just made, and repeats it with more nodes where that helps. \return the sweeps of that
-  long examine(State<S>& state);
+  long examine(State<S>& state, Look look);
   /// The least k, by quarters, above that of `nodes` that is enough along the polynomial it has made, or the greatest
   /// allowed; 0 if more nodes do not make the defect smaller, which is then round-off.
-  int enough_nodes(Nodes& nodes) const;
+  int enough_nodes(Nodes& nodes, Look look) const;
+  /// Whether the defect with the greatest number of nodes is round-off: half of them have no greater one.
+  bool is_round_off(Nodes& nodes) const;
   /// Examines no steps for a while.
   void wait();
 
@@ -79,18 +98,20 @@ class RaisingStepper final : public Stepper<S> {
   S h_;
   SolverKind solver_;
   NodeLog& log_;
+  OnShortage on_shortage_;
   bool timed_ = false;
   std::unique_ptr<Nodes> nodes_;
   SolverCounts past_;  ///< of nodes given up
   S epsilon_, nine_eighths_;
   EnergyTerms<S> energy_;
-  State<S> before_;
+  State<S> before_, after_;  ///< the step just made
   S H_ = 0, change_ = 0, round_off_ = 0, t_ = 0, u_ = 0;
-  // What it remembers beside k: from step to step, and of the motion so far.
+  // What it remembers of the motion so far, beside k, after_ and round_off_.
   bool started_ = false;
-  long since_ = 0, wait_ = 0, pause_ = interval;
-  S tolerated_;        ///< defect that counts as round-off
-  Matrix<S> records_;  ///< bodies x 2: the greatest force and momentum examined
+  long made_ = 0, since_ = 0, wait_ = 0, pause_ = interval, root_ = 0;
+  S first_H_ = 0, alarm_ = 0;  ///< the energy before the first step, and the change since that is looked at next
+  S noise_ = 0;                ///< relative defect that counts as round-off
+  Matrix<S> records_;          ///< bodies x 2: the greatest force and momentum examined
 };
 
 #define HBVM_DECLARE(S) extern template class RaisingStepper<S>;

@@ -76,10 +76,11 @@ class Recorder final : public Observer<S> {
 /// Signs without a pattern.
 bool positive(Index i) { return (7919 * (i + 1) + 4271) % 10'007 % 2 == 0; }
 
-/// Changes each hidden constraint by so much of its terms, through the smallest change of momenta (grad g Gram^-1 r)
-/// that does. Redundant constraints cannot be changed one by one.
+/// Changes each constraint and each hidden constraint by so much of its terms, through the smallest changes of
+/// positions and momenta that do, M^-1 grad g Gram^-1 r and grad g Gram^-1 r. Redundant constraints cannot be changed
+/// one by one.
 template <Scalar S>
-void kick_hidden_constraints(const Problem<S>& problem, State<S>& state, const S& relative) {
+void kick_constraints(const Problem<S>& problem, State<S>& state, const S& relative) {
   const Index nu = problem.nu();
   if (nu == 0) return;
   Vector<S> v(problem.m());
@@ -91,27 +92,56 @@ void kick_hidden_constraints(const Problem<S>& problem, State<S>& state, const S
   Lu<S> lu;
   lu.set(gram);
   if (!lu.factor()) return;
-  Vector<S> r = Vector<S>::Zero(nu);
+  Vector<S> positions(nu), momenta(nu);
   for (Index a = 0; a < nu; ++a) {
+    S slope = 0, speed = 0;
     const auto& pattern = gradient.pattern(a);
-    for (std::size_t c = 0; c < pattern.coordinates.size(); ++c)
-      r[a] += magnitude(S(gradient.values()(0, pattern.first + static_cast<Index>(c)) * v[pattern.coordinates[c]]));
-    r[a] *= positive(a) ? relative : S(-relative);
+    for (std::size_t c = 0; c < pattern.coordinates.size(); ++c) {
+      slope += magnitude(gradient.values()(0, pattern.first + static_cast<Index>(c)));
+      raise_magnitude(speed, v[pattern.coordinates[c]]);
+    }
+    const S signed_relative = positive(a) ? relative : S(-relative);
+    momenta[a] = signed_relative * slope * speed;
+    positions[a] =
+        signed_relative * value(problem.constraints[static_cast<std::size_t>(a)], problem.dimension, state.q).size;
   }
-  lu.solve(r);
-  gradient.add_times(r.transpose(), lanes(state.p));
+  lu.solve(positions);
+  lu.solve(momenta);
+  gradient.add_weighted_times(positions.transpose(), lanes(state.q));
+  gradient.add_times(momenta.transpose(), lanes(state.p));
 }
 
 template <Scalar S>
 void kick(const Problem<S>& problem, State<S>& state, long bits) {
   S relative = 1;
   for (long i = 0; i < bits; ++i) relative /= 2;
-  kick_hidden_constraints(problem, state, relative);
+  kick_constraints(problem, state, relative);
   for (Index i = 0; i < state.q.size(); ++i) {
     state.q[i] *= positive(2 * i) ? S(1 + relative) : S(1 - relative);
     state.p[i] *= positive(2 * i + 1) ? S(1 + relative) : S(1 - relative);
   }
 }
+
+/// Kicks the state at the start and at every eighth of the run, then makes the step.
+template <Scalar S>
+class KickingStepper final : public Stepper<S> {
+ public:
+  KickingStepper(Stepper<S>& inner, long bits, long steps)
+      : inner_(inner), bits_(bits), every_(std::max(1L, steps / samples)) {}
+
+  const Problem<S>& problem() const override { return inner_.problem(); }
+  long step(State<S>& state) override {
+    if (bits_ > 0 && made_++ % every_ == 0) kick(problem(), state, bits_);
+    return inner_.step(state);
+  }
+  const Vector<S>& multiplier() const override { return inner_.multiplier(); }
+  SolverCounts counts() const override { return inner_.counts(); }
+  void measure_time() override { inner_.measure_time(); }
+
+ private:
+  Stepper<S>& inner_;
+  long bits_, every_, made_ = 0;
+};
 
 template <Scalar S>
 Motion motion_in(const RunRequest& request, const Twist& twist) {
@@ -119,10 +149,10 @@ Motion motion_in(const RunRequest& request, const Twist& twist) {
   const Assembled<S> scene = assemble<S>(request.scene);
   const Hbvm<S> method = make_hbvm<S>(request.method.k, request.method.s);
   State<S> state(scene.q0, scene.p0);
-  if (twist.kick_bits > 0 && !twist.back) kick(scene.problem, state, twist.kick_bits);
   const auto run = [&] {
     Recorder<S> recorder(scene.problem, grid);
-    HbvmStepper<S> stepper(scene.problem, method, grid.step(), request.solver);
+    HbvmStepper<S> plain(scene.problem, method, grid.step(), request.solver);
+    KickingStepper<S> stepper(plain, twist.kick_bits, grid.steps());
     integrate<S>(stepper, state, grid, {&recorder});
     return Motion{recorder.take(), recorder.scale(), grid.steps()};
   };
@@ -130,7 +160,6 @@ Motion motion_in(const RunRequest& request, const Twist& twist) {
   if (!twist.back) return motion;
   state.p = -state.p;
   state.p_carry = -state.p_carry;
-  if (twist.kick_bits > 0) kick(scene.problem, state, twist.kick_bits);
   const Motion back = run();
   motion.steps += back.steps;
   motion.samples.push_back(back.samples.back());

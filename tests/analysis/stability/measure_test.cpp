@@ -76,7 +76,7 @@ TEST(Energy, IsInUnitsOfItsTerms) {
 TEST(Guarded, NamesTheCause) {
   EXPECT_EQ(guarded([]() -> CaseResult { throw InputError("x"); }).failure, "refused");
   EXPECT_EQ(guarded([]() -> CaseResult { throw IntegrationError("x"); }).failure, "integration_error");
-  const CaseResult result = accuracy(request(kepler("9/10"), "hbvm:2,2", "double", "64", "128"));
+  const CaseResult result = accuracy(request(load_scene("double_pendulum"), "hbvm:3,3", "double", "4", "128"));
   EXPECT_EQ(result.failure, "stage_equations_diverge") << result.message;
   EXPECT_THROW(guarded([]() -> CaseResult { throw std::logic_error("a mistake"); }), std::logic_error);
 }
