@@ -90,6 +90,7 @@ TEST(SceneProject, RefusesBadInput) {
   const std::string good = folder.write("good.toml", inconsistent_pendulum());
   std::string text = inconsistent_pendulum();
   text += text.substr(text.find("[[constraint]]"), text.find("[[effect]]") - text.find("[[constraint]]"));
+  text.replace(text.rfind("length = 1"), 10, "length = 2");
   expect_refused({"scene", "project", folder.write("twice.toml", text)}, {"twice.toml", "no consistent position"});
   expect_refused({"scene", "project"}, {"scene"});
   expect_refused({"scene", "project", "keplr"}, {"'kepler'"});
