@@ -1,19 +1,11 @@
 #include "expected_csv.hpp"
 
-#include <fstream>
 #include <sstream>
 
 #include "hbvm/error.hpp"
+#include "hbvm/read_file.hpp"
 
 namespace hbvm {
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError("cannot read " + path.string());
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells;

@@ -9,9 +9,6 @@ namespace hbvm {
 /// The cells of a line of comma-separated values.
 std::vector<std::string> split(const std::string& line);
 
-/// \throws InputError
-std::string read_file(const std::filesystem::path& path);
-
 /// A study's expected.csv: column names in the first line, after "# ".
 struct ExpectedCsv {
   std::vector<std::string> columns;

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "expected_csv.hpp"
+#include "hbvm/read_file.hpp"
 #include "scene/toml_table.hpp"
 
 namespace hbvm {

@@ -1,7 +1,5 @@
 #include "hbvm/analysis/run.hpp"
 
-#include <ostream>
-
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/integrate/energy_scale.hpp"
 #include "hbvm/integrate/momentum_drift.hpp"
@@ -20,6 +18,7 @@ class Progress final : public Observer<S> {
   void observe(const Snapshot<S>& snapshot) override {
     if (report_) report_(snapshot.n, steps_);
   }
+  void remember(Archive&) override {}
 
  private:
   const std::function<void(long, long)>& report_;
@@ -72,21 +71,51 @@ HalvingReport report_halving(const HalvingLog& log, const TimeGrid<S>& grid) {
   return report;
 }
 
+/// The file of a trajectory, which a run that goes on continues.
+template <Scalar S>
+class KeptFile final : public Observer<S> {
+ public:
+  explicit KeptFile(CsvFile& file) : file_(file) {}
+  void observe(const Snapshot<S>&) override {}
+  void remember(Archive& archive) override { archive(file_); }
+
+ private:
+  CsvFile& file_;
+};
+
+/// The scene at the state that its first step is made from.
+template <Scalar S>
+Assembled<S> seen_by_stepper(const Assembled<S>& scene, Direction direction) {
+  Assembled<S> seen = scene;
+  if (direction == Direction::backward) seen.p0 = -seen.p0;
+  return seen;
+}
+
 template <Scalar S>
 RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
-  const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
-  const Assembled<S> scene = assemble<S>(request.scene);
-  std::unique_ptr<std::ostream> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
+  const TimeGrid<S> grid(request.step, request.until, request.scene.constants, request.direction);
+  Assembled<S> scene = assemble<S>(request.scene);
+  Course<S> course{{}, hooks.checkpoints};
+  if (request.start) {
+    course.start = evaluate(*request.start, request.scene, scene);
+    scene.q0 = course.start->q;
+    scene.p0 = course.start->p;
+  }
+  std::unique_ptr<CsvFile> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
   RunResult result;
-  RunStepper<S> stepper(scene, request.method, grid.step(), request.solver, request.on_failure);
+  const Assembled<S> seen = seen_by_stepper(scene, request.direction);
+  RunStepper<S> stepper(seen, request.method, grid.step(), request.solver, request.on_failure);
   result.method = stepper.method();
 
   Progress<S> progress(hooks.progress, grid.steps());
   std::vector<Observer<S>*> observers{&progress};
   std::optional<Trajectory<S>> trajectory;
+  std::optional<KeptFile<S>> kept_file;
   if (csv) {
     trajectory.emplace(scene.problem, *csv, hooks.every, grid.steps(), hooks.provenance);
     observers.push_back(&*trajectory);
+    kept_file.emplace(*csv);
+    observers.push_back(&*kept_file);
   }
   MomentumDrift<S> momenta(scene.problem, observed_momenta(request.scene, scene));
   if (!momenta.components().empty()) observers.push_back(&momenta);
@@ -96,21 +125,24 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.m(), grid.steps()));
   std::optional<EnergyScale<S>> scale;
   if (stepper.chosen()) observers.push_back(&scale.emplace(scene.problem));
-  const Simulated<S> simulated =
-      simulate<S>(scene, stepper, grid, observers, request.account ? &result.account : nullptr, &health.decay());
+  const Simulated<S> simulated = simulate<S>(scene, stepper, grid, observers,
+                                             request.account ? &result.account : nullptr, &health.decay(), course);
 
-  if (csv && !csv->flush()) throw InputError("cannot write '" + hooks.csv_name + "': is the disk full?");
+  if (csv) csv->flush();
 
   const Snapshot<S>& end = simulated.integration.end;
   if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_H);
   if (stepper.halving()) result.halving = report_halving(*stepper.halving(), grid);
   result.step = to_text(grid.step());
+  result.until = to_text(grid.until());
   result.t = to_text(end.t);
   result.steps = grid.steps();
   result.q = texts(end.q);
   result.p = texts(end.p);
   RedundantConstraints<S> redundant(scene.problem);
   result.lambda = texts(redundant.multipliers(end.q, end.lambda));
+  result.q_carry = texts(simulated.state.q_carry);
+  result.p_carry = texts(simulated.state.p_carry);
   Point<S> point(scene.problem);
   const OutputState<S> output = output_state(point, end.q, end.p);
   result.output_p = texts(output.p);
@@ -126,8 +158,7 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
     result.health.warnings.push_back(
         {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +
                                       to_scientific(simulated.redundancy, 3) + " of their terms"});
-  if (shadowed)
-    result.shadow = shadowed->compare(request.scene, result.method, request.solver, request.step, request.until);
+  if (shadowed) result.shadow = shadowed->compare(request, result.method, course.start);
   result.cpu_seconds = simulated.integration.cpu_seconds;
   if (request.scene.observes("energy"))
     result.observables.push_back({"energy", to_text(simulated.H0), to_text(simulated.e_H)});

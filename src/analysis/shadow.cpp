@@ -19,6 +19,18 @@ unsigned digits_of_shadow() {
   return static_cast<unsigned>(digits10<S>()) + more;
 }
 
+template <Scalar S>
+Vector<Mpfr> exact_vector(const Vector<S>& x) {
+  return x.unaryExpr([](const S& entry) { return rounded_to<Mpfr>(raw(exactly(entry))); });
+}
+
+/// What a state stands for: its numbers with the carry that belongs to them, which more digits hold.
+template <Scalar S>
+State<Mpfr> exact_state(const State<S>& state) {
+  return {exact_vector<S>(state.q) + exact_vector<S>(state.q_carry),
+          exact_vector<S>(state.p) + exact_vector<S>(state.p_carry)};
+}
+
 /// Sees the shadow's mesh points.
 template <Scalar S>
 class Comparison final : public Observer<Mpfr> {
@@ -91,8 +103,8 @@ void ShadowedRun<S>::observe(const Snapshot<S>& snapshot) {
 }
 
 template <Scalar S>
-Shadow ShadowedRun<S>::compare(const Scene& scene, const MethodName& method, SolverKind solver, const Expression& step,
-                               const Expression& until) const {
+Shadow ShadowedRun<S>::compare(const RunRequest& request, const MethodName& method,
+                               const std::optional<State<S>>& start) const {
   using std::log10;
   const double all = significand_bits<S>() * log10(double{2});
   const unsigned digits = digits_of_shadow<S>();
@@ -102,8 +114,13 @@ Shadow ShadowedRun<S>::compare(const Scene& scene, const MethodName& method, Sol
   shadow.every = every_;
   try {
     Comparison<S> comparison(states_, every_, steps_);
-    const TimeGrid<Mpfr> grid(step, until, scene.constants);
-    simulate(assemble<Mpfr>(scene), make_hbvm<Mpfr>(method.k, method.s), solver, grid, {&comparison});
+    const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
+    const Hbvm<Mpfr> hbvm = make_hbvm<Mpfr>(method.k, method.s);
+    HbvmStepper<Mpfr> stepper(scene.problem, hbvm, grid.step(), request.solver);
+    Course<Mpfr> course;
+    if (start) course.start = exact_state(*start);
+    simulate<Mpfr>(scene, stepper, grid, {&comparison}, nullptr, nullptr, course);
     comparison.report(shadow, all);
   } catch (const Error& error) {
     shadow.failure = error.what();

@@ -6,6 +6,7 @@
 
 #include "expected_csv.hpp"
 #include "experiment.hpp"
+#include "hbvm/read_file.hpp"
 #include "hbvm/version.hpp"
 #include "study_figure.hpp"
 

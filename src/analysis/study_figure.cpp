@@ -100,11 +100,7 @@ std::vector<std::string> study_figure(const Experiment& experiment, TomlTable re
     hooks.provenance = provenance;
     hooks.provenance.push_back("method " + request.method.text() + ", step " + request.step.text() + ", until " +
                                request.until.text());
-    hooks.open_csv = [&] {
-      auto file = std::make_unique<std::ofstream>(csvs.back());
-      if (!*file) throw InputError("cannot write " + csvs.back());
-      return std::unique_ptr<std::ostream>(std::move(file));
-    };
+    hooks.open_csv = [&] { return std::make_unique<CsvFile>(csvs.back(), CsvFile::Opening::anew); };
     hbvm::run(request, hooks);
     columns = split(first_line(csvs.back()).substr(2));
   }

@@ -5,11 +5,12 @@
 
 #include "commands.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/interruption.hpp"
 #include "hbvm/version.hpp"
 
 namespace {
 
-enum Exit { ok = 0, failed = 1, bad_input = 2, integration_failed = 3 };
+enum Exit { ok = 0, failed = 1, bad_input = 2, integration_failed = 3, signalled = 128 };
 
 /// One line on standard error, whatever the text holds.
 int report(int code, std::string what) {
@@ -52,6 +53,8 @@ int main(int argc, char** argv) {
     return report(bad_input, std::string(error.what()) + " (see hbvm --help)");
   } catch (const hbvm::InputError& error) {
     return report(bad_input, error.what());
+  } catch (const hbvm::Interrupted& end) {
+    return report(signalled + end.signal(), end.what());
   } catch (const hbvm::Error& error) {
     return report(integration_failed, error.what());
   } catch (const std::bad_alloc&) {

@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,8 +11,12 @@
 #include "commands.hpp"
 #include "hbvm/analysis/run.hpp"
 #include "hbvm/integrate/time_grid.hpp"
+#include "hbvm/interruption.hpp"
+#include "hbvm/read_file.hpp"
 #include "hbvm/version.hpp"
 #include "progress_bar.hpp"
+#include "resume.hpp"
+#include "signals.hpp"
 
 namespace hbvm {
 namespace {
@@ -23,9 +24,13 @@ namespace {
 struct Options {
   std::string scene, method, step, until;
   std::string precision = "double", solver = "auto", on_failure = "stop";
-  std::optional<std::string> out;
+  std::optional<std::string> out, start;
   long every = 1;
-  bool json = false, account = false, strict = false, shadow = false;
+  bool json = false, account = false, strict = false, shadow = false, reverse = false;
+  std::optional<std::string> checkpoint, resume;
+  double every_seconds = 60;
+  std::optional<Checkpoint> resumed;
+  bool scene_given = true, start_given = true;  ///< now, and not only when the checkpoint was written
 };
 
 nlohmann::ordered_json json_of(const Health& health) {
@@ -60,11 +65,15 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
   j["solver"] = name_of(request.solver);
   j["precision"] = request.precision.name();
   j["step"] = result.step;
-  j["until"] = result.t;
+  j["until"] = result.until;
+  if (request.direction == Direction::backward) j["reverse"] = true;
+  if (request.start) j["start"] = request.start->file;
   j["steps"] = result.steps;
   j["t"] = result.t;
   j["q"] = result.q;
   j["p"] = result.p;
+  j["q_carry"] = result.q_carry;
+  j["p_carry"] = result.p_carry;
   j["lambda"] = result.lambda;
   j["output"] = {{"p", result.output_p}, {"lambda", result.output_lambda}, {"delta_H", result.output_delta_H}};
   j["e_H"] = result.e_H;
@@ -164,12 +173,18 @@ void print(const RunRequest& request, const RunResult& result) {
   if (request.account) fmt::print("\n{}", to_text(result.account));
 }
 
-std::unique_ptr<std::ostream> open(const std::string& path, const std::string& scene) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(path, scene, ignored)) throw InputError("'" + path + "' is the scene itself");
-  auto file = std::make_unique<std::ofstream>(path);
-  if (!*file) throw InputError("--out: cannot write '" + path + "': " + std::strerror(errno));
-  return file;
+std::unique_ptr<CsvFile> open(const std::string& path, const Options& o) {
+  try {
+    if (o.resumed) return std::make_unique<CsvFile>(path, CsvFile::Opening::to_go_on);
+    for (const std::optional<std::string>& input : {std::optional(o.scene), o.start}) {
+      std::error_code ignored;
+      if (input && std::filesystem::equivalent(path, *input, ignored))
+        throw InputError("'" + path + "' is what the run starts from");
+    }
+    return std::make_unique<CsvFile>(path, CsvFile::Opening::anew);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--out: ") + error.what());
+  }
 }
 
 Expression expression(const std::string& what, const std::string& text) {
@@ -180,38 +195,89 @@ Expression expression(const std::string& what, const std::string& text) {
   }
 }
 
-void run_command(const Options& o) {
+/// What the run is; of one that goes on, what it was. \throws InputError if it is not the same
+RunIdentity identity_of(const Options& o, const CLI::App& command) {
+  const auto refuse = [&](const std::string& why) { throw InputError("--resume: '" + *o.resume + "' " + why); };
+  RunIdentity identity;
+  if (o.resumed) {
+    identity = o.resumed->identity;
+    if (identity.program != version())
+      refuse("was written by hbvm " + identity.program + ", and this is " + version() +
+             ", whose steps may differ in the last bits");
+    if (o.scene_given && write_scene(load_scene(o.scene)) != identity.scene)
+      refuse("is of another scene: of '" + identity.scene_name + "' as it was then");
+    if (o.start && o.start_given && read_file(*o.start) != identity.start)
+      refuse("starts from another state than that in '" + *o.start + "'");
+  } else {
+    const Scene scene = load_scene(o.scene);
+    identity = {version(), scene.name, write_scene(scene), o.start ? read_file(*o.start) : std::string(), {}};
+  }
+  identity.options = given_options(command);
+  return identity;
+}
+
+RunRequest request_of(const Options& o, const RunIdentity& identity) {
+  RunRequest request{o.resumed ? read_scene(identity.scene, identity.scene_name) : load_scene(o.scene),
+                     MethodName::parse(o.method),
+                     parse_solver(o.solver),
+                     expression("step", o.step),
+                     expression("until", o.until),
+                     Precision::parse(o.precision),
+                     o.account,
+                     o.shadow,
+                     parse_on_failure(o.on_failure),
+                     o.reverse ? Direction::backward : Direction::forward};
+  if (o.start) request.start = read_start_state(identity.start, *o.start);
+  return request;
+}
+
+/// The file that keeps the run: the one it goes on from, unless it is to be another.
+std::optional<Checkpoints> checkpoints_of(const Options& o, const RunIdentity& identity) {
+  const std::optional<std::string>& file = o.checkpoint ? o.checkpoint : o.resume;
+  if (!file) return std::nullopt;
+  std::error_code ignored;
+  if (o.out && (*o.out == *file || std::filesystem::equivalent(*o.out, *file, ignored)))
+    throw InputError("--checkpoint: '" + *file + "' is the file of --out");
+  Checkpoints checkpoints(*file, o.every_seconds, identity);
+  if (o.resumed) checkpoints.resume(o.resumed->state);
+  return checkpoints;
+}
+
+void run_command(const Options& o, const CLI::App& command) {
   if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
     throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
-  const RunRequest request{load_scene(o.scene),
-                           MethodName::parse(o.method),
-                           parse_solver(o.solver),
-                           expression("step", o.step),
-                           expression("until", o.until),
-                           Precision::parse(o.precision),
-                           o.account,
-                           o.shadow,
-                           parse_on_failure(o.on_failure)};
+  if (!(o.every_seconds >= 0)) throw InputError("--every-seconds is negative");
+  const RunIdentity identity = identity_of(o, command);
+  const RunRequest request = request_of(o, identity);
+  std::optional<Checkpoints> checkpoints = checkpoints_of(o, identity);
   RunHooks hooks;
   hooks.every = o.every;
+  hooks.checkpoints = checkpoints ? &*checkpoints : nullptr;
   ProgressBar bar(request.scene.name);
   hooks.progress = [&](long done, long total) { bar.update(done, total); };
   if (o.out) {
-    hooks.open_csv = [&] { return open(*o.out, o.scene); };
-    hooks.csv_name = *o.out;
+    hooks.open_csv = [&] { return open(*o.out, o); };
     hooks.provenance = {std::string("hbvm ") + version(), "scene " + request.scene.name + ": " + request.scene.title,
                         "command hbvm run " + o.scene + " --method " + request.method.text() + " --step '" + o.step +
                             "' --until '" + o.until + "' --precision " + request.precision.name() + " --solver " +
                             std::string(name_of(request.solver)) + " --every " + std::to_string(o.every) +
+                            (o.start ? " --start " + *o.start : "") + (o.reverse ? " --reverse" : "") +
                             (request.on_failure == OnFailure::halve ? " --on-failure halve" : "")};
   }
-  const RunResult result = run(request, hooks);
-  if (o.json)
-    std::cout << json_of(request, result) << std::endl;
-  else
-    print(request, result);
-  constexpr int doubtful = 3;
-  if (o.strict && !result.health.warnings.empty()) throw CLI::RuntimeError(doubtful);
+  end_runs_on_signals();
+  try {
+    const RunResult result = run(request, hooks);
+    if (o.json)
+      std::cout << json_of(request, result) << std::endl;
+    else
+      print(request, result);
+    constexpr int doubtful = 3;
+    if (o.strict && !result.health.warnings.empty()) throw CLI::RuntimeError(doubtful);
+  } catch (const Interrupted& end) {
+    const std::string file = o.checkpoint ? *o.checkpoint : o.resume.value_or("");
+    throw Interrupted(end.signal(), end.what() + (file.empty() ? "; --checkpoint FILE would have kept it"
+                                                               : "; go on with: hbvm run --resume " + file));
+  }
 }
 
 }  // namespace
@@ -234,6 +300,24 @@ void add_run_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--out", o->out, "Write the trajectory to this CSV file");
   command->add_option("--every", o->every, "Steps between two lines of the CSV file")->capture_default_str();
+  command->add_option(
+      "--start", o->start,
+      "Start from the state in this JSON file, as --json prints it: q, p and their carry; t begins at 0");
+  command->add_flag("--reverse", o->reverse, "Integrate backwards in time, from t = 0 to minus the final time");
+  command->add_option("--checkpoint", o->checkpoint, "Keep the run in this file, from which --resume goes on");
+  command->add_option("--every-seconds", o->every_seconds, "Seconds between two checkpoints")->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--resume",
+          [o, command](const std::string& file) {
+            o->resume = file;
+            o->scene_given = command->get_option("scene")->count() > 0;
+            o->start_given = command->get_option("--start")->count() > 0;
+            o->resumed = read_checkpoint(file);
+            take_options(*command, file, *o->resumed);
+          },
+          "Go on from this checkpoint, and keep the run in it; all else may be repeated or left out")
+      ->type_name("TEXT");
   command->add_flag("--account", o->account, "Also show what effects and parts of the solver did and took");
   command->add_flag("--strict", o->strict, "Exit code 3 if a warning says that the run may be worth little");
   command->add_flag("--shadow", o->shadow,
@@ -241,7 +325,7 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
       "Example: hbvm run tethered_satellites --method hbvm:5,1 --step 0.1 --until 100 --out satellites.csv");
-  command->callback([o] { run_command(*o); });
+  command->callback([o, command] { run_command(*o, *command); });
 }
 
 }  // namespace hbvm

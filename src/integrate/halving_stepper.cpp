@@ -84,6 +84,17 @@ void HalvingStepper<S>::measure_time() {
     if (stepper) stepper->measure_time();
 }
 
+template <Scalar S>
+void HalvingStepper<S>::remember(Archive& archive) {
+  archive(made_, depth_, last_, successes_, patience_, log_);
+  for (int depth = 0; depth <= deepest; ++depth) {
+    const auto i = static_cast<std::size_t>(depth);
+    bool made = i < steppers_.size() && steppers_[i];
+    archive(made);
+    if (made) archive(stepper(depth));
+  }
+}
+
 #define HBVM_DEFINE(S) template class HalvingStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -29,6 +29,21 @@ long HbvmStepper<S>::step(State<S>& state) {
   return sweeps;
 }
 
+template <Scalar S>
+SolverCounts HbvmStepper<S>::counts() const {
+  SolverCounts sum = earlier_;
+  add_counts(sum, solver_->counts(), problem_);
+  return sum;
+}
+
+template <Scalar S>
+void HbvmStepper<S>::remember(Archive& archive) {
+  archive(multiplier_, *solver_);
+  SolverCounts sum = counts();
+  archive(sum);
+  if (archive.reading()) earlier_ = std::move(sum);
+}
+
 #define HBVM_DEFINE(S) template class HbvmStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -1,9 +1,11 @@
 #include "hbvm/integrate/integrate.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 
 #include "hbvm/clock.hpp"
+#include "hbvm/interruption.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scalar/text.hpp"
 
@@ -21,24 +23,37 @@ StepError::StepError(long step, std::string time, const StageFailure& failure)
 
 template <Scalar S>
 Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
-                         const std::vector<Observer<S>*>& observers) {
+                         const std::vector<Observer<S>*>& observers, Checkpoints* checkpoints) {
   Integration<S> result;
-  const Vector<S> lambda0 = Point<S>(stepper.problem()).multiplier(state.q, state.p);
   const auto show = [&](const Snapshot<S>& snapshot) {
     for (Observer<S>* const observer : observers) observer->observe(snapshot);
   };
-  result.end = {0, S(0), state.q, state.p, lambda0};
-  show(result.end);
+  result.end = {0, S(0), state.q, state.p, Point<S>(stepper.problem()).multiplier(state.q, state.p)};
+  const auto contents = [&](Archive& archive) {
+    archive(result.end.n, result.sweeps, result.cpu_seconds, result.end.lambda, state, stepper);
+    for (Observer<S>* const observer : observers) observer->remember(archive);
+  };
+  if (checkpoints && checkpoints->resumes()) {
+    checkpoints->load(contents);
+    result.end = {result.end.n, grid.time(result.end.n), state.q, state.p, result.end.lambda};
+  } else {
+    show(result.end);
+  }
+  // Also one that resumes shows at once whether it can be kept.
+  if (checkpoints) checkpoints->save(contents);
 
-  // Steps are made in blocks and observed between them, so that the clock is read once a block.
-  constexpr long block = 64;
-  std::vector<Snapshot<S>> snapshots(static_cast<std::size_t>(std::min(block, grid.steps())), result.end);
+  // Steps are made in blocks and observed between them, so that the clock is read once a block. Blocks of slow steps
+  // are shorter, so that what was computed is soon seen and kept.
+  constexpr std::size_t longest = 64;
+  constexpr double long_enough = double{1} / 4;  // seconds a block
+  std::vector<Snapshot<S>> snapshots(static_cast<std::size_t>(std::min<long>(longest, grid.steps())), result.end);
+  std::size_t block = 1;
   std::optional<StepError> failure;
-  for (long n = 0; n < grid.steps() && !failure;) {
+  for (long n = result.end.n; n < grid.steps() && !failure;) {
     std::size_t made = 0;
     const double before = thread_seconds();
     try {
-      for (; made < snapshots.size() && n < grid.steps(); ++made) {
+      for (; made < block && n < grid.steps() && interruption == 0; ++made) {
         result.sweeps += stepper.step(state);
         Snapshot<S>& snapshot = snapshots[made];
         snapshot.n = ++n;
@@ -49,20 +64,30 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     } catch (const StageFailure& error) {
       failure.emplace(n + 1, to_text(grid.time(n)), error);
     }
-    result.cpu_seconds += thread_seconds() - before;
+    const double seconds = thread_seconds() - before;
+    result.cpu_seconds += seconds;
     for (std::size_t i = 0; i < made; ++i) {
       snapshots[i].t = grid.time(snapshots[i].n);
       show(snapshots[i]);
     }
     if (made > 0) result.end = snapshots[made - 1];
+    block = seconds > long_enough ? std::max<std::size_t>(block / 2, 1) : std::min(2 * block, snapshots.size());
+
+    const int signal = n < grid.steps() ? interruption.load() : 0;
+    if (checkpoints && !failure && (signal != 0 || n == grid.steps() || checkpoints->due()))
+      checkpoints->save(contents);
+    if (signal != 0 && !failure)
+      throw Interrupted(signal, std::string("interrupted by SIG") + sigabbrev_np(signal) + " after step " +
+                                    std::to_string(n) + ", t = " + to_text(result.end.t));
   }
   if (failure) throw StepError(*failure);
   result.steps = grid.steps();
   return result;
 }
 
-#define HBVM_DEFINE(S) \
-  template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&, const std::vector<Observer<S>*>&);
+#define HBVM_DEFINE(S)                                                                                               \
+  template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&, const std::vector<Observer<S>*>&, \
+                                       Checkpoints*);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -230,6 +230,15 @@ void RaisingStepper<S>::measure_time() {
   nodes_->stepper.measure_time();
 }
 
+template <Scalar S>
+void RaisingStepper<S>::remember(Archive& archive) {
+  int k = this->k();
+  archive(k);
+  if (k != this->k()) nodes_ = make_nodes(k);
+  archive(nodes_->stepper, past_, after_, H_, round_off_, started_, made_, since_, wait_, pause_, root_, first_H_,
+          alarm_, noise_, records_);
+}
+
 #define HBVM_DEFINE(S) template class RaisingStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -22,8 +22,10 @@ S positive(const Expression& expression, const Constants& constants, const std::
 }  // namespace
 
 template <Scalar S>
-TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Constants& constants)
-    : step_(positive<S>(step, constants, "step")), until_(positive<S>(until, constants, "until")) {
+TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Constants& constants, Direction direction)
+    : step_(positive<S>(step, constants, "step")),
+      until_(positive<S>(until, constants, "until")),
+      direction_(direction) {
   using std::floor;
   const S half = S(1) / 2;
   const S quotient = floor(S(until_ / step_ + half));
@@ -38,8 +40,8 @@ TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Con
 
 template <Scalar S>
 S TimeGrid<S>::time(long n) const {
-  if (n == steps_) return until_;
-  return until_ * S(n) / S(steps_);
+  const S t = n == steps_ ? until_ : S(until_ * S(n) / S(steps_));
+  return direction_ == Direction::backward ? S(-t) : t;
 }
 
 #define HBVM_DEFINE(S) template class TimeGrid<S>;

@@ -38,8 +38,9 @@ std::string plot_of(const Panel& panel) {
                       quoted(panel.y_label) + "\n";
   if (space)
     setup += "set zlabel " + quoted(panel.z_label) + " rotate parallel\nset view 65,35\nset xyplane relative 0.05\n";
-  if (panel.decades)
-    setup += "set format '10^{%g}'\n";
+  if (panel.x_decades > 0)
+    setup += "set format '10^{%g}'\nset xtics " + std::to_string(panel.x_decades) + "\nset ytics " +
+             std::to_string(panel.y_decades) + "\n";
   else
     setup += panel.logarithms ? "set format x '2^{%g}'\nset format y '10^{%g}'\n" : "set format '% h'\n";
   setup += "unset label\n";
@@ -77,8 +78,9 @@ std::string plot_of(const Panel& panel) {
 std::string gnuplot_script(const Figure& figure, const std::string& svg) {
   const std::size_t count = figure.panels.size();
   std::string text = "set datafile separator ','\nset datafile commentschars '#'\nset minussign\nset encoding utf8\n";
-  text +=
-      "set terminal svg size " + std::to_string(480 * count) + ",420 enhanced background rgb 'white' font 'sans,13'\n";
+  // One panel needs room for the names below it.
+  text += "set terminal svg size " + std::to_string(count == 1 ? 600 : 480 * count) +
+          ",420 enhanced background rgb 'white' font 'sans,13'\n";
   text += "set output " + quoted(svg) +
           "\nset grid lc rgb '#dddddd'\nset tics font ',10'\nset offsets graph 0.02,0.02,0.02,0.02\nset key bottom "
           "center outside horizontal\n";
@@ -88,7 +90,8 @@ std::string gnuplot_script(const Figure& figure, const std::string& svg) {
 }
 
 void draw(const Figure& figure, const std::string& svg) {
-  std::FILE* const gnuplot = popen("gnuplot", "w");
+  // Whatever the locale outside: in one without UTF-8 gnuplot warns that it cannot show a degree sign.
+  std::FILE* const gnuplot = popen("LC_ALL=C.UTF-8 gnuplot", "w");
   if (!gnuplot) throw Error("cannot start gnuplot");
   const std::string script = gnuplot_script(figure, svg);
   const bool written = std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();

@@ -56,6 +56,16 @@ void Automatic<S>::measure_time() {
     if (solver) solver->measure_time();
 }
 
+template <Scalar S>
+void Automatic<S>::remember(Archive& archive) {
+  archive(used_, last_sweeps_);
+  for (const int which : {0, 1}) {
+    bool made = solvers_[static_cast<std::size_t>(which)] != nullptr;
+    archive(made);
+    if (made) make(which).remember(archive);
+  }
+}
+
 #define HBVM_DEFINE(S) template class Automatic<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -293,6 +293,15 @@ void Newton<S>::measure_time() {
   if (full_) full_->equations().measure_time();
 }
 
+template <Scalar S>
+void Newton<S>::remember(Archive& archive) {
+  bool full = full_ != nullptr;
+  archive(rate_, failed_in_double_, full);
+  if (rounded_) archive(*rounded_);
+  if (full && !full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_, h_);
+  if (full) archive(*full_);
+}
+
 #define HBVM_DEFINE(S) template class Newton<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -118,8 +118,10 @@ TEST(ShadowedRun, OfManyStepsIsComparedAtSome) {
       q[1] = double(n) / 1000;
       run.observe({n, 0, q, start.p0, {}});
     }
-    return run.compare(scene, MethodName::parse("hbvm:1,1"), SolverKind::fixed_point, Expression::parse("1/1000"),
-                       Expression::parse(std::to_string(steps) + "/1000"));
+    const MethodName method = MethodName::parse("hbvm:1,1");
+    return run.compare({scene, method, SolverKind::fixed_point, Expression::parse("1/1000"),
+                        Expression::parse(std::to_string(steps) + "/1000"), Precision::parse("double")},
+                       method, {});
   };
   for (const auto& [numbers, every] :
        {std::pair(ShadowedRun<double>::most_numbers, 1L), {400L, 11L}, {40L, 101L}, {1L, 1001L}}) {

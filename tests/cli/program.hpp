@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -59,8 +60,9 @@ class Folder {
 };
 
 /// Runs `hbvm` with these arguments, without a terminal and with an empty standard input; ends it after `cpu_limit`
-/// seconds of processor time.
-inline Outcome hbvm(const Arguments& arguments, unsigned cpu_limit = 60) {
+/// seconds of processor time. `meanwhile` is told which process it is.
+inline Outcome hbvm(const Arguments& arguments, unsigned cpu_limit = 60,
+                    const std::function<void(pid_t)>& meanwhile = {}) {
   const Folder folder;
   const std::string out = folder / "out", err = folder / "err";
   std::string program = HBVM_PROGRAM;
@@ -84,6 +86,7 @@ inline Outcome hbvm(const Arguments& arguments, unsigned cpu_limit = 60) {
     execv(program.c_str(), argv.data());
     _exit(127);
   }
+  if (meanwhile) meanwhile(child);
   int status = 0;
   rusage usage{};
   if (wait4(child, &status, 0, &usage) != child) throw std::runtime_error("the program is lost");

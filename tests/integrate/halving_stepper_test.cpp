@@ -26,6 +26,7 @@ class Marching final : public Stepper<double> {
   const Vector<double>& multiplier() const override { return multiplier_; }
   SolverCounts counts() const override { return {}; }
   void measure_time() override {}
+  void remember(Archive&) override {}
 
  private:
   const Problem<double>& problem_;
@@ -114,6 +115,40 @@ TEST_F(Halving, ThatFailsAtTheSmallestSizeLeavesTheStateAndTellsTheCause) {
   EXPECT_EQ(tried.back(), std::ldexp(1, -20));
 }
 
+TEST_F(Halving, IsKeptWithAllThatItRemembers) {
+  // Around each multiple of 8 smaller steps are needed.
+  const auto fails = [](double t, double size) {
+    const double away = std::abs(t + size / 2 - 8 * std::round((t + size / 2) / 8));
+    return away < 2 && size > away / 4 + 1.0 / 64;
+  };
+  HalvingStepper<double> whole = stepper(fails);
+  std::optional<HalvingStepper<double>> part;
+  State<double> resumed = state;
+  Archive kept;
+  for (int n = 0; n < 40; ++n) {
+    part.emplace(1, [&](double size) { return std::make_unique<Marching>(scene.problem, size, fails, tried); });
+    if (n > 0) {
+      Archive reading(kept.text());
+      reading(*part, resumed);
+      reading.expect_end();
+    }
+    tried.clear();
+    const long sweeps = whole.step(state);
+    const std::vector<double> expected = tried;
+    tried.clear();
+    EXPECT_EQ(part->step(resumed), sweeps);
+    EXPECT_EQ(tried, expected) << n;
+    EXPECT_EQ(resumed.q[0], state.q[0]);
+    kept = {};
+    kept(*part, resumed);
+  }
+  EXPECT_GT(whole.log().depth, 4);
+  EXPECT_EQ(part->log().steps, whole.log().steps);
+  EXPECT_EQ(part->log().substeps, whole.log().substeps);
+  EXPECT_EQ(part->log().depth, whole.log().depth);
+  EXPECT_EQ(part->log().first_step, whole.log().first_step);
+}
+
 template <Scalar S>
 class NeverMade final : public Stepper<S> {
  public:
@@ -123,6 +158,7 @@ class NeverMade final : public Stepper<S> {
   const Vector<S>& multiplier() const override { return multiplier_; }
   SolverCounts counts() const override { return {}; }
   void measure_time() override {}
+  void remember(Archive&) override {}
 
  private:
   const Problem<S>& problem_;

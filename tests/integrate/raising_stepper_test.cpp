@@ -106,6 +106,46 @@ TYPED_TEST(Raising, RaisesTheNodesWhereTheMotionNeedsThem) {
   EXPECT_GT(drift.e_H(), 1'000 * raised.scale.round_off(steps)) << "the plain method should fail";
 }
 
+/// Kept and taken up by another one after every step, and the same to the last bit.
+TYPED_TEST(Raising, IsKeptWithAllThatItRemembers) {
+  using S = TypeParam;
+  constexpr long steps = 200;
+  const auto start = [&] {
+    return std::make_unique<Raised<S>>(passing("1"), std::same_as<S, double> ? 3 : 12, 2, S(S(1) / 16),
+                                       SolverKind::automatic);
+  };
+  const auto whole = start();
+  auto part = start();
+  for (long n = 0; n < steps; ++n) {
+    Archive kept;
+    kept(part->stepper, part->state, part->log);
+    Archive reading(kept.text());
+    part = start();
+    reading(part->stepper, part->state, part->log);
+    reading.expect_end();
+    for (Raised<S>* const run : {whole.get(), part.get()}) run->log.step = n;
+    EXPECT_EQ(part->stepper.step(part->state), whole->stepper.step(whole->state)) << n;
+    ASSERT_EQ(part->state.p, whole->state.p) << n;
+    ASSERT_EQ(part->state.q_carry, whole->state.q_carry) << n;
+  }
+  EXPECT_GT(whole->log.raised.size(), 1u);
+  EXPECT_EQ(part->log.raised.size(), whole->log.raised.size());
+  EXPECT_EQ(part->log.raised.back().step, whole->log.raised.back().step);
+  const SolverCounts a = part->stepper.counts(), b = whole->stepper.counts();
+  ASSERT_EQ(a.parts.size(), b.parts.size());
+  for (std::size_t i = 0; i < a.parts.size(); ++i) EXPECT_EQ(a.parts[i].calls, b.parts[i].calls) << a.parts[i].name;
+}
+
+/// The energy of a planet hides that of a body of 10^-30 of its mass; its nodes do not.
+TEST(RaisingForALightBody, BesideAHeavyOneIsAsForItAlone) {
+  const std::string heavy = ", { name = \"planet\", mass = 1, position = [0, 40], velocity = [\"1/8\", 0] }";
+  Raised<double> alone(passing("1"), 3, 2, 1.0 / 32), beside(passing("\"1e-30\"", heavy), 3, 2, 1.0 / 32);
+  alone.run(256);
+  beside.run(256);
+  ASSERT_FALSE(beside.log.raised.empty());
+  EXPECT_GE(beside.stepper.k(), alone.stepper.k() - 2);
+}
+
 /// Scaled by powers of two in length, mass and time, the same nodes are raised at the same steps.
 TEST(RaisingInOtherUnits, IsTheSame) {
   const std::string scaled =
@@ -125,17 +165,45 @@ TEST(RaisingInOtherUnits, IsTheSame) {
   EXPECT_EQ(other.drift.e_H() / other.scale.round_off(256), one.drift.e_H() / one.scale.round_off(256));
 }
 
-/// Across r = 9/10, where |r - 9/10|^3 is not smooth, no number of nodes is enough: the run goes on and says so.
-TEST(RaisingWhereNoNumberIsEnough, IsLogged) {
-  const std::string cubic =
+/// Round-off that a stiff force amplifies is not reported as a lack of nodes.
+TEST(RaisingOfAStiffSpring, IsNoAlarm) {
+  const std::string stiff =
       "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\n"
-      "body = [{ name = \"a\", mass = 1, position = [2, 0], velocity = [-1, \"1/100\"] }]\n"
-      "effect = [{ kind = \"spring\", between = [\"a\", \"O\"], stiffness = 1, exponent = 3, rest_length = \"9/10\" "
-      "}]\n";
+      "body = [{ name = \"a\", mass = 1, position = [\"3/5\", \"-4/5\"], velocity = [\"4/10\", \"3/10\"] }]\n"
+      "effect = [{ kind = \"spring\", between = [\"O\", \"a\"], stiffness = \"10^6\", rest_length = 1 }]\n";
+  Raised<double> raised(stiff, 8, 2, 1.0 / 4096, SolverKind::automatic);
+  raised.run(2'000);
+  EXPECT_EQ(raised.log.unresolved, 0);
+  EXPECT_TRUE(raised.conserved(2'000)) << raised.drift.e_H() << " " << raised.scale.round_off(2'000);
+}
+
+/// Across r = 9/10, where |r - 9/10|^3 is not smooth, no number of nodes is enough.
+const std::string cubic =
+    "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\n"
+    "body = [{ name = \"a\", mass = 1, position = [2, 0], velocity = [-1, \"1/100\"] }]\n"
+    "effect = [{ kind = \"spring\", between = [\"a\", \"O\"], stiffness = 1, exponent = 3, rest_length = \"9/10\" }]\n";
+
+/// The run goes on and says so.
+TEST(RaisingWhereNoNumberIsEnough, IsLogged) {
   Raised<double> raised(cubic, 8, 2, 1.0 / 4);
   raised.run(8);
   EXPECT_EQ(raised.log.unresolved, 1);
   EXPECT_GE(raised.log.first_unresolved, 2);
+}
+
+/// Or the step fails at once, for those who divide it.
+TEST(RaisingWhereNoNumberIsEnough, FailsIfAskedTo) {
+  const Assembled<double> scene = assemble<double>(read_scene(cubic, "cubic"));
+  NodeLog log;
+  RaisingStepper<double> stepper(scene.problem, 8, 2, 1.0 / 4, SolverKind::fixed_point, log, OnShortage::fail);
+  State<double> state(scene.q0, scene.p0);
+  try {
+    for (int n = 0; n < 8; ++n) stepper.step(state);
+    ADD_FAILURE() << "64 nodes were enough";
+  } catch (const StageFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("no number of nodes up to 64"), std::string::npos) << failure.what();
+  }
+  EXPECT_EQ(log.unresolved, 0);
 }
 
 TEST(RaisingOfAStepThatFails, LeavesTheStateAsItWas) {

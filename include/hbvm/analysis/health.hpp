@@ -46,6 +46,8 @@ class HealthWatch final : public Observer<S> {
   HealthWatch(const Problem<S>& problem, int s, const TimeGrid<S>& grid);
 
   void observe(const Snapshot<S>& snapshot) override;
+  /// What decay() has seen is the stepper's to remember, which shows it.
+  void remember(Archive& archive) override { archive(q_, v_, energy_, angles_, hidden_, condition_); }
   CoefficientDecay<S>& decay() { return decay_; }
 
   /// With the method of the run in the end: its k decides what is said of a lost energy.

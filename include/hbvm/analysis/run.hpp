@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,26 +8,12 @@
 
 #include "hbvm/analysis/account.hpp"
 #include "hbvm/analysis/health.hpp"
-#include "hbvm/analysis/run_stepper.hpp"
+#include "hbvm/analysis/run_request.hpp"
 #include "hbvm/analysis/shadow.hpp"
-#include "hbvm/method/method_name.hpp"
-#include "hbvm/scalar/precision.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/solver/stage_solver.hpp"
+#include "hbvm/integrate/checkpoint.hpp"
+#include "hbvm/integrate/csv_file.hpp"
 
 namespace hbvm {
-
-/// One run as a user asks for it.
-struct RunRequest {
-  Scene scene;
-  MethodName method;
-  SolverKind solver = SolverKind::fixed_point;
-  Expression step, until;
-  Precision precision;
-  bool account = false;  ///< measure where the time goes
-  bool shadow = false;   ///< repeat the run with 16 more digits
-  OnFailure on_failure = OnFailure::stop;
-};
 
 /// A quantity the exact motion conserves: its value at the start and its greatest change over the mesh.
 struct Observed {
@@ -60,9 +45,10 @@ struct RunResult {
   MethodName method;                     ///< with k as chosen
   std::optional<NodesReport> nodes;      ///< if k was chosen
   std::optional<HalvingReport> halving;  ///< if steps might be divided
-  std::string step, t;
+  std::string step, until, t;
   long steps = 0;
   std::vector<std::string> q, p, lambda;             ///< lambda: (lagmul)
+  std::vector<std::string> q_carry, p_carry;         ///< what rounding took from q and p
   std::vector<std::string> output_p, output_lambda;  ///< the output state
   std::string output_delta_H;                        ///< H(q, output p) - H_0
   std::string e_H, e_g, e_hid;
@@ -74,14 +60,14 @@ struct RunResult {
 };
 
 struct RunHooks {
-  std::function<std::unique_ptr<std::ostream>()> open_csv;  ///< called once the request is known to be right
-  std::string csv_name;                                     ///< for messages
-  std::vector<std::string> provenance;                      ///< comment lines of the CSV
-  long every = 1;                                           ///< mesh points a CSV line
-  std::function<void(long, long)> progress;                 ///< (steps made, of)
+  std::function<std::unique_ptr<CsvFile>()> open_csv;  ///< called once the request is known to be right
+  std::vector<std::string> provenance;                 ///< comment lines of the CSV
+  long every = 1;                                      ///< mesh points a CSV line
+  std::function<void(long, long)> progress;            ///< (steps made, of)
+  Checkpoints* checkpoints = nullptr;                  ///< where the run is kept, if it is
 };
 
-/// \throws InputError, IntegrationError
+/// \throws InputError, IntegrationError, Interrupted
 RunResult run(const RunRequest& request, const RunHooks& hooks);
 
 }  // namespace hbvm

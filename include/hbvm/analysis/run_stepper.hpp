@@ -35,6 +35,7 @@ class RunStepper final : public Stepper<S> {
   const StageUnknowns<S>* unknowns() const override { return outer_->unknowns(); }
   SolverCounts counts() const override { return outer_->counts(); }
   void measure_time() override { outer_->measure_time(); }
+  void remember(Archive& archive) override { archive(*outer_, nodes_); }
 
   /// With k as chosen.
   const MethodName& method() const { return name_; }

@@ -3,16 +3,15 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/analysis/run_request.hpp"
 #include "hbvm/integrate/integrate.hpp"
-#include "hbvm/method/method_name.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/solver/stage_solver.hpp"
 
 namespace hbvm {
 
 /// How many digits of a run survived rounding: -log10 |x - x_shadow| / max |x| over the path, component by component,
-/// against the same run, from the exact scene, with 16 more digits. At least 0; all digits of the precision where there
-/// is no difference. It says nothing of the error of the method, which both runs have.
+/// against the same run with 16 more digits, from the exact scene or the state it was started from. At least 0; all
+/// digits of the precision where there is no difference. It says nothing of the error of the method, which both runs
+/// have.
 struct Shadow {
   std::string precision;     ///< of the shadow: mpfr:32 for double, mpfr:50 for quad, mpfr:N+16 for mpfr:N
   std::vector<double> q, p;  ///< digits at the end
@@ -34,10 +33,11 @@ class ShadowedRun final : public Observer<S> {
   /// Of m coordinates; it keeps about so many numbers, or less.
   ShadowedRun(Index m, long steps, long numbers = most_numbers);
   void observe(const Snapshot<S>& snapshot) override;
+  void remember(Archive& archive) override { archive(states_); }
 
-  /// The same run in more digits. `method` has the k that was chosen.
-  Shadow compare(const Scene& scene, const MethodName& method, SolverKind solver, const Expression& step,
-                 const Expression& until) const;
+  /// The same run in more digits. `method` has the k that was chosen; `start` is where it began, if not at the start of
+  /// its scene.
+  Shadow compare(const RunRequest& request, const MethodName& method, const std::optional<State<S>>& start) const;
 
  private:
   long steps_, every_;

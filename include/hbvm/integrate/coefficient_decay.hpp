@@ -28,6 +28,11 @@ class CoefficientDecay {
   /// The solution of a step, and the momentum where it ends. Allocates nothing.
   void observe(const StageUnknowns<S>& x, const Vector<S>& p1);
 
+  void remember(Archive& archive) {
+    for (Body& body : bodies_) archive(body.mean, body.force, body.varying, body.neglected);
+    archive(before_, has_before_);
+  }
+
   struct Worst {
     double ratio = 0;
     Index offset = 0;  ///< of the block of coordinates

@@ -26,6 +26,15 @@ class ConstraintAngles {
   /// A mesh point, and the gradient there.
   void observe(ConstraintGradient<S>& gradient, const Snapshot<S>& snapshot);
 
+  void remember(Archive& archive) {
+    auto known = static_cast<long>(closest_q_.size());
+    archive(known);
+    if (archive.reading()) closest_q_.resize(known);
+    if (known > 0) archive(closest_q_);
+    archive(closest_, closest_t_, squares_, squares_before_, lengths_, angles_, angles_before_, known_before_);
+    archive(change_.factor, change_.constraint, change_.of_length, change_.t);
+  }
+
   /// The mesh point where a gradient came closest to the span of the others; before the first observation none.
   const Vector<S>& closest_q() const { return closest_q_; }
   const S& closest_t() const { return closest_t_; }

@@ -27,6 +27,7 @@ class Drift final : public Observer<S> {
   explicit Drift(const Problem<S>& problem) : point_(problem), redundant_(problem) {}
   /// \throws RedundancyLost if a redundant constraint is violated by more than the root of epsilon of its terms
   void observe(const Snapshot<S>& snapshot) override;
+  void remember(Archive& archive) override { archive(H0_, e_H_, e_g_, e_hid_, redundancy_); }
 
   const S& e_H() const { return e_H_; }
   const S& e_g() const { return e_g_; }

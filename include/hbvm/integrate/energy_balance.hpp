@@ -17,6 +17,8 @@ class EnergyBalance {
   /// A mesh point and the velocity there.
   void observe(const Vector<S>& v, const Snapshot<S>& snapshot);
 
+  void remember(Archive& archive) { archive(H0_, H_, error_, size_, t_, q_); }
+
   const S& error() const { return error_; }
   const S& size() const { return size_; }
   /// Where the error is greatest.

@@ -12,6 +12,7 @@ class EnergyScale final : public Observer<S> {
  public:
   explicit EnergyScale(const Problem<S>& problem) : terms_(problem) {}
   void observe(const Snapshot<S>& snapshot) override;
+  void remember(Archive& archive) override { archive(size_, round_off_size_); }
 
   const S& size() const { return size_; }
 

@@ -14,6 +14,8 @@ struct HalvingLog {
   long substeps = 0;    ///< what those were made of
   int depth = 0;        ///< the smallest was 2^-depth of a step
   long first_step = 0;  ///< steps of the grid made before the first of them
+
+  void remember(Archive& archive) { archive(steps, substeps, depth, first_step); }
 };
 
 /// Steps that are divided where they fail: a step of size h is made as two of h/2, and so on down to 2^-20 h. The mesh
@@ -40,6 +42,7 @@ class HalvingStepper final : public Stepper<S> {
   const StageUnknowns<S>* unknowns() const override { return steppers_[static_cast<std::size_t>(last_)]->unknowns(); }
   SolverCounts counts() const override;
   void measure_time() override;
+  void remember(Archive& archive) override;
 
   const HalvingLog& log() const { return log_; }
 

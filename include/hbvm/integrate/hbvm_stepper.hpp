@@ -22,15 +22,16 @@ class HbvmStepper final : public Stepper<S> {
   const Vector<S>& multiplier() const override { return multiplier_; }
 
   const StageUnknowns<S>* unknowns() const override { return &solver_->unknowns(); }
-
-  SolverCounts counts() const override { return solver_->counts(); }
+  SolverCounts counts() const override;
   void measure_time() override { solver_->measure_time(); }
+  void remember(Archive& archive) override;
 
  private:
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
   std::unique_ptr<StageSolver<S>> solver_;
   Vector<S> multiplier_;
+  SolverCounts earlier_;  ///< those of a run that this one continues
   S increment_, t_;
 };
 

@@ -20,6 +20,10 @@ class HiddenCosines {
   /// A mesh point, the gradient and the velocity there.
   void observe(ConstraintGradient<S>& gradient, const Vector<S>& v, const Snapshot<S>& snapshot);
 
+  void remember(Archive& archive) {
+    for (OfConstraint& c : of_) archive(c.hidden, c.greatest, c.speed, c.lambda, c.t);
+  }
+
   struct Worst {
     S cosine = 0;
     Index constraint = 0;

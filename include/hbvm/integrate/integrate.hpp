@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/integrate/checkpoint.hpp"
 #include "hbvm/integrate/stepper.hpp"
 #include "hbvm/integrate/time_grid.hpp"
 
@@ -23,6 +24,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
   virtual void observe(const Snapshot<S>& snapshot) = 0;
+  /// All that it gathered, for a run that goes on from a checkpoint.
+  virtual void remember(Archive&) { throw InputError("--checkpoint: something that looks at this run cannot be kept"); }
 };
 
 /// A step that could not be made. What was computed before it has been shown to the observers.
@@ -47,15 +50,18 @@ struct Integration {
   double cpu_seconds = 0;  ///< processor time of this thread in steps alone: observers and output excluded
 };
 
-/// Steps through the grid from `state` and shows t_0, t_1, …, t_N to the observers.
+/// Steps through the grid from `state` and shows t_0, t_1, …, t_N to the observers. With `checkpoints` the run is kept
+/// at the start, whenever that is due, when a signal ends it, and at the end; one that resumes goes on where it was,
+/// with stepper and observers as they were, and shows what comes after.
 /// \throws StepError
+/// \throws Interrupted between two steps, if a signal asks for it
 template <Scalar S>
 Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
-                         const std::vector<Observer<S>*>& observers);
+                         const std::vector<Observer<S>*>& observers, Checkpoints* checkpoints = nullptr);
 
 #define HBVM_DECLARE(S)                                                                   \
   extern template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&, \
-                                              const std::vector<Observer<S>*>&);
+                                              const std::vector<Observer<S>*>&, Checkpoints*);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

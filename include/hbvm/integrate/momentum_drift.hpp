@@ -25,6 +25,8 @@ class MomentumDrift final : public Observer<S> {
     }
   }
 
+  void remember(Archive& archive) override { archive(initial_, drift_, size_); }
+
   const std::vector<MomentumComponent<S>>& components() const { return components_; }
   const S& initial(std::size_t i) const { return initial_[i]; }
   const S& drift(std::size_t i) const { return drift_[i]; }

@@ -12,13 +12,19 @@ namespace hbvm {
 /// What became of the number of nodes in a run, in one list for all steppers that make its steps.
 struct NodeLog {
   struct Raise {
-    long step;  ///< steps of the grid made before
-    int k;
+    long step = 0;  ///< steps of the grid made before
+    int k = 0;
+    void remember(Archive& archive) { archive(step, k); }
   };
   long step = 0;  ///< steps of the grid made: set by whoever counts them
   std::vector<Raise> raised;
   long unresolved = 0;        ///< steps seen for which no number of nodes was enough
   long first_unresolved = 0;  ///< the first of them
+
+  void remember(Archive& archive) {
+    archive(step, unresolved, first_unresolved);
+    archive.sized(raised);
+  }
 };
 
 /// What to do with a step for which no number of nodes is enough.
@@ -56,6 +62,7 @@ class RaisingStepper final : public Stepper<S> {
   const StageUnknowns<S>* unknowns() const override { return nodes_->stepper.unknowns(); }
   SolverCounts counts() const override;
   void measure_time() override;
+  void remember(Archive& archive) override;
 
   int k() const { return nodes_->method.k; }
 
@@ -106,7 +113,7 @@ class RaisingStepper final : public Stepper<S> {
   EnergyTerms<S> energy_;
   State<S> before_, after_;  ///< the step just made
   S H_ = 0, change_ = 0, round_off_ = 0, t_ = 0, u_ = 0;
-  // What it remembers of the motion so far, beside k, after_ and round_off_.
+  // What it remembers of the motion so far, beside k, after_, H_ and round_off_.
   bool started_ = false;
   long made_ = 0, since_ = 0, wait_ = 0, pause_ = interval, root_ = 0;
   S first_H_ = 0, alarm_ = 0;  ///< the energy before the first step, and the change since that is looked at next

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hbvm/linear/matrix.hpp"
+#include "hbvm/scalar/archive.hpp"
 
 namespace hbvm {
 
@@ -12,6 +13,8 @@ struct State {
 
   State(const Vector<S>& q0, const Vector<S>& p0)
       : q(q0), p(p0), q_carry(Vector<S>::Zero(q0.size())), p_carry(Vector<S>::Zero(p0.size())) {}
+
+  void remember(Archive& archive) { archive(q, p, q_carry, p_carry); }
 };
 
 }  // namespace hbvm

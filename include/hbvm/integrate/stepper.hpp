@@ -30,6 +30,9 @@ class Stepper {
   virtual SolverCounts counts() const = 0;
   /// Also measure the time that effects and parts of the equations take.
   virtual void measure_time() = 0;
+
+  /// All that the next steps and counts() depend on to the last bit, beside problem, method, step and state.
+  virtual void remember(Archive& archive) = 0;
 };
 
 }  // namespace hbvm

@@ -5,7 +5,10 @@
 
 namespace hbvm {
 
-/// Mesh points t_n = until n / N, n = 0..N. They are computed, never accumulated.
+enum class Direction { forward, backward };
+
+/// Mesh points t_n = until n / N, n = 0..N, and their opposites for a run back in time. They are computed, never
+/// accumulated.
 template <Scalar S>
 class TimeGrid {
  public:
@@ -13,15 +16,18 @@ class TimeGrid {
 
   /// N = round(until/step).
   /// \throws InputError unless step and until are positive, |N step - until| <= 4 epsilon until and N <= max_steps
-  TimeGrid(const Expression& step, const Expression& until, const Constants& constants = {});
+  TimeGrid(const Expression& step, const Expression& until, const Constants& constants = {},
+           Direction direction = Direction::forward);
 
   const S& step() const { return step_; }
   const S& until() const { return until_; }
+  Direction direction() const { return direction_; }
   long steps() const { return steps_; }
   S time(long n) const;
 
  private:
   S step_, until_;
+  Direction direction_;
   long steps_ = 0;
 };
 

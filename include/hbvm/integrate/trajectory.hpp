@@ -21,12 +21,18 @@ class Trajectory final : public Observer<S> {
   Trajectory(const Problem<S>& problem, std::ostream& out, long every, long steps,
              const std::vector<std::string>& provenance);
   void observe(const Snapshot<S>& snapshot) override;
+  /// What `out` holds is its owner's to remember.
+  void remember(Archive& archive) override { archive(H0_); }
 
  private:
+  void begin();
+
+  const Problem<S>& problem_;
   Point<S> point_;
   RedundantConstraints<S> redundant_;
   std::ostream& out_;
   long every_, steps_;
+  std::vector<std::string> provenance_;
   S H0_;
 };
 

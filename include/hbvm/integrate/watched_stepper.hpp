@@ -21,6 +21,7 @@ class WatchedStepper final : public Stepper<S> {
   const StageUnknowns<S>* unknowns() const override { return inner_.unknowns(); }
   SolverCounts counts() const override { return inner_.counts(); }
   void measure_time() override { inner_.measure_time(); }
+  void remember(Archive& archive) override { archive(inner_, decay_); }
 
  private:
   Stepper<S>& inner_;

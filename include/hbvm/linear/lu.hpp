@@ -4,6 +4,7 @@
 
 #include "hbvm/linear/matrix.hpp"
 #include "hbvm/linear/operation_counts.hpp"
+#include "hbvm/scalar/archive.hpp"
 
 namespace hbvm {
 
@@ -35,6 +36,9 @@ class Lu {
   /// The products, quotients and differences of one factorisation, and of one solution, at most (zeros are not known).
   OperationCounts factor_operations() const;
   OperationCounts solve_operations() const;
+
+  /// The factors; for a matrix of the same size.
+  void remember(Archive& archive) { archive(data_, pivots_); }
 
  private:
   // Column j holds rows j - 2 b .. j + b: pivoting fills in b diagonals above the band. A dense matrix has no more.

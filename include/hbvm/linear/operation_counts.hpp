@@ -43,6 +43,10 @@ class OperationCounts {
     return sum;
   }
   friend bool operator==(const OperationCounts&, const OperationCounts&) = default;
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(counts_);
+  }
 
  private:
   std::array<std::uint64_t, op_count> counts_{};

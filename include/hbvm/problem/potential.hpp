@@ -34,6 +34,11 @@ struct EffectCount {
   std::uint64_t calls = 0, evaluations = 0;
   OperationCounts per_evaluation{};
   double seconds = 0;
+
+  template <class Archive>
+  void remember(Archive& archive) {
+    archive(calls, evaluations, per_evaluation, seconds);
+  }
 };
 
 /// U(q) of (Hqp), H = 1/2 p^T M^-1 p - U(q), as the sum of the effects a scene names.

@@ -41,7 +41,8 @@ struct Panel {
   std::vector<Polyline> lines;
   bool equal_axes = false;
   bool logarithms = false;  ///< x is a binary logarithm and y a decimal one: tics show the powers
-  bool decades = false;     ///< both are decimal logarithms: tics show the powers
+  /// Both are decimal logarithms: tics show the powers, so many decades apart. 0: they are not.
+  int x_decades = 0, y_decades = 0;
   std::vector<Label> labels{};
 };
 

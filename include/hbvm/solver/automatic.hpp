@@ -22,6 +22,7 @@ class Automatic final : public StageSolver<S> {
   const Vector<S>& momentum_change() const override { return current().momentum_change(); }
   SolverCounts counts() const override;
   void measure_time() override;
+  void remember(Archive& archive) override;
 
  private:
   const StageSolver<S>& current() const { return *solvers_[static_cast<std::size_t>(used_)]; }

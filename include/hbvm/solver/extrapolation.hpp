@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
+#include "hbvm/scalar/archive.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -50,6 +51,11 @@ class Extrapolation {
           set_sum(x[i], x[i], differences_.data()[r * size_ + i]);
   }
   Index order(Index column) const { return orders_[static_cast<std::size_t>(column)]; }
+
+  void remember(Archive& archive) {
+    archive(known_, orders_);
+    for (Index i = 0; i < known_ * size_; ++i) archive(differences_.data()[i]);
+  }
 
  private:
   void choose_order(std::size_t column) {

@@ -30,6 +30,8 @@ class FixedPoint final : public StageSolver<S> {
   const Vector<S>& momentum_change() const override { return momentum_change_; }
   SolverCounts counts() const override { return {equations_.effect_counts(), equations_.part_counts()}; }
   void measure_time() override { equations_.measure_time(); }
+  /// The multipliers are where those of the next step start from.
+  void remember(Archive& archive) override { archive(extrapolation_, x_.lambda, x_.zeta); }
 
  private:
   enum class Start { zero, constant };

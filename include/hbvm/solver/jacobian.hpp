@@ -50,6 +50,11 @@ class Jacobian {
   OperationCounts factor_operations() const { return matrix_.factor_operations(); }
   OperationCounts solve_operations() const { return matrix_.solve_operations(); }
 
+  /// The factors, and how the matrix was scaled.
+  void remember(Archive& archive) {
+    archive(matrix_, row_exponents_, column_exponents_, row_factors_, column_factors_);
+  }
+
  private:
   void assemble(const StageEquations<S>& at, const Matrix<S>& lambda);
   /// Exponents of the constraints' rows and columns from the gradients at hand.

@@ -33,6 +33,7 @@ class Newton final : public StageSolver<S> {
   const Vector<S>& momentum_change() const override { return momentum_change_; }
   SolverCounts counts() const override;
   void measure_time() override;
+  void remember(Archive& archive) override;
 
  private:
   /// The stage equations in fewer digits.

@@ -47,6 +47,11 @@ class SimplifiedNewton {
   /// X_s^-1 (momentum - correction), since gamma - e_1 p0 = h X_s (psi - zeta).
   void add_change_of_momentum(const Matrix<S>& momentum, const Matrix<S>& correction, Vector<S>& change) const;
 
+  void remember(Archive& archive) {
+    archive(extrapolation_, usable_);
+    if (usable_) archive(jacobian_);
+  }
+
  private:
   enum class Start { previous, constant, shorter, shortest };
   void prepare(Start start, const Vector<S>& p0);

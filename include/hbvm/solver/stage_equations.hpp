@@ -29,10 +29,12 @@ struct StageResidual {
 
 /// One part of the stage equations: how often it ran, what one call costs, and, if measured, the time it took.
 struct PartCount {
-  const char* name;
+  std::string name{};
   std::uint64_t calls = 0;
   OperationCounts per_call{};
   double seconds = 0;
+
+  void remember(Archive& archive) { archive(name, calls, per_call, seconds); }
 };
 
 /// The maps of which the stage equations (dispro1) consist, for steps of one size. Owns all storage they need.

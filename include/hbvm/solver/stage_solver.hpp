@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "hbvm/scalar/archive.hpp"
 #include "hbvm/solver/stage_equations.hpp"
 #include "hbvm/solver/stage_failure.hpp"
 
@@ -13,6 +14,11 @@ namespace hbvm {
 struct SolverCounts {
   std::vector<EffectCount> effects;
   std::vector<PartCount> parts;
+
+  void remember(Archive& archive) {
+    archive.sized(effects);
+    archive.sized(parts);
+  }
 };
 
 /// sum += other; a constant force counts once, whatever the number of solvers.
@@ -59,6 +65,9 @@ class StageSolver {
   virtual SolverCounts counts() const = 0;
   /// Also measure the time that effects and parts of the equations take.
   virtual void measure_time() = 0;
+
+  /// All that the next steps depend on to the last bit, beside problem, method, step and state; not the counts.
+  virtual void remember(Archive& archive) = 0;
 };
 
 /// The solvers by the name a user gives them.

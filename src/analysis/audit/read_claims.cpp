@@ -1,8 +1,8 @@
 #include <filesystem>
 
-#include "analysis/expected_csv.hpp"
 #include "hbvm/analysis/audit/claims.hpp"
 #include "hbvm/analysis/read_tableau.hpp"
+#include "hbvm/read_file.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "scene/toml_table.hpp"
 

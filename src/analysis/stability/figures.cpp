@@ -57,7 +57,8 @@ Figure growth(const std::filesystem::path& folder) {
   panel.title = "What round-off does to the energy, in double";
   panel.x_label = "steps";
   panel.y_label = "change of H, units of round-off";
-  panel.decades = true;
+  panel.x_decades = 1;
+  panel.y_decades = 1;
   struct Run {
     const char *scene, *method, *step, *label;
   };
@@ -72,8 +73,8 @@ Figure growth(const std::filesystem::path& folder) {
     add_curve(panel, folder / (std::string("growth_") + run.scene + ".csv"), "log10 steps,log10 units", points,
               run.label);
   }
-  add_slope(panel, 2, 0, 3, 1 / double{2}, "n^{1/2}");
-  add_slope(panel, 2, 0, 2, 1, "n");
+  add_slope(panel, 3, -1, 3, 1 / double{2}, "n^{1/2}");
+  add_slope(panel, 5, -1, 1, 1, "n");
   return figure_of("growth", "Round-off in the energy grows like the root of time", std::move(panel));
 }
 
@@ -111,10 +112,11 @@ void add_before(Panel& panel, const std::string& path, const std::string& label)
 
 Figure separatrix(const std::filesystem::path& folder, const std::filesystem::path& before) {
   Panel panel;
-  panel.title = "A pendulum near upright: digits left at t = 8";
+  panel.title = "A pendulum near upright: what is left at t = 8";
   panel.x_label = "angle from upright";
   panel.y_label = "error of x over x, double";
-  panel.decades = true;
+  panel.x_decades = 5;
+  panel.y_decades = 2;
   for (const char* const solver : {"auto", "newton"}) {
     Points points;
     for (int j = 0; j <= 30; j += 2)
@@ -134,7 +136,8 @@ Figure light_body(const std::filesystem::path& folder, const std::filesystem::pa
   panel.title = "A light body beside a heavy one, after two orbits";
   panel.x_label = "mass of the light body";
   panel.y_label = "error of its position, double";
-  panel.decades = true;
+  panel.x_decades = 2;
+  panel.y_decades = 2;
   Points points;
   for (int j = 0; j <= 16; ++j)
     points.emplace_back(-j, std::log10(relative_error(request_of(beside_kepler(fmt::format("10^(-{})", j)), "hbvm:6,2",
@@ -169,7 +172,8 @@ Figure hidden(const std::filesystem::path& folder) {
   panel.title = "Heavy top, h = 1/10: the hidden constraint so far";
   panel.x_label = "t";
   panel.y_label = "e_{hid}";
-  panel.decades = true;
+  panel.x_decades = 1;
+  panel.y_decades = 1;
   const Assembled<double> scene = assemble<double>(load_scene("heavy_top"));
   const TimeGrid<double> grid(Expression::parse("1/10"), Expression::parse("6553.6"));
   for (int s = 1; s <= 4; ++s) {

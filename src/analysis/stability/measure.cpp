@@ -1,11 +1,14 @@
 #include "measure.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "hbvm/analysis/round_off.hpp"
 #include "hbvm/integrate/integrate.hpp"
@@ -79,6 +82,21 @@ CaseResult against_more_digits(const RunRequest& request, bool back) {
     return result;
   }
 }
+
+class TemporaryFile {
+ public:
+  TemporaryFile() : path_((std::filesystem::temp_directory_path() / "hbvm_stability_XXXXXX").string()) {
+    const int file = mkstemp(path_.data());
+    if (file < 0) throw Error("cannot create a file in '" + std::filesystem::temp_directory_path().string() + "'");
+    close(file);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  ~TemporaryFile() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
 
 /// The greatest |T| + |U| over the lines of a trajectory.
 double energy_size(const Scene& scene, std::istream& csv) {
@@ -170,10 +188,11 @@ CaseResult reversal(const RunRequest& request) {
 
 CaseResult energy(const RunRequest& request) {
   return guarded([&] {
-    std::stringstream csv;
+    const TemporaryFile file;
     RunHooks hooks;
-    hooks.open_csv = [&] { return std::make_unique<std::ostream>(csv.rdbuf()); };
+    hooks.open_csv = [&] { return std::make_unique<CsvFile>(file.path(), CsvFile::Opening::anew); };
     const RunResult run = hbvm::run(request, hooks);
+    std::ifstream csv(file.path());
     // e_H over epsilon, where no number leaves its range.
     const double units =
         evaluate<double>(Expression::parse(run.e_H + "*2^" + std::to_string(bits_of(request.precision) - 1)));

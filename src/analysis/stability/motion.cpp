@@ -137,6 +137,7 @@ class KickingStepper final : public Stepper<S> {
   const Vector<S>& multiplier() const override { return inner_.multiplier(); }
   SolverCounts counts() const override { return inner_.counts(); }
   void measure_time() override { inner_.measure_time(); }
+  void remember(Archive& archive) override { archive(inner_, made_); }
 
  private:
   Stepper<S>& inner_;

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "hbvm/analysis/run_stepper.hpp"
+#include "hbvm/analysis/start_state.hpp"
+#include "hbvm/integrate/time_grid.hpp"
+#include "hbvm/method/method_name.hpp"
+#include "hbvm/scalar/precision.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "hbvm/solver/stage_solver.hpp"
+
+namespace hbvm {
+
+/// One run as a user asks for it.
+struct RunRequest {
+  Scene scene;
+  MethodName method;
+  SolverKind solver = SolverKind::fixed_point;
+  Expression step, until;
+  Precision precision;
+  bool account = false;  ///< measure where the time goes
+  bool shadow = false;   ///< repeat the run with 16 more digits
+  OnFailure on_failure = OnFailure::stop;
+  Direction direction = Direction::forward;
+  std::optional<StartState> start = {};  ///< instead of that of the scene
+};
+
+}  // namespace hbvm

@@ -1,0 +1,399 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "cli/program.hpp"
+#include "hbvm/checksum.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scalar/with_scalar.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A run of about half a second of processor time, whose carries and extrapolations matter.
+const Arguments long_run{"run", "charged_double_pendulum", "--method", "hbvm:6,3", "--step", "1/256", "--until", "400"};
+
+ordered_json result_of(const Outcome& outcome) {
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ordered_json j = ordered_json::parse(outcome.out, nullptr, false);
+  EXPECT_FALSE(j.is_discarded()) << outcome.out;
+  if (j.is_object()) j.erase("cpu_seconds");
+  return j;
+}
+
+/// The lines of a trajectory but for that of the command, which holds a path.
+void expect_complete_lines(const std::string& csv) {
+  ASSERT_FALSE(csv.empty());
+  EXPECT_EQ(csv.back(), '\n');
+  const auto lines = lines_of(csv);
+  for (const std::string& line : lines)
+    if (!line.starts_with("# ") || &line == &lines.front()) {
+      EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(lines[0].begin(), lines[0].end(), ','));
+    }
+}
+
+/// Waits until the file is there and larger than `size`, for at most ten seconds.
+void await(const std::string& path, std::uintmax_t size = 0) {
+  std::error_code ignored;
+  for (int i = 0; i < 10'000; ++i) {
+    if (std::filesystem::exists(path, ignored) && std::filesystem::file_size(path, ignored) > size) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  FAIL() << path << " does not grow";
+}
+
+TEST(Checkpoint, OfARunThatIsKilledAgainAndAgainLeadsToTheSameBytes) {
+  const Folder folder;
+  const std::string whole = folder / "whole.csv", kept = folder / "kept.csv", file = folder / "run.checkpoint";
+  const ordered_json expected = result_of(hbvm(long_run + Arguments{"--json", "--every", "7", "--out", whole}));
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> wait(0, 40'000);
+  const Arguments first =
+      long_run + Arguments{"--json", "--every", "7", "--out", kept, "--checkpoint", file, "--every-seconds", "0.01"};
+  int killed = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Outcome outcome = hbvm(i == 0 ? first : Arguments{"run", "--resume", file}, 60, [&](pid_t child) {
+      if (i == 0) await(file);
+      std::this_thread::sleep_for(std::chrono::microseconds(wait(random)));
+      kill(child, SIGKILL);
+    });
+    killed += outcome.code == -SIGKILL;
+  }
+  EXPECT_GT(killed, 10);
+  const ordered_json j = result_of(hbvm({"run", "--resume", file}));
+  EXPECT_EQ(j.dump(), expected.dump());
+  const auto without_command = [](const std::string& csv) {
+    std::string text;
+    for (const std::string& line : lines_of(csv))
+      if (!line.starts_with("# command")) text += line + "\n";
+    return text;
+  };
+  EXPECT_TRUE(without_command(text_of(kept)) == without_command(text_of(whole)));
+  EXPECT_EQ(text_of(kept).size(), text_of(whole).size());
+  // And once more from the end.
+  EXPECT_EQ(result_of(hbvm({"run", "--resume", file})).dump(), expected.dump());
+}
+
+/// k is raised and steps are divided where the body passes the center; the shadow sees states of all parts of the run.
+TEST(Checkpoint, KeepsWhatRaisedNodesDividedStepsAndTheShadowRemember) {
+  const Folder folder;
+  const std::string file = folder / "run", scene = folder.write("passing.toml", R"(
+dimension = 2
+point = [{ name = "O", position = [0, 0] }]
+body = [{ name = "a", mass = 1, position = [-16, "1/8"], velocity = [2, 0] }]
+effect = [{ kind = "central_gravity", center = "O", strength = 1 }]
+)");
+  const Arguments run{"run", scene,    "--method",     "hbvm:auto,2", "--step",   "1/4",      "--until",
+                      "16",  "--json", "--on-failure", "halve",       "--shadow", "--solver", "fixed-point"};
+  const ordered_json expected = result_of(hbvm(run));
+  EXPECT_GT(expected["halved"]["steps"], 0);
+  EXPECT_FALSE(expected["chosen"]["raised"].empty());
+  const Arguments first = run + Arguments{"--checkpoint", file, "--every-seconds", "0"};
+  int interrupted = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Outcome outcome = hbvm(i == 0 ? first : Arguments{"run", "--resume", file}, 60, [&](pid_t child) {
+      await(file);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5 + i));
+      kill(child, i % 2 ? SIGTERM : SIGKILL);
+    });
+    if (outcome.code == 0) break;
+    ++interrupted;
+  }
+  EXPECT_GT(interrupted, 0);
+  EXPECT_EQ(result_of(hbvm({"run", "--resume", file})).dump(), expected.dump());
+}
+
+TEST(Checkpoint, ContinuesTheAccount) {
+  const Folder folder;
+  const std::string file = folder / "run";
+  for (const char* precision : {"quad", "double"}) {
+    const Arguments run{"run", "kepler", "--method",    "hbvm:auto,2", "--step",    "1/64",     "--until",
+                        "16",  "--json", "--precision", precision,     "--account", "--solver", "newton"};
+    ordered_json whole = result_of(hbvm(run));
+    hbvm(run + Arguments{"--checkpoint", file, "--every-seconds", "0"}, 60, [&](pid_t child) {
+      await(file);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      kill(child, SIGTERM);
+    });
+    ordered_json resumed = result_of(hbvm({"run", "--resume", file}));
+    for (ordered_json* j : {&whole, &resumed})
+      for (ordered_json& line : (*j)["account"]) line.erase("seconds");
+    EXPECT_EQ(resumed.dump(), whole.dump());
+  }
+}
+
+TEST(Signals, EndARunWithCompleteLines) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const bool keep : {false, true}) {
+      const Folder folder;
+      const std::string csv = folder / "t.csv", file = folder / "run";
+      const Arguments run = long_run + Arguments{"--out", csv} + (keep ? Arguments{"--checkpoint", file} : Arguments());
+      const Outcome outcome = hbvm(run, 60, [&](pid_t child) {
+        await(csv, 10'000);
+        kill(child, signal);
+      });
+      EXPECT_EQ(outcome.code, 128 + signal);
+      EXPECT_EQ(outcome.out, "");
+      EXPECT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
+      EXPECT_NE(outcome.err.find(signal == SIGINT ? "SIGINT" : "SIGTERM"), std::string::npos) << outcome.err;
+      EXPECT_NE(outcome.err.find(keep ? "hbvm run --resume " + file : std::string("--checkpoint")), std::string::npos)
+          << outcome.err;
+      expect_complete_lines(text_of(csv));
+      EXPECT_EQ(std::filesystem::exists(file), keep);
+      if (!keep) continue;
+      EXPECT_EQ(hbvm({"run", "--resume", file}).code, 0);
+      EXPECT_EQ(lines_of(text_of(csv)).size(), 4u + 102'401u);
+    }
+  }
+}
+
+/// They take about 0.1 s each.
+TEST(Signals, DoNotWaitForABlockOfSlowSteps) {
+  const Folder folder;
+  const std::string csv = folder / "t.csv";
+  const Outcome outcome = hbvm({"run", "triple_pendulum", "--method", "hbvm:40,20", "--step", "1/4", "--until", "1000",
+                                "--precision", "mpfr:500", "--out", csv, "--checkpoint", folder / "run"},
+                               60, [&](pid_t child) {
+                                 await(folder / "run");
+                                 std::this_thread::sleep_for(std::chrono::milliseconds(100));
+                                 kill(child, SIGTERM);
+                               });
+  EXPECT_EQ(outcome.code, 143) << outcome.err;
+  EXPECT_LT(lines_of(text_of(csv)).size(), 4 + 64u);
+}
+
+class Kept : public ::testing::Test {
+ protected:
+  /// A run of some steps with a checkpoint and a trajectory.
+  void SetUp() override {
+    const Outcome outcome = hbvm(run_ + Arguments{"--out", csv_, "--checkpoint", file_});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    text_ = text_of(file_);
+  }
+  void refused(const Arguments& more, const std::vector<std::string>& words) const {
+    const std::string csv = text_of(csv_), kept = text_of(file_);
+    expect_refused(Arguments{"run", "--resume", file_} + more, words);
+    EXPECT_EQ(text_of(csv_), csv);
+    EXPECT_EQ(text_of(file_), kept);
+  }
+
+  Folder folder_;
+  std::string csv_ = folder_ / "t.csv", file_ = folder_ / "run", text_;
+  std::string scene_ = folder_.write("scene.toml", pendulum("1"));
+  Arguments run_{"run", scene_, "--method", "hbvm:2,2", "--step", "1/8", "--until", "4", "--every", "3"};
+};
+
+TEST_F(Kept, IsRefusedIfDamaged) {
+  const auto damaged = [&](const std::string& text, const std::vector<std::string>& words) {
+    folder_.write("run", text);
+    refused({}, words);
+  };
+  std::string flipped = text_;
+  flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 1);
+  damaged(flipped, {file_, "damaged", "checksum"});
+  damaged(text_.substr(0, text_.size() / 2), {file_, "damaged", "cut off"});
+  damaged("", {file_, "empty"});
+  damaged(pendulum("1"), {file_, "no checkpoint"});
+  const auto resealed = [](const std::string& text) {
+    const std::string contents = text.substr(0, text.rfind("checksum "));
+    return contents + "checksum " + Checksum(contents).text() + "\n";
+  };
+  damaged(resealed("hbvm checkpoint 7" + text_.substr(text_.find('\n'))), {file_, "'7'", "version"});
+  std::string other = text_;
+  const std::string version = lines_of(hbvm({"--version"}).out).at(0);
+  damaged(resealed(other.replace(other.find(version), 1, "9")), {file_, "9" + version.substr(1), version});
+  folder_.write("run", text_);
+  std::filesystem::remove(file_);
+  expect_refused({"run", "--resume", file_}, {file_});
+}
+
+TEST_F(Kept, IsRefusedIfForeign) {
+  refused({"--method", "hbvm:3,2"}, {"--method hbvm:2,2", "--method hbvm:3,2"});
+  refused({"--step", "1/16"}, {"--step 1/8", "--step 1/16"});
+  refused({"--until", "8"}, {"--until 4", "--until 8"});
+  refused({"--precision", "quad"}, {"--precision double", "--precision quad"});
+  refused({"--solver", "newton"}, {"--solver auto", "--solver newton"});
+  refused({"--every", "1"}, {"--every 3", "--every 1"});
+  refused({"--reverse"}, {"without --reverse", "with --reverse"});
+  refused({"--account"}, {"without --account"});
+  refused({"--start", scene_}, {"without --start"});
+  refused({"kepler"}, {"another scene"});
+  refused({folder_.write("other.toml", pendulum("1.5"))}, {"another scene"});
+  refused({"--out", folder_ / "none"}, {"--out", folder_ / "none"});
+}
+
+TEST_F(Kept, TakesItsCommandAgainOrNoneOrAnotherPathToTheSame) {
+  const std::string csv = text_of(csv_);
+  const auto resumed = [&](const Arguments& arguments) {
+    const Outcome outcome = hbvm(arguments + Arguments{"--resume", file_});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(text_of(csv_), csv);
+  };
+  resumed({"run"});
+  resumed(run_ + Arguments{"--out", csv_, "--checkpoint", file_, "--json"});
+  resumed({"run", folder_.write("copy.toml", pendulum("1")), "--solver", "auto", "--every-seconds", "5"});
+  std::filesystem::remove(scene_);
+  resumed({"run"});
+  resumed({"run", "--out", folder_.write("moved.csv", csv)});
+}
+
+TEST_F(Kept, IsRefusedIfItsTrajectoryIsGoneOrAnother) {
+  const std::string csv = text_of(csv_);
+  folder_.write("t.csv", csv.substr(0, csv.size() - 1));
+  refused({}, {csv_, std::to_string(csv.size())});
+  folder_.write("t.csv", "#" + csv);
+  refused({}, {csv_, "begin"});
+  folder_.write("t.csv", "");
+  refused({}, {csv_});
+  std::filesystem::remove(csv_);
+  expect_refused({"run", "--resume", file_}, {csv_});
+}
+
+TEST_F(Kept, OverwritesNoOtherFile) {
+  expect_refused(run_ + Arguments{"--checkpoint", scene_}, {scene_});
+  EXPECT_EQ(text_of(scene_), pendulum("1"));
+  expect_refused(run_ + Arguments{"--checkpoint", csv_, "--out", csv_}, {csv_});
+  expect_refused(run_ + Arguments{"--checkpoint", folder_ / "new", "--out", folder_ / "new"}, {"--out"});
+  expect_refused(run_ + Arguments{"--checkpoint", "/nonexistent/run", "--out", csv_}, {"/nonexistent/run"});
+  expect_refused(run_ + Arguments{"--checkpoint", folder_ / "."}, {"--checkpoint"});
+  expect_refused(run_ + Arguments{"--checkpoint", ""}, {"--checkpoint"});
+  expect_refused(run_ + Arguments{"--checkpoint", folder_ / "new", "--out", "/dev/null"}, {"/dev/null"});
+  for (const char* seconds : {"-1", "nan", "abc", ""})
+    expect_refused(run_ + Arguments{"--checkpoint", file_, "--every-seconds", seconds}, {"--every-seconds"});
+}
+
+TEST(FullDisk, EndsTheTrajectoryWithACompleteLine) {
+  const Folder folder;
+  const std::string csv = folder / "t.csv";
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit limit = before;
+  limit.rlim_cur = 100'001;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const Outcome outcome = hbvm(long_run + Arguments{"--out", csv});
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find(csv), std::string::npos) << outcome.err;
+  expect_complete_lines(text_of(csv));
+  EXPECT_GT(text_of(csv).size(), 99'000u);
+}
+
+ordered_json json_of(const Arguments& arguments) { return result_of(hbvm(arguments + Arguments{"--json"})); }
+
+double number(const ordered_json& text) { return std::stod(text.get<std::string>()); }
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> parts;
+  std::istringstream stream(line);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+TEST(Start, AndReverseComeBackToRoundOff) {
+  const Folder folder;
+  for (const char* precision : {"double", "quad", "mpfr:50"}) {
+    for (const char* method : {"hbvm:3,2", "hbvm:auto,1"}) {
+      const std::string csv = folder / "forth.csv", back = folder / "back.csv";
+      const Arguments run{
+          "run",    "charged_double_pendulum", "--method", method, "--step", "1/32", "--until", "2", "--precision",
+          precision};
+      const ordered_json forth = json_of(run + Arguments{"--out", csv});
+      EXPECT_FALSE(forth.contains("reverse"));
+      const std::string there = folder.write("there.json", forth.dump());
+      const ordered_json j = json_of(run + Arguments{"--start", there, "--reverse", "--out", back});
+      EXPECT_EQ(j["t"], "-2");
+      EXPECT_EQ(j["until"], "2");
+      EXPECT_EQ(j["reverse"], true);
+      const auto start = split(lines_of(text_of(csv)).at(4)), first = split(lines_of(text_of(back)).at(4));
+      EXPECT_EQ(first.at(0), "0");
+      EXPECT_EQ(split(lines_of(text_of(back)).at(5)).at(0), "-0.03125");
+      EXPECT_EQ(split(lines_of(text_of(back)).back()).at(0), "-2");
+      with_scalar(Precision::parse(precision), [&]<Scalar S>() {
+        for (std::size_t i = 0; i < 4; ++i) {
+          EXPECT_EQ(first[1 + i], forth["q"][i]);
+          EXPECT_EQ(first[5 + i], forth["p"][i]);
+          const auto miss = [&](const ordered_json& came, const std::string& from) {
+            return magnitude(S(literal<S>(came.get<std::string>()) - literal<S>(from)));
+          };
+          EXPECT_LE(miss(j["q"][i], start[1 + i]), 200 * epsilon<S>()) << precision << method;
+          EXPECT_LE(miss(j["p"][i], start[5 + i]), 200 * epsilon<S>()) << precision << method;
+        }
+        return 0;
+      });
+    }
+  }
+}
+
+TEST(Start, TakesAStateWithItsCarry) {
+  const Folder folder;
+  const std::string scene = folder.write("pendulum.toml", pendulum("1"));
+  const Arguments run{"run", scene, "--method", "hbvm:2,2", "--step", "1/64", "--until", "1"};
+  ordered_json end = json_of(run);
+  EXPECT_EQ(end["q_carry"].size(), 2u);
+  EXPECT_EQ(end["p_carry"].size(), 2u);
+  const ordered_json with = json_of(run + Arguments{"--start", folder.write("a.json", end.dump())});
+  end.erase("q_carry");
+  end.erase("p_carry");
+  const ordered_json without = json_of(run + Arguments{"--start", folder.write("a.json", end.dump())});
+  EXPECT_NE(with.dump(), without.dump());
+  for (const int i : {0, 1})
+    EXPECT_NEAR(number(with["q"][static_cast<std::size_t>(i)]), number(without["q"][static_cast<std::size_t>(i)]),
+                1e-14);
+}
+
+TEST(Start, MayLeaveTheHiddenConstraintAndIsRefusedOtherwise) {
+  const Folder folder;
+  const std::string scene = folder.write("pendulum.toml", pendulum("1"));
+  const Arguments run{"run", scene, "--method", "hbvm:2,2", "--step", "1/8", "--until", "1"};
+  const auto start = [&](const std::string& json) { return run + Arguments{"--start", folder.write("a.json", json)}; };
+  EXPECT_EQ(hbvm(start(R"({"q": ["0", "-1"], "p": ["1", "0.125"]})")).code, 0);
+  EXPECT_EQ(hbvm(start(R"x({"q": ["sqrt(1/2)", "-sqrt(1/2)"], "p": ["0", "0"]})x")).code, 0);
+  const auto refused = [&](const std::string& json, const std::vector<std::string>& words) {
+    const Arguments arguments = start(json);
+    std::vector<std::string> all = words;
+    all.push_back(arguments.back());
+    expect_refused(arguments, all);
+  };
+  refused("", {"JSON"});
+  refused("[1]", {"object"});
+  refused(R"({"p": ["1", "0"]})", {"'q'"});
+  refused(R"({"q": ["0", "-1"]})", {"'p'"});
+  refused(R"({"q": ["0", "-1"], "p": "1"})", {"'p'", "list"});
+  refused(R"({"q": ["0", "-1"], "p": [1, "0"]})", {"'p', entry 1", "text"});
+  refused(R"({"q": ["0", "-1", "0"], "p": ["1", "0"]})", {"'q'", "3 entries"});
+  refused(R"({"q": ["0", "-1"], "p": ["1", "0"], "q_carry": ["0"], "p_carry": ["0", "0"]})",
+          {"'q_carry'", "1 entries"});
+  refused(R"({"q": ["0", "-1"], "p": ["1", "0"], "q_carry": ["0", "0"]})", {"'p_carry'"});
+  refused(R"({"q": ["0", "-1"], "p": ["nan", "0"]})", {"'p', entry 1", "nan"});
+  refused(R"({"q": ["0", "-1"], "p": ["1e400", "0"]})", {"'p', entry 1", "range"});
+  refused(R"({"q": ["0", "-1.000001"], "p": ["1", "0"]})", {"'q'", "constraint 1", "rod", "residual"});
+  refused(R"({"scene": "kepler", "q": ["0", "-1"], "p": ["1", "0"]})", {"'scene'", "kepler"});
+  expect_refused(run + Arguments{"--start", folder / "none"}, {folder / "none"});
+}
+
+TEST(Start, AndReverseAreKept) {
+  const Folder folder;
+  const std::string scene = folder.write("pendulum.toml", pendulum("1"));
+  const std::string start = folder.write("a.json", R"({"q": ["1", "0"], "p": ["0", "1"]})"), file = folder / "run";
+  const Arguments run{"run",     scene, "--method", "hbvm:3,2", "--step",    "1/4096",
+                      "--until", "20",  "--start",  start,      "--reverse", "--json"};
+  const ordered_json whole = result_of(hbvm(run));
+  const Outcome outcome = hbvm(run + Arguments{"--checkpoint", file, "--every-seconds", "0"}, 60, [&](pid_t child) {
+    await(file);
+    kill(child, SIGINT);
+  });
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  expect_refused({"run", "--resume", file, "--start", folder.write("b.json", R"({"q": ["1", "0"], "p": ["0", "2"]})")},
+                 {"another state"});
+  std::filesystem::remove(start);
+  EXPECT_EQ(result_of(hbvm({"run", "--resume", file})).dump(), whole.dump());
+}
+
+}  // namespace
+}  // namespace hbvm

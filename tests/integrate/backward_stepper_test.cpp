@@ -1,0 +1,43 @@
+#include "hbvm/integrate/backward_stepper.hpp"
+
+#include "integrate/runs.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class Backward : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+};
+TYPED_TEST_SUITE(Backward, AllScalars, ScalarNames);
+
+/// The methods are symmetric.
+TYPED_TEST(Backward, ComesBackToRoundOff) {
+  using S = TypeParam;
+  for (const char* scene : {"charged_double_pendulum", "heavy_top", "kepler"}) {
+    SceneRun<S> run(load_scene(scene), 3, 2, "1/64", "1", SolverKind::automatic);
+    const State<S> start = run.state;
+    for (int n = 0; n < 64; ++n) run.stepper.step(run.state);
+    EXPECT_GT(distance(run.state.q, start.q), S(1) / 100);
+    SceneRun<S> back(load_scene(scene), 3, 2, "1/64", "1", SolverKind::automatic);
+    BackwardStepper<S> stepper(back.stepper);
+    for (int n = 0; n < 64; ++n) stepper.step(run.state);
+    EXPECT_LE(distance(run.state.q, start.q), 1'000 * epsilon<S>()) << scene;
+    EXPECT_LE(distance(run.state.p, start.p), 1'000 * epsilon<S>()) << scene;
+  }
+}
+
+TEST(Backward, LeavesTheStateOfAFailedStepAlone) {
+  Scene scene = load_scene("kepler");
+  SceneRun<double> run(scene, 2, 2, "1/16", "1");
+  run.state.q.setZero();
+  const State<double> before = run.state;
+  BackwardStepper<double> backward(run.stepper);
+  EXPECT_THROW(backward.step(run.state), StageFailure);
+  EXPECT_EQ(run.state.p, before.p);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,305 @@
+#include "hbvm/integrate/checkpoint.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "hbvm/checksum.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/integrate/backward_stepper.hpp"
+#include "hbvm/integrate/drift.hpp"
+#include "hbvm/integrate/momentum_drift.hpp"
+#include "hbvm/integrate/trajectory.hpp"
+#include "hbvm/interruption.hpp"
+#include "integrate/runs.hpp"
+#include "printing.hpp"
+#include "verification/models.hpp"
+
+namespace hbvm {
+namespace {
+
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "hbvm_checkpoint_test_XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
+    path_ = pattern;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  std::string operator/(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void write(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+template <Scalar S>
+std::string bits_of(State<S>& state, Stepper<S>& stepper) {
+  Vector<S> multiplier = stepper.multiplier();
+  SolverCounts counts = stepper.counts();
+  Archive bits;
+  bits(state, multiplier);
+  for (EffectCount& effect : counts.effects) bits(effect.calls, effect.evaluations);
+  for (PartCount& part : counts.parts) bits(part.calls);
+  return bits.text();
+}
+
+/// A run that is kept and taken up by a new stepper after each of its steps has the same bits as one that is not, and
+/// takes as many sweeps.
+template <Scalar S>
+void expect_same_steps(const Scene& scene, int k, int s, const char* step, SolverKind solver, long steps) {
+  SCOPED_TRACE(scene.name + " by " + std::string(name_of(solver)) + ", step " + step);
+  const std::string until = std::string(step) + "*" + std::to_string(steps);
+  SceneRun<S> whole(scene, k, s, step, until.c_str(), solver);
+  std::vector<std::string> expected;
+  std::vector<long> sweeps;
+  for (long n = 0; n < steps; ++n) {
+    sweeps.push_back(whole.stepper.step(whole.state));
+    expected.push_back(bits_of(whole.state, whole.stepper));
+  }
+  std::string kept;
+  for (long n = 0; n < steps; ++n) {
+    SceneRun<S> part(scene, k, s, step, until.c_str(), solver);
+    if (n > 0) {
+      Archive reading(kept);
+      reading(part.state, part.stepper);
+      reading.expect_end();
+      Archive again;
+      again(part.state, part.stepper);
+      EXPECT_EQ(again.text(), kept) << "what is read is not what was written";
+    }
+    EXPECT_EQ(part.stepper.step(part.state), sweeps[static_cast<std::size_t>(n)]) << "step " << n + 1;
+    ASSERT_EQ(bits_of(part.state, part.stepper), expected[static_cast<std::size_t>(n)]) << "step " << n + 1;
+    Archive writing;
+    writing(part.state, part.stepper);
+    kept = writing.text();
+  }
+}
+
+template <class S>
+class Memory : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+};
+TYPED_TEST_SUITE(Memory, AllScalars, ScalarNames);
+
+constexpr SolverKind all_solvers[] = {SolverKind::automatic, SolverKind::newton, SolverKind::fixed_point,
+                                      SolverKind::paper};
+
+TYPED_TEST(Memory, OfEverySolverIsComplete) {
+  for (const SolverKind solver : all_solvers) {
+    expect_same_steps<TypeParam>(load_scene("charged_double_pendulum"), 3, 2, "1/16", solver, 14);
+    expect_same_steps<TypeParam>(load_scene("kepler"), 4, 2, "1/16", solver, 14);
+  }
+}
+
+/// With the small step Newton in double keeps its Jacobian over several steps, with the large one it has to renew it.
+TYPED_TEST(Memory, OfNewtonHoldsItsJacobianAndItsRate) {
+  for (const char* step : {"1/256", "1/8", "1/3"})
+    expect_same_steps<TypeParam>(load_scene("triple_pendulum"), 3, 3, step, SolverKind::newton, 12);
+}
+
+/// In double the fixed point becomes slow in these, or fails.
+constexpr std::pair<const char*, const char*> switching[] = {
+    {"charged_tetrahedron", "1/2"}, {"four_bar_linkage", "1/3"}, {"spring_and_plane", "1"}};
+
+TYPED_TEST(Memory, OfTheAutomaticChoiceHoldsTheChoice) {
+  for (const auto& [scene, step] : switching)
+    expect_same_steps<TypeParam>(load_scene(scene), 3, 3, step, SolverKind::automatic, 12);
+}
+
+TEST(Memory, OfTheAutomaticChoiceIsTestedWhereItSwitches) {
+  int switched = 0;
+  for (const auto& [scene, step] : switching) {
+    SceneRun<double> run(load_scene(scene), 3, 3, step, (std::string(step) + "*12").c_str(), SolverKind::automatic);
+    const auto has_newton = [&] { return run.stepper.counts().parts.back().name == std::string("corrections"); };
+    run.stepper.step(run.state);
+    const bool at_once = has_newton();
+    for (int n = 1; n < 12; ++n) run.stepper.step(run.state);
+    switched += !at_once && has_newton();
+  }
+  EXPECT_GE(switched, 2);
+}
+
+/// All that an integration gathers, its trajectory and its end, as text.
+template <Scalar S>
+struct Gathered {
+  SceneRun<S> run;
+  std::ostringstream csv;
+  Drift<S> drift;
+  MomentumDrift<S> momenta;
+  Trajectory<S> trajectory;
+
+  Gathered()
+      : run(load_scene("kepler"), 3, 2, "1/16", "12", SolverKind::automatic),
+        drift(run.scene.problem),
+        momenta(run.scene.problem, conserved_momenta(run.scene.problem)),
+        trajectory(run.scene.problem, csv, 5, run.grid.steps(), {"a line"}) {}
+
+  std::string operator()(Checkpoints* checkpoints, Observer<S>* last = nullptr) {
+    std::vector<Observer<S>*> observers{&drift, &momenta, &trajectory};
+    if (last) observers.push_back(last);
+    Integration<S> result = integrate<S>(run.stepper, run.state, run.grid, observers, checkpoints);
+    Archive all;
+    all(result.end.n, result.end.t, result.end.q, result.end.p, result.end.lambda, result.steps, result.sweeps,
+        run.state, drift, momenta, trajectory);
+    EXPECT_FALSE(momenta.components().empty());
+    return all.text();
+  }
+};
+
+/// Asks for an end after step n, and writes down nothing.
+template <Scalar S>
+struct EndAfter final : Observer<S> {
+  long n;
+  explicit EndAfter(long last) : n(last) {}
+  ~EndAfter() override { interruption = 0; }
+  void observe(const Snapshot<S>& snapshot) override {
+    if (snapshot.n == n) interruption = SIGTERM;
+  }
+  void remember(Archive&) override {}
+};
+
+TYPED_TEST(Memory, OfAnIntegrationIsComplete) {
+  using S = TypeParam;
+  const Folder folder;
+  Gathered<S> whole;
+  const std::string expected = whole(nullptr);
+  long step = 0;
+  for (const long n : {0, 1, 2, 70, 150}) {
+    const std::string file = folder / "run";
+    std::string lines;
+    {
+      Gathered<S> first;
+      EndAfter<S> end(n);
+      Checkpoints checkpoints(file, 1e9, {});
+      try {
+        first(&checkpoints, &end);
+        FAIL() << "it was not interrupted";
+      } catch (const Interrupted& interrupted) {
+        EXPECT_EQ(interrupted.signal(), SIGTERM);
+        EXPECT_NE(std::string(interrupted.what()).find("SIGTERM after step "), std::string::npos);
+      }
+      lines = first.csv.str();
+    }
+    interruption = 0;
+    Gathered<S> second;
+    EndAfter<S> none(-1);
+    Checkpoints checkpoints(file, 1e9, {});
+    checkpoints.resume(read_checkpoint(file).state);
+    EXPECT_EQ(second(&checkpoints, &none), expected) << "interrupted after step " << n;
+    EXPECT_EQ(lines + second.csv.str(), whole.csv.str());
+    step = n;
+  }
+  EXPECT_EQ(step, 150);
+}
+
+TEST(Checkpoints, AreWrittenAtTheStartWhenDueAndAtTheEnd) {
+  const Folder folder;
+  const std::string file = folder / "run";
+  struct Count final : Observer<double> {
+    long remembered = 0;
+    void observe(const Snapshot<double>&) override {}
+    void remember(Archive&) override { ++remembered; }
+  };
+  const auto written = [&](double seconds) {
+    SceneRun<double> run(load_scene("kepler"), 2, 2, "1/16", "12");
+    Count count;
+    Checkpoints checkpoints(file, seconds, {});
+    integrate<double>(run.stepper, run.state, run.grid, {&count}, &checkpoints);
+    return count.remembered;
+  };
+  EXPECT_EQ(written(1e9), 2);
+  EXPECT_GE(written(0), 1 + 192 / 64);
+  EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+}
+
+TEST(Checkpoints, AreRefusedWhereAnObserverCannotBeKept) {
+  const Folder folder;
+  SceneRun<double> run(load_scene("kepler"), 2, 2, "1/16", "12");
+  Recorder<double> recorder;
+  Checkpoints checkpoints(folder / "run", 60, {});
+  EXPECT_THROW(integrate<double>(run.stepper, run.state, run.grid, {&recorder}, &checkpoints), InputError);
+}
+
+void expect_refused(const std::string& file, const std::string& text, const std::string& words) {
+  write(file, text);
+  try {
+    read_checkpoint(file);
+    ADD_FAILURE() << "not refused: " << text;
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find(words), std::string::npos) << what << " does not say " << words;
+    EXPECT_NE(what.find(file), std::string::npos) << what;
+  }
+}
+
+std::string sealed(const std::string& text) { return text + "checksum " + Checksum(text).text() + "\n"; }
+
+TEST(CheckpointFile, IsReadAsItWasWritten) {
+  const Folder folder;
+  const std::string file = folder / "run";
+  const Checkpoint written{{"1.2", "name", "a = 1\nb = 2\n", "", {{"--step", "1/2"}, {"--reverse", "true"}}}, "1\n2\n"};
+  write_checkpoint(file, written);
+  const Checkpoint read = read_checkpoint(file);
+  EXPECT_EQ(read.identity.program, "1.2");
+  EXPECT_EQ(read.identity.scene_name, "name");
+  EXPECT_EQ(read.identity.scene, written.identity.scene);
+  EXPECT_EQ(read.identity.options, written.identity.options);
+  EXPECT_EQ(read.state, "1\n2\n");
+}
+
+TEST(CheckpointFile, IsRefusedWithEveryByteFlippedAndCutAnywhere) {
+  const Folder folder;
+  const std::string file = folder / "run";
+  write_checkpoint(file, {{"1.2", "name", "scene", "", {}}, "1\n2\n"});
+  const std::string whole = text_of(file);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    for (const int bit : {1, 32}) {
+      std::string flipped = whole;
+      flipped[i] = static_cast<char>(flipped[i] ^ bit);
+      expect_refused(file, flipped, "is ");
+    }
+    expect_refused(file, whole.substr(0, i), i == 0 ? "is empty" : "is ");
+  }
+  expect_refused(file, whole + "\n", "is damaged");
+}
+
+TEST(CheckpointFile, IsRefusedIfItIsNoneOrOfTheFuture) {
+  const Folder folder;
+  const std::string file = folder / "run";
+  expect_refused(file, "dimension = 2\n", "no checkpoint");
+  expect_refused(file, sealed("hbvm checkpoint 2\n1\n"), "format '2' of another version");
+  expect_refused(file, sealed("hbvm checkpoint 1\n5\n"), "fit");
+  EXPECT_THROW(read_checkpoint(folder / "none"), InputError);
+  EXPECT_THROW(read_checkpoint(folder / ""), InputError);
+}
+
+TEST(CheckpointFile, OverwritesNothingButACheckpoint) {
+  const Folder folder;
+  const std::string file = folder / "run";
+  write(file, "precious");
+  EXPECT_THROW(Checkpoints(file, 60, {}), InputError);
+  EXPECT_THROW(write_checkpoint(file, {}), InputError);
+  EXPECT_EQ(text_of(file), "precious");
+  EXPECT_THROW(Checkpoints("", 60, {}), InputError);
+  EXPECT_THROW(Checkpoints("/nonexistent/run", 60, {}), InputError);
+  EXPECT_THROW(Checkpoints(folder / "", 60, {}), InputError);
+  write(file, "");
+  write_checkpoint(file, {});
+  write_checkpoint(file, {});
+  EXPECT_EQ(read_checkpoint(file).state, "");
+}
+
+}  // namespace
+}  // namespace hbvm

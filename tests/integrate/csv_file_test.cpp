@@ -1,0 +1,122 @@
+#include "hbvm/integrate/csv_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+class CsvFiles : public ::testing::Test {
+ protected:
+  CsvFiles() : path_((std::filesystem::temp_directory_path() / "hbvm_csv_file_test_XXXXXX").string()) {
+    const int file = mkstemp(path_.data());
+    if (file >= 0) close(file);
+  }
+  ~CsvFiles() override { std::filesystem::remove(path_); }
+  std::string text() const {
+    std::ifstream file(path_, std::ios::binary);
+    std::ostringstream all;
+    all << file.rdbuf();
+    return all.str();
+  }
+
+  std::string path_;
+};
+
+TEST_F(CsvFiles, HoldCompleteLinesOnly) {
+  std::string expected;
+  {
+    CsvFile file(path_, CsvFile::Opening::anew);
+    for (int i = 0; i < 20'000; ++i) {
+      const std::string line = std::to_string(i) + ",1.5,abc";
+      file << line << '\n';
+      expected += line + "\n";
+      if (i % 3'000 == 0) {
+        file << "cut";
+        file.flush();
+        EXPECT_TRUE(text() == expected) << i;
+        file << ',' << "whole\n";
+        expected += "cut,whole\n";
+      }
+    }
+    file << "never ended";
+  }
+  EXPECT_TRUE(text() == expected);
+}
+
+TEST_F(CsvFiles, GoOnWhereTheyWere) {
+  Archive writing;
+  {
+    CsvFile file(path_, CsvFile::Opening::anew);
+    file << "one\ntwo\n";
+    writing(file);
+    file << "three\n";
+  }
+  EXPECT_EQ(text(), "one\ntwo\nthree\n");
+  const auto go_on = [&] {
+    CsvFile file(path_, CsvFile::Opening::to_go_on);
+    Archive reading(writing.text());
+    reading(file);
+    Archive again;
+    again(file);
+    EXPECT_EQ(again.text(), writing.text());
+    file << "four\n";
+  };
+  go_on();
+  EXPECT_EQ(text(), "one\ntwo\nfour\n");
+  std::ofstream(path_) << "one\ntwo\nthr";
+  go_on();
+  EXPECT_EQ(text(), "one\ntwo\nfour\n");
+  for (const char* other : {"one\ntwo", "", "one\ntoo\nthree\n"}) {
+    std::ofstream(path_) << other;
+    EXPECT_THROW(go_on(), InputError) << other;
+    EXPECT_EQ(text(), other);
+  }
+  std::filesystem::remove(path_);
+  EXPECT_THROW(go_on(), InputError);
+}
+
+TEST_F(CsvFiles, EndWithACompleteLineOnAFullDisk) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  for (const rlim_t room : {1, 9, 10, 11, 105, 70'000, 140'003}) {
+    std::filesystem::resize_file(path_, 0);
+    rlimit limit = before;
+    limit.rlim_cur = room;
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      CsvFile file(path_, CsvFile::Opening::anew);
+      for (int i = 0; i < 20'000; ++i) file << "123456789\n";
+      file.flush();
+      ADD_FAILURE() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(path_), std::string::npos) << error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(text().size(), room / 10 * 10);
+  }
+}
+
+TEST_F(CsvFiles, ThatCannotBeCutAreNotKept) {
+  CsvFile file("/dev/null", CsvFile::Opening::anew);
+  file << "one\n";
+  Archive writing;
+  EXPECT_THROW(writing(file), InputError);
+  CsvFile full("/dev/full", CsvFile::Opening::anew);
+  full << "one\n";
+  EXPECT_THROW(full.flush(), InputError);
+  EXPECT_THROW(CsvFile("/nonexistent/file", CsvFile::Opening::anew), InputError);
+}
+
+}  // namespace
+}  // namespace hbvm
