@@ -53,7 +53,9 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
       extrapolation_(method.s, problem.m() + problem.nu()),
       position_scale_(problem, step),
       positions_(problem.m()),
-      rule_(problem.m(), roundings_of_a_sweep(problem, method)) {
+      rule_(problem.m(), roundings_of_a_sweep(problem, method)),
+      // Some to come near, then three bits a sweep: less is `slow`.
+      max_sweeps_(60 + significand_bits<S>() / 3) {
   using std::sqrt;
   tolerance_ = S(roundings_of_a_sweep(problem, method)) * epsilon<S>();
   root_epsilon_ = sqrt(epsilon<S>());
@@ -75,7 +77,8 @@ long SimplifiedNewton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
       }
       copy(start_.gamma, x_.gamma);
       sweeps += iterate(equations_, jacobian_, positions_);
-      return start == Start::shorter || start == Start::shortest || !is_far_from_start(equations_);
+      return start == Start::shorter || start == Start::shortest ||
+             !(is_far_from_start(equations_) || multipliers_run_wild());
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       usable_ = false;
@@ -92,21 +95,53 @@ long SimplifiedNewton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
 }
 
 template <Scalar S>
-bool SimplifiedNewton<S>::is_far_from_start(const StageEquations<S>& equations) {
-  // Body by body: a coordinate may be small for a moment.
+S SimplifiedNewton<S>::size_at_start(const StageEquations<S>& equations,
+                                     const typename MassMatrix<S>::Block& block) const {
   const S& h = equations.step();
+  S size = 0;
+  for (Index j = block.offset; j < block.offset + block.size; ++j) {
+    raise_magnitude(size, equations.p0()[j]);
+    for (Index i = 0; i < start_.psi.rows(); ++i) {
+      raise_magnitude(size, S(h * start_.psi(i, j)));
+      raise_magnitude(size, S(h * start_.zeta(i, j)));
+    }
+  }
+  return size;
+}
+
+template <Scalar S>
+bool SimplifiedNewton<S>::is_far_from_start(const StageEquations<S>& equations) const {
+  // Body by body: a coordinate may be small for a moment.
   for (const auto& block : problem_.mass.blocks()) {
-    S moved = 0, forces_changed = 0, size = 0;
-    for (Index j = block.offset; j < block.offset + block.size; ++j) {
-      raise_magnitude(size, equations.p0()[j]);
+    S moved = 0, forces_changed = 0;
+    for (Index j = block.offset; j < block.offset + block.size; ++j)
       for (Index i = 0; i < start_.gamma.rows(); ++i) {
         raise_magnitude(moved, S(x_.gamma(i, j) - start_.gamma(i, j)));
-        raise_magnitude(forces_changed, S(h * (x_.psi(i, j) - start_.psi(i, j))));
-        raise_magnitude(size, S(h * start_.psi(i, j)));
-        raise_magnitude(size, S(h * start_.zeta(i, j)));
+        raise_magnitude(forces_changed, S(equations.step() * (x_.psi(i, j) - start_.psi(i, j))));
+      }
+    const S size = size_at_start(equations, block);
+    if (moved > size || 2 * forces_changed > size) return true;
+  }
+  return false;
+}
+
+template <Scalar S>
+bool SimplifiedNewton<S>::multipliers_run_wild() const {
+  constexpr int much = 4;
+  const ConstraintGradient<S>& gradient = equations_.constraint_gradient();
+  for (const auto& block : problem_.mass.blocks()) {
+    const S most = much * size_at_start(equations_, block);
+    for (Index a = 0; a < x_.lambda.cols(); ++a) {
+      const auto& pattern = gradient.pattern(a);
+      for (std::size_t c = 0; c < pattern.coordinates.size(); ++c) {
+        const Index j = pattern.coordinates[c], column = pattern.first + static_cast<Index>(c);
+        if (j < block.offset || j >= block.offset + block.size) continue;
+        for (Index i = 0; i < x_.lambda.rows(); ++i) {
+          const S change = x_.lambda(i, a) - start_.lambda(i, a);
+          if (!(magnitude(S(equations_.step() * gradient.values()(i, column) * change)) <= most)) return true;
+        }
       }
     }
-    if (moved > size || 2 * forces_changed > size) return true;
   }
   return false;
 }
@@ -232,13 +267,14 @@ long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jac
   int halvings = 0, waiting = 0;
   set_zero(last_);
   rule_.start(equations.p0(), positions);
-  for (long sweeps = 1; sweeps <= max_sweeps; ++sweeps) {
+  for (long sweeps = 1; sweeps <= max_sweeps_; ++sweeps) {
     const auto fail = [&](FailureCause cause, const char* what) {
       throw StageFailure(cause, what, to_scientific(rule_.relative_change(), 3), sweeps);
     };
     equations.residual(x_, residual_);
     copy(momentum_, residual_.momentum);
     if (sweeps == 1) {
+      copy(start_.lambda, x_.lambda);
       copy(start_.psi, x_.psi);
       copy(start_.zeta, x_.zeta);
     }
@@ -305,7 +341,7 @@ long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jac
     keep_base_scale();
   }
   throw StageFailure(FailureCause::stage_equations_diverge, "the increments stagnate",
-                     to_scientific(rule_.relative_change(), 3), max_sweeps);
+                     to_scientific(rule_.relative_change(), 3), max_sweeps_);
 }
 
 template <Scalar S>

@@ -26,8 +26,6 @@ namespace hbvm {
 template <Scalar S>
 class SimplifiedNewton {
  public:
-  static constexpr long max_sweeps = 60;
-
   SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
 
   /// \return the number of residuals
@@ -68,9 +66,14 @@ class SimplifiedNewton {
   void measure_change();
   /// A residual as large as what it is the residual of shows no solution, however small the increments.
   bool residual_is_small();
+  /// The greatest of |p0|, h |psi| and h |zeta| of a body at start_.
+  S size_at_start(const StageEquations<S>& equations, const typename MassMatrix<S>::Block& block) const;
   /// Whether the momenta of some body are farther from those of start_ than the forces there explain, or its forces psi
   /// have changed by more than half of their size.
-  bool is_far_from_start(const StageEquations<S>& equations);
+  bool is_far_from_start(const StageEquations<S>& equations) const;
+  /// Whether what a single constraint does to some body has changed by much more than its momentum and forces: where
+  /// constraints are nearly dependent, branches lie side by side, and only multipliers tell that one was left.
+  bool multipliers_run_wild() const;
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
@@ -80,7 +83,7 @@ class SimplifiedNewton {
   StageUnknowns<S> x_;
   StageResidual<S> residual_;
   Matrix<S> momentum_;                  ///< residual before it is solved for
-  StageUnknowns<S> start_;              ///< gamma of the iteration's start, psi and zeta there
+  StageUnknowns<S> start_;              ///< gamma and lambda of the iteration's start, psi and zeta there
   StageResidual<S> base_, correction_;  ///< an iterate (gamma, h lambda) and the step from it
   Vector<S> base_scale_;                ///< of its coordinates
   Vector<S> first_row_of_inverse_X_, momentum_change_, sequence_;
@@ -88,6 +91,7 @@ class SimplifiedNewton {
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;
+  long max_sweeps_;
   S tolerance_, root_epsilon_, coarse_;
   S change_ = 0, last_ = 0, t_ = 0, u_ = 0, solved_ = 0;
 };
