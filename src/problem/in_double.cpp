@@ -1,5 +1,9 @@
 #include "hbvm/problem/in_double.hpp"
 
+#include <cstdlib>
+
+#include "hbvm/scalar/binary_exponent.hpp"
+
 namespace hbvm {
 namespace {
 
@@ -93,7 +97,21 @@ Problem<double> in_double(const Problem<S>& problem) {
   return result;
 }
 
-#define HBVM_DEFINE(S) template Problem<double> in_double<S>(const Problem<S>&);
+template <Scalar S>
+bool fits_double(const Problem<S>& problem, const S& step) {
+  constexpr long range = 500;
+  const auto fits = [](const S& x) { return x == 0 || std::abs(binary_exponent(x)) < range; };
+  bool all = fits(step);
+  for (const auto& block : problem.mass.blocks()) {
+    if (!block.full) all = all && fits(block.mass);
+    for (Index i = 0; i < block.M.size(); ++i) all = all && fits(block.M.data()[i]);
+  }
+  return all;
+}
+
+#define HBVM_DEFINE(S)                                      \
+  template Problem<double> in_double<S>(const Problem<S>&); \
+  template bool fits_double<S>(const Problem<S>&, const S&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

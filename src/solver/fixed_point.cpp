@@ -17,6 +17,7 @@ FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, cons
       extrapolation_(x_.gamma.rows(), x_.gamma.cols()),
       position_scale_(problem, step),
       rule_(problem.m(), roundings_of_a_sweep(problem, method)),
+      root_check_(problem, method, step),
       positions_(problem.m()),
       position_change_(problem.m()),
       momentum_change_(problem.m()) {}
@@ -26,6 +27,7 @@ long FixedPoint<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
   equations_.start(q0, p0);
   position_scale_.evaluate(q0, positions_);
   long sweeps = 0;
+  bool doubtful = false;
   if (order_ == Order::paper) {
     prepare(Start::zero, p0);
     sweeps = iterate();
@@ -37,14 +39,16 @@ long FixedPoint<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
       } catch (const StageFailure& failure) {
         sweeps = failure.sweeps();
         extrapolation_.clear();
+        doubtful = true;
       }
     }
     if (extrapolation_.empty()) {
       prepare(Start::constant, p0);
       sweeps += iterate();
     }
-    extrapolation_.add(x_.gamma.data());
   }
+  if (doubtful || rule_.sweeps() > significand_bits<S>()) sweeps += check_root(sweeps);
+  if (order_ == Order::newest) extrapolation_.add(x_.gamma.data());
   equations_.changes(x_, position_change_, momentum_change_);
   return sweeps;
 }
@@ -76,6 +80,17 @@ bool FixedPoint<S>::conditioned() {
   if (!(rule_.condition_wanted() <= kappa)) return false;
   rule_.set_condition(kappa);
   return true;
+}
+
+template <Scalar S>
+long FixedPoint<S>::check_root(long sweeps) {
+  if (root_check_.judge(equations_.q0(), equations_.p0(), x_.gamma) == RootCheck<S>::Verdict::other) {
+    extrapolation_.clear();
+    throw StageFailure(FailureCause::stage_equations_diverge,
+                       "the solution found is not the one that shorter steps lead to",
+                       to_scientific(rule_.relative_change(), 3), sweeps + root_check_.sweeps());
+  }
+  return root_check_.sweeps();
 }
 
 template <Scalar S>

@@ -74,7 +74,7 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& ste
   }
   equations_.emplace(problem_, method_, h_);
   x_ = equations_->make_unknowns();
-  failed_in_double_ = !fits_double();
+  failed_in_double_ = !fits_double(problem, step);
   if (failed_in_double_) return;
   rounded_problem_.emplace(in_double(problem));
   rounded_method_.emplace(make_hbvm<double>(method.k, method.s));
@@ -86,19 +86,6 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& ste
   momentum_ = correction_.momentum;
   change_.resize(problem.m());
   make_rungs();
-}
-
-template <Scalar S>
-bool Newton<S>::fits_double() const {
-  // What double has of its range on either side of 1, with room for products of two.
-  constexpr long range = 500;
-  const auto fits = [](const S& x) { return x == 0 || std::abs(binary_exponent(x)) < range; };
-  bool all = fits(h_);
-  for (const auto& block : problem_.mass.blocks()) {
-    if (!block.full) all = all && fits(block.mass);
-    for (Index i = 0; i < block.M.size(); ++i) all = all && fits(block.M.data()[i]);
-  }
-  return all;
 }
 
 template <Scalar S>

@@ -95,6 +95,24 @@ long SimplifiedNewton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
 }
 
 template <Scalar S>
+long SimplifiedNewton<S>::follow(const Vector<S>& q0, const Vector<S>& p0) {
+  equations_.start(q0, p0);
+  position_scale_.evaluate(q0, positions_);
+  usable_ = false;
+  long sweeps = 0;
+  for (const int halvings : {12, 30}) {
+    try {
+      sweeps += grow(q0, p0, halvings);
+      break;
+    } catch (const StageFailure& failure) {
+      sweeps += failure.sweeps();
+      if (halvings == 30) throw StageFailure(failure.cause(), failure.what(), failure.increment(), sweeps);
+    }
+  }
+  return sweeps;
+}
+
+template <Scalar S>
 S SimplifiedNewton<S>::size_at_start(const StageEquations<S>& equations,
                                      const typename MassMatrix<S>::Block& block) const {
   const S& h = equations.step();

@@ -8,7 +8,14 @@ namespace hbvm {
 template <Scalar S>
 Problem<double> in_double(const Problem<S>& problem);
 
-#define HBVM_DECLARE(S) extern template Problem<double> in_double<S>(const Problem<S>&);
+/// Whether that is the problem with all its digits but the last, also for such a step: the exponents of masses and step
+/// leave room for products of two.
+template <Scalar S>
+bool fits_double(const Problem<S>& problem, const S& step);
+
+#define HBVM_DECLARE(S)                                            \
+  extern template Problem<double> in_double<S>(const Problem<S>&); \
+  extern template bool fits_double<S>(const Problem<S>&, const S&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

@@ -2,6 +2,7 @@
 
 #include "hbvm/solver/extrapolation.hpp"
 #include "hbvm/solver/position_scale.hpp"
+#include "hbvm/solver/root_check.hpp"
 #include "hbvm/solver/stage_solver.hpp"
 #include "hbvm/solver/stopping_rule.hpp"
 
@@ -16,7 +17,8 @@ namespace hbvm {
 /// StoppingRule says when it ends, from the change of gamma, and in the paper's order, where psi lags, of h psi. If the
 /// changes stop falling above what rounding explains, the condition of the constraints may explain it.
 ///
-/// It fails if a change is not finite, if (lam) is singular, and if the changes stagnate, grow or fall too slowly.
+/// It fails if a change is not finite, if (lam) is singular, and if the changes stagnate, grow or fall too slowly. A
+/// solution that was found after one start had led nowhere, or by less than a bit a sweep, has to pass RootCheck.
 template <Scalar S>
 class FixedPoint final : public StageSolver<S> {
  public:
@@ -38,6 +40,8 @@ class FixedPoint final : public StageSolver<S> {
   void prepare(Start start, const Vector<S>& p0);
   long iterate();
   [[nodiscard]] bool sweep(bool factor);
+  /// \return the sweeps that took \throws StageFailure if the solution is another than shorter steps lead to
+  long check_root(long sweeps);
   /// Whether the condition of the constraints at q0 explains the changes that are left.
   bool conditioned();
 
@@ -48,6 +52,7 @@ class FixedPoint final : public StageSolver<S> {
   Extrapolation<S> extrapolation_;  ///< of gamma
   PositionScale<S> position_scale_;
   StoppingRule<S> rule_;
+  RootCheck<S> root_check_;
   Vector<S> positions_, position_change_, momentum_change_;
 };
 

@@ -56,8 +56,6 @@ class Newton final : public StageSolver<S> {
   /// \return the number of residuals, and whether the corrections fell
   std::pair<long, bool> refine(const Vector<S>& q0, const Vector<S>& p0);
   long solve_in_full(const Vector<S>& q0, const Vector<S>& p0);
-  /// Whether the problem in double is the problem, with all its digits but the last.
-  bool fits_double() const;
   /// Residual of x_ with at least so many bits if there are as many: scaled by 2^-exponent into correction_.
   /// \return whether it was evaluated in the working precision
   bool residual(long bits, long& exponent);

@@ -31,6 +31,10 @@ class SimplifiedNewton {
   /// \return the number of residuals
   /// \throws StageFailure
   long solve(const Vector<S>& q0, const Vector<S>& p0);
+  /// The solution that shorter and shorter steps lead to, found by following it from 2^-12 or 2^-30 of the step.
+  /// \return the number of residuals
+  /// \throws StageFailure
+  long follow(const Vector<S>& q0, const Vector<S>& p0);
   /// Evaluates the Jacobian at the solution. \return false if it is singular
   [[nodiscard]] bool refresh();
 

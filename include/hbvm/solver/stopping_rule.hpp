@@ -18,8 +18,9 @@ namespace hbvm {
 /// - if that is all the iteration still has to change: its change times the rate at which changes fall. The rate is the
 ///   greatest of any coordinate in the last two sweeps, or its own; but a change below C epsilon of its scale may be
 ///   rounding: none is compared with it, and the rate so far tells what it would be without. (Not even a change of 0
-///   says more: numbers stand still from half of an ulp on, on the side from which the iteration comes.) No rate is taken to be
-///   below a least one, since one fast fall is not a rate. Two changes in a row below that bound do as well;
+///   says more: numbers stand still from half of an ulp on, on the side from which the iteration comes.) No rate is
+///   taken to be below a least one, since one fast fall is not a rate. Two changes in a row below that bound do as
+///   well;
 /// - or if its change is rounding: below C epsilon kappa of the larger of the scale and of what rounding of its
 ///   positions amounts to, and not below its least one (since it last rose to 16 times that) for two sweeps. C bounds
 ///   the roundings of a sweep, kappa the factor by which the constraints magnify them;

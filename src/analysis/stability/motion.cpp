@@ -59,7 +59,12 @@ class Recorder final : public Observer<S> {
   }
 
   std::vector<ExactState> take() { return std::move(seen_); }
-  ExactState scale() const { return {exact(q_size_), exact(p_size_)}; }
+  /// Of |q|, h |v| and h^2 |M^-1 force|, and of |p| and h |force|.
+  ExactState scale() {
+    problem_.mass.velocity(lanes(std::as_const(p_size_)), lanes(v_));
+    for (Index i = 0; i < v_.size(); ++i) raise_magnitude(q_size_[i], S(h_ * v_[i]));
+    return {exact(q_size_), exact(p_size_)};
+  }
 
  private:
   const Problem<S>& problem_;

@@ -1,0 +1,53 @@
+#include "hbvm/solver/root_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hbvm/scalar/binary_exponent.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+RootCheck<S>::Rounded::Rounded(const Problem<S>& full, const Hbvm<S>& full_method, const S& step)
+    : problem(in_double(full)),
+      method(make_hbvm<double>(full_method.k, full_method.s)),
+      newton(problem, method, approximately(step)) {}
+
+template <Scalar S>
+RootCheck<S>::RootCheck(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
+    : problem_(problem), method_(method), h_(step) {}
+
+template <Scalar S>
+auto RootCheck<S>::judge(const Vector<S>& q0, const Vector<S>& p0, const Matrix<S>& gamma) -> Verdict {
+  // Other solutions are other motions: they differ in the first digits.
+  const double apart = power_of_two<double>(-10);
+  sweeps_ = 0;
+  if (!fits_double(problem_, h_)) return Verdict::unknown;
+  const auto rounded = [](const auto& x) { return x.unaryExpr([](const S& entry) { return approximately(entry); }); };
+  const Vector<double> q = rounded(q0), p = rounded(p0);
+  try {
+    if (!rounded_) rounded_ = std::make_unique<Rounded>(problem_, method_, h_);
+    sweeps_ = rounded_->newton.follow(q, p);
+  } catch (const StageFailure& failure) {
+    sweeps_ = failure.sweeps();
+    return Verdict::unknown;
+  }
+  const Matrix<double>& followed = rounded_->newton.unknowns().gamma;
+  for (const auto& block : problem_.mass.blocks()) {
+    double size = 0, difference = 0;
+    for (Index j = block.offset; j < block.offset + block.size; ++j) {
+      size = std::max(size, std::abs(p[j]));
+      for (Index i = 0; i < gamma.rows(); ++i) {
+        size = std::max(size, std::abs(followed(i, j)));
+        difference = std::max(difference, std::abs(followed(i, j) - approximately(gamma(i, j))));
+      }
+    }
+    if (!(difference <= apart * size)) return Verdict::other;
+  }
+  return Verdict::same;
+}
+
+#define HBVM_DEFINE(S) template class RootCheck<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

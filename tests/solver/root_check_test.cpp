@@ -1,0 +1,74 @@
+#include "hbvm/solver/root_check.hpp"
+
+#include "hbvm/integrate/hbvm_stepper.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+/// A body on a circle whose period is about four steps of 250.
+const char* const slow_circle = R"(
+dimension = 2
+body = [{ name = "b", mass = 1, position = ["-10.772", "-8.4499"], velocity = ["-0.00768280410480453294195", "0.0097941000268588301460"] }]
+constraint = [{ kind = "quadric", body = "b", A = [[1, 0], [0, 1]], b = [0, 0], c = "-187.43679401" }]
+effect = [{ kind = "uniform_gravity", acceleration = ["9.272e-04", "2.940e-04"] }]
+)";
+
+template <class S>
+class Roots : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+};
+TYPED_TEST_SUITE(Roots, AllScalars, ScalarNames);
+
+TYPED_TEST(Roots, AreToldApart) {
+  using S = TypeParam;
+  using Verdict = typename RootCheck<S>::Verdict;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  const Hbvm<S> method = make_hbvm<S>(4, 2);
+  const S h = S(1) / 8;
+  const auto solver = make_solver<S>(SolverKind::newton, scene.problem, method, h);
+  solver->solve(scene.q0, scene.p0);
+  RootCheck<S> check(scene.problem, method, h);
+  Matrix<S> gamma = solver->unknowns().gamma;
+  EXPECT_EQ(check.judge(scene.q0, scene.p0, gamma), Verdict::same);
+  EXPECT_GT(check.sweeps(), 0);
+  gamma(0, 3) += S(1) / 64;
+  EXPECT_EQ(check.judge(scene.q0, scene.p0, gamma), Verdict::other);
+}
+
+TYPED_TEST(Roots, OfMassesBeyondDoubleAreUnknown) {
+  using S = TypeParam;
+  if constexpr (std::same_as<S, double>) return;
+  Assembled<S> scene = assemble<S>(read_scene(
+      "dimension = 2\nbody = [{ name = \"b\", mass = \"2^-1100\", position = [0, 0], velocity = [1, 0] }]\n", "light"));
+  const Hbvm<S> method = make_hbvm<S>(1, 1);
+  RootCheck<S> check(scene.problem, method, S(1));
+  EXPECT_EQ(check.judge(scene.q0, scene.p0, Matrix<S>::Zero(1, 2)), RootCheck<S>::Verdict::unknown);
+}
+
+/// In double the fixed point converges to a solution on the other side of the circle in the second step.
+TEST(RootsOfTheFixedPoint, AreThoseOfShorterStepsOrNone) {
+  const Assembled<double> scene = assemble<double>(read_scene(slow_circle, "slow"));
+  const Hbvm<double> method = make_hbvm<double>(3, 3);
+  for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::paper, SolverKind::automatic}) {
+    HbvmStepper<double> stepper(scene.problem, method, 250, kind);
+    HbvmStepper<double> newton(scene.problem, method, 250, SolverKind::newton);
+    State<double> state(scene.q0, scene.p0), expected = state;
+    try {
+      for (int n = 0; n < 4; ++n) {
+        stepper.step(state);
+        newton.step(expected);
+        for (Index i = 0; i < 2; ++i) EXPECT_NEAR(state.q[i], expected.q[i], 1e-10) << name_of(kind) << " " << n;
+      }
+      EXPECT_EQ(kind, SolverKind::automatic) << "it should not get so far";
+    } catch (const StageFailure& failure) {
+      EXPECT_NE(kind, SolverKind::automatic) << failure.what();
+      EXPECT_EQ(failure.cause(), FailureCause::stage_equations_diverge);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
