@@ -153,7 +153,7 @@ void add_audit_command(CLI::App& app) {
       "--out", o->out,
       "Folder for table (CSV, Markdown, LaTeX) and figure, audit-results if absent (with --json: none); "
       "--full goes on from what it finds there");
-  command->add_option("--jobs", o->jobs, "Threads")->capture_default_str();
+  command->add_option("--jobs", o->jobs, "Threads")->check(CLI::Number)->capture_default_str();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
       "Exit code 1 if a claim fails. A file of claims: tables [[claim]] with quantity, problem, method and rate, as\n"

@@ -299,13 +299,17 @@ void add_run_command(CLI::App& app) {
                    "What to do with a step that cannot be made: stop, or halve it, again and again, to at most 2^-20")
       ->capture_default_str();
   command->add_option("--out", o->out, "Write the trajectory to this CSV file");
-  command->add_option("--every", o->every, "Steps between two lines of the CSV file")->capture_default_str();
+  command->add_option("--every", o->every, "Steps between two lines of the CSV file")
+      ->check(CLI::Number)
+      ->capture_default_str();
   command->add_option(
       "--start", o->start,
       "Start from the state in this JSON file, as --json prints it: q, p and their carry; t begins at 0");
   command->add_flag("--reverse", o->reverse, "Integrate backwards in time, from t = 0 to minus the final time");
   command->add_option("--checkpoint", o->checkpoint, "Keep the run in this file, from which --resume goes on");
-  command->add_option("--every-seconds", o->every_seconds, "Seconds between two checkpoints")->capture_default_str();
+  command->add_option("--every-seconds", o->every_seconds, "Seconds between two checkpoints")
+      ->check(CLI::Number)
+      ->capture_default_str();
   command
       ->add_option_function<std::string>(
           "--resume",

@@ -121,7 +121,7 @@ void add_stability_command(CLI::App& app) {
                       "goes on");
   command->add_flag("--figures", o->figures,
                     "Also draw the study's figures there, beside what an earlier program gave (*_before.csv)");
-  command->add_option("--jobs", o->jobs, "Processes")->capture_default_str();
+  command->add_option("--jobs", o->jobs, "Processes")->check(CLI::Number)->capture_default_str();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
       "Exit code 1 if a case does not end as expected. See studies/stability.\n"

@@ -14,7 +14,7 @@ HbvmStepper<S>::HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, co
 
 template <Scalar S>
 long HbvmStepper<S>::step(State<S>& state) {
-  const long sweeps = solver_->solve(state.q, state.p);
+  const long sweeps = solver_->solve({state.q, state.p, &state.q_carry, &state.p_carry});
   const StageUnknowns<S>& x = solver_->unknowns();
   for (Index j = 0; j < problem_.m(); ++j) {
     set(increment_, solver_->position_change()[j]);

@@ -19,16 +19,16 @@ StageSolver<S>& Automatic<S>::make(int which) {
 }
 
 template <Scalar S>
-long Automatic<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
+long Automatic<S>::solve(const StepStart<S>& start) {
   long sweeps = 0;
   if (used_ == 0 && last_sweeps_ > slow) used_ = 1;
   last_sweeps_ = 0;
   try {
-    sweeps = make(used_).solve(q0, p0);
+    sweeps = make(used_).solve(start);
   } catch (const StageFailure& failure) {
     const int other = 1 - used_;
     try {
-      sweeps = failure.sweeps() + make(other).solve(q0, p0);
+      sweeps = failure.sweeps() + make(other).solve(start);
     } catch (const StageFailure& second) {
       throw StageFailure(failure.cause(),
                          failure.what() + std::string(" (fixed point and Newton: ") + second.what() + ")",

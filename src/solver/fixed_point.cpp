@@ -23,13 +23,13 @@ FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, cons
       momentum_change_(problem.m()) {}
 
 template <Scalar S>
-long FixedPoint<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
-  equations_.start(q0, p0);
-  position_scale_.evaluate(q0, positions_);
+long FixedPoint<S>::solve(const StepStart<S>& start) {
+  equations_.start(start);
+  position_scale_.evaluate(start.q, positions_);
   long sweeps = 0;
   bool doubtful = false;
   if (order_ == Order::paper) {
-    prepare(Start::zero, p0);
+    prepare(Start::zero, start.p);
     sweeps = iterate();
   } else {
     if (!extrapolation_.empty()) {
@@ -43,7 +43,7 @@ long FixedPoint<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
       }
     }
     if (extrapolation_.empty()) {
-      prepare(Start::constant, p0);
+      prepare(Start::constant, start.p);
       sweeps += iterate();
     }
   }

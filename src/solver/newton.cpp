@@ -104,9 +104,9 @@ void Newton<S>::make_rungs() {
 }
 
 template <Scalar S>
-long Newton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
+long Newton<S>::solve(const StepStart<S>& start) {
   if constexpr (std::same_as<S, double>) {
-    const long sweeps = rounded_->solve(q0, p0);
+    const long sweeps = rounded_->solve(start);
     x_ = rounded_->unknowns();
     rounded_->equations().changes(x_, position_change_, momentum_change_);
     momentum_change_ = rounded_->momentum_change();
@@ -114,14 +114,14 @@ long Newton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
   } else {
     long sweeps = 0;
     if (!failed_in_double_) {
-      for (Index j = 0; j < q0.size(); ++j) {
-        rounded_q0_[j] = approximately(q0[j]);
-        rounded_p0_[j] = approximately(p0[j]);
+      for (Index j = 0; j < rounded_q0_.size(); ++j) {
+        rounded_q0_[j] = approximately(start.q[j]);
+        rounded_p0_[j] = approximately(start.p[j]);
       }
       try {
-        sweeps = rounded_->solve(rounded_q0_, rounded_p0_);
+        sweeps = rounded_->solve({rounded_q0_, rounded_p0_});
         if (rounded_->refresh()) {
-          const auto [corrections, fell] = refine(q0, p0);
+          const auto [corrections, fell] = refine(start);
           sweeps += corrections;
           if (fell) return sweeps;
           failed_in_double_ = true;
@@ -130,14 +130,14 @@ long Newton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
         sweeps += failure.sweeps();
       }
     }
-    return sweeps + solve_in_full(q0, p0);
+    return sweeps + solve_in_full(start);
   }
 }
 
 template <Scalar S>
-long Newton<S>::solve_in_full(const Vector<S>& q0, const Vector<S>& p0) {
+long Newton<S>::solve_in_full(const StepStart<S>& start) {
   if (!full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_, h_);
-  const long sweeps = full_->solve(q0, p0);
+  const long sweeps = full_->solve(start);
   for (Index i = 0; i < x_.gamma.size(); ++i) set(x_.gamma.data()[i], full_->unknowns().gamma.data()[i]);
   for (Index i = 0; i < x_.lambda.size(); ++i) set(x_.lambda.data()[i], full_->unknowns().lambda.data()[i]);
   for (Index i = 0; i < x_.psi.size(); ++i) set(x_.psi.data()[i], full_->unknowns().psi.data()[i]);
@@ -193,17 +193,17 @@ bool Newton<S>::residual(long bits, long& exponent) {
 }
 
 template <Scalar S>
-std::pair<long, bool> Newton<S>::refine(const Vector<S>& q0, const Vector<S>& p0) {
+std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
   using Verdict = typename StoppingRule<S>::Verdict;
-  equations_->start(q0, p0);
+  equations_->start(from);
   const StageUnknowns<double>& start = rounded_->unknowns();
   for (Index i = 0; i < x_.gamma.size(); ++i) set_exactly(x_.gamma.data()[i], start.gamma.data()[i]);
   for (Index i = 0; i < x_.lambda.size(); ++i) set_exactly(x_.lambda.data()[i], start.lambda.data()[i]);
   for (Index i = 0; i < x_.psi.size(); ++i) set_exactly(x_.psi.data()[i], start.psi.data()[i]);
   for (Index i = 0; i < x_.zeta.size(); ++i) set_exactly(x_.zeta.data()[i], start.zeta.data()[i]);
   const double h = rounded_->equations().step();
-  position_scale_.evaluate(q0, positions_);
-  rule_.start(p0, positions_);
+  position_scale_.evaluate(from.q, positions_);
+  rule_.start(from.p, positions_);
   rule_.expect_rate(rate_);
   rule_.show_terms(x_.psi, &h_);
   long left = -bits_per_sweep;

@@ -27,7 +27,7 @@ auto RootCheck<S>::judge(const Vector<S>& q0, const Vector<S>& p0, const Matrix<
   const Vector<double> q = rounded(q0), p = rounded(p0);
   try {
     if (!rounded_) rounded_ = std::make_unique<Rounded>(problem_, method_, h_);
-    sweeps_ = rounded_->newton.follow(q, p);
+    sweeps_ = rounded_->newton.follow({q, p});
   } catch (const StageFailure& failure) {
     sweeps_ = failure.sweeps();
     return Verdict::unknown;

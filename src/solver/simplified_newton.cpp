@@ -63,17 +63,17 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
 }
 
 template <Scalar S>
-long SimplifiedNewton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
-  equations_.start(q0, p0);
-  position_scale_.evaluate(q0, positions_);
+long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
+  equations_.start(from);
+  position_scale_.evaluate(from.q, positions_);
   long sweeps = 0;
   const auto attempt = [&](Start start) {
     try {
       if (start == Start::shorter || start == Start::shortest) {
-        sweeps += grow(q0, p0, start == Start::shorter ? 12 : 30);
+        sweeps += grow(from, start == Start::shorter ? 12 : 30);
         usable_ = false;
       } else {
-        prepare(start, p0);
+        prepare(start, from.p);
       }
       copy(start_.gamma, x_.gamma);
       sweeps += iterate(equations_, jacobian_, positions_);
@@ -95,14 +95,14 @@ long SimplifiedNewton<S>::solve(const Vector<S>& q0, const Vector<S>& p0) {
 }
 
 template <Scalar S>
-long SimplifiedNewton<S>::follow(const Vector<S>& q0, const Vector<S>& p0) {
-  equations_.start(q0, p0);
-  position_scale_.evaluate(q0, positions_);
+long SimplifiedNewton<S>::follow(const StepStart<S>& from) {
+  equations_.start(from);
+  position_scale_.evaluate(from.q, positions_);
   usable_ = false;
   long sweeps = 0;
   for (const int halvings : {12, 30}) {
     try {
-      sweeps += grow(q0, p0, halvings);
+      sweeps += grow(from, halvings);
       break;
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
@@ -182,7 +182,7 @@ void SimplifiedNewton<S>::prepare(Start start, const Vector<S>& p0) {
 }
 
 template <Scalar S>
-long SimplifiedNewton<S>::grow(const Vector<S>& q0, const Vector<S>& p0, int halvings) {
+long SimplifiedNewton<S>::grow(const StepStart<S>& from, int halvings) {
   // Steps grow by factors of 1 + growth.
   constexpr int least_growth_bits = 6;
   const S& full = equations_.step();
@@ -190,13 +190,13 @@ long SimplifiedNewton<S>::grow(const Vector<S>& q0, const Vector<S>& p0, int hal
   long sweeps = 0;
   Vector<S> positions(problem_.m());
   Matrix<S> gamma, lambda;  // of the last step that was solved
-  prepare(Start::constant, p0);
+  prepare(Start::constant, from.p);
   for (bool first = true;; first = false) {
     try {
       StageEquations<S> shorter(problem_, method_, h);
       Jacobian<S> jacobian(problem_, method_, h);
-      PositionScale<S>(problem_, h).evaluate(q0, positions);
-      shorter.start(q0, p0);
+      PositionScale<S>(problem_, h).evaluate(from.q, positions);
+      shorter.start(from);
       usable_ = false;
       copy(start_.gamma, x_.gamma);
       sweeps += iterate(shorter, jacobian, positions);

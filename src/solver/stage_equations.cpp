@@ -31,6 +31,7 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
       h_(step),
       potential_(problem.potential, method.k),
       gradient_(problem, method.s),
+      no_carry_(Vector<S>::Zero(problem.m())),
       I_centred_(centred(method.I_s)),
       I_hat_centred_(centred(method.I_hat)),
       middle_(problem.m()),
@@ -84,7 +85,7 @@ void StageEquations<S>::describe_parts() {
   const auto stages = static_cast<std::uint64_t>(s);
   parts_[velocities].per_call = stages * problem_.mass.operations();
   parts_[velocities].per_call.add(Op::multiply, s * m + m);
-  parts_[velocities].per_call.add(Op::add, m);
+  parts_[velocities].per_call.add(Op::add, 2 * m);
   for (const auto& [part, rows] : {std::pair(constraint_nodes, s), std::pair(quadrature_nodes, k)}) {
     parts_[part].per_call.add_dots(rows * m, s);
     parts_[part].per_call.add(Op::add, rows * m);
@@ -105,7 +106,7 @@ void StageEquations<S>::describe_parts() {
   gamma.add(Op::subtract, s * m);
   gamma.add(Op::multiply, 2 * s * m);
   gamma.add_products((s - 1) * m);
-  gamma.add(Op::add, m);
+  gamma.add(Op::add, 2 * m);
   OperationCounts hidden;
   hidden.add_dots(s * m, s);
   for (Index a = 0; a < problem_.nu(); ++a)
@@ -124,9 +125,11 @@ StageUnknowns<S> StageEquations<S>::make_unknowns() const {
 }
 
 template <Scalar S>
-void StageEquations<S>::start(const Vector<S>& q0, const Vector<S>& p0) {
-  q0_ = &q0;
-  p0_ = &p0;
+void StageEquations<S>::start(const StepStart<S>& start) {
+  q0_ = &start.q;
+  p0_ = &start.p;
+  q_carry_ = start.q_carry ? start.q_carry : &no_carry_;
+  p_carry_ = start.p_carry ? start.p_carry : &no_carry_;
 }
 
 template <Scalar S>
@@ -136,6 +139,7 @@ void StageEquations<S>::move(const Matrix<S>& gamma) {
   for (Index i = 0; i < velocity_.size(); ++i) set_product(h_velocity_.data()[i], h_, velocity_.data()[i]);
   for (Index j = 0; j < middle_.size(); ++j) {
     set_product(middle_[j], half_, h_velocity_(0, j));
+    set_sum(middle_[j], middle_[j], (*q_carry_)[j]);
     set_sum(middle_[j], middle_[j], (*q0_)[j]);
   }
 }
@@ -286,6 +290,7 @@ void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta,
       if (i + 1 < s) add_product(sum, X(i, i + 1), w_(i + 1, j), t_);
       set_product(sum, sum, h_);
     }
+    set_sum(gamma(0, j), gamma(0, j), (*p_carry_)[j]);
     set_sum(gamma(0, j), gamma(0, j), (*p0_)[j]);
   }
 }

@@ -58,9 +58,11 @@ TEST(ConstraintAngles, AreThoseOfDenseMatrices) {
     if (change.factor > 1 + 1e-6) {
       EXPECT_EQ(change.t, factor_t) << name;
     }
-    if (closest > 1 + literal<Mpfr>("1e-6")) {
-      EXPECT_EQ(angles.closest_t(), closest_t) << name;
-    }
+    // Of a rigid body the angles stay the same but for round-off, and any time is right.
+    Mpfr there = 0;
+    for (const Snapshot<Mpfr>& snapshot : recorder.seen)
+      if (snapshot.t == angles.closest_t()) there = max_norm(dense_angles(problem, snapshot.q).first);
+    EXPECT_LE(closest - there, literal<Mpfr>("1e-40") * closest) << name << " at " << closest_t;
   }
 }
 

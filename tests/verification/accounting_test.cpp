@@ -296,7 +296,8 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
     const auto expect = [&](const char* part, const Count& each) {
       expect_operations(line_of(account, part).operations, times, each, part);
     };
-    expect("velocities h M^-1 gamma", {.add = m, .multiply = s * d + s * m + m});
+    // The middle of the step is q0, its carry and half a displacement.
+    expect("velocities h M^-1 gamma", {.add = 2 * m, .multiply = s * d + s * m + m});
     expect("positions at c", {.add = s * (s - 1) * m + s * m, .multiply = s * s * m});
     expect("positions at c_hat", {.add = k * (s - 1) * m + k * m, .multiply = k * s * m});
     expect("coefficients psi_hat", {.add = s * (k - 1) * m + m, .multiply = s * k * m});
@@ -304,7 +305,7 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
     expect("constraint gradients", {.add = s * d, .subtract = s * d, .multiply = s * d, .negate = s * d});
     expect("matrix of (lam)", {.add = s * s * (m - 1), .multiply = s * s * (m + 1)});
     // gamma of the multipliers so far, its velocities at the nodes, what they leave of the constraint, and that over h.
-    expect("right-hand side of (lam)", {.add = (s - 1) * m + m + s * (s - 1) * m + s * (m - 1),
+    expect("right-hand side of (lam)", {.add = (s - 1) * m + 2 * m + s * (s - 1) * m + s * (m - 1),
                                         .subtract = s * m,
                                         .multiply = s * m + (s - 1) * m + s * m + s * d + s * s * m + s * m,
                                         .divide = s});
@@ -313,7 +314,8 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
     expect("solution of (lam)", {.add = s, .subtract = 2, .multiply = 2, .divide = 2});
     // Twice: of the multipliers so far, and of those corrected.
     expect("coefficients zeta", {.add = 2 * (s * m + s * (s - 1) * m), .multiply = 2 * (s * m + s * s * m)});
-    expect("coefficients gamma", {.add = (s - 1) * m + m, .subtract = s * m, .multiply = s * m + (s - 1) * m + s * m});
+    expect("coefficients gamma",
+           {.add = (s - 1) * m + 2 * m, .subtract = s * m, .multiply = s * m + (s - 1) * m + s * m});
   }
 }
 

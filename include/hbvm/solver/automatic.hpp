@@ -16,7 +16,7 @@ class Automatic final : public StageSolver<S> {
   /// In double the fixed point is preferred, whose sweeps are cheaper; in more digits Newton.
   Automatic(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
 
-  long solve(const Vector<S>& q0, const Vector<S>& p0) override;
+  long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return current().unknowns(); }
   const Vector<S>& position_change() const override { return current().position_change(); }
   const Vector<S>& momentum_change() const override { return current().momentum_change(); }

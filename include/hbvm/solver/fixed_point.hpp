@@ -26,7 +26,7 @@ class FixedPoint final : public StageSolver<S> {
 
   FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, const S& step, Order order);
 
-  long solve(const Vector<S>& q0, const Vector<S>& p0) override;
+  long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
   const Vector<S>& position_change() const override { return position_change_; }
   const Vector<S>& momentum_change() const override { return momentum_change_; }

@@ -27,7 +27,7 @@ class Newton final : public StageSolver<S> {
 
   Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
 
-  long solve(const Vector<S>& q0, const Vector<S>& p0) override;
+  long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
   const Vector<S>& position_change() const override { return position_change_; }
   const Vector<S>& momentum_change() const override { return momentum_change_; }
@@ -54,8 +54,8 @@ class Newton final : public StageSolver<S> {
   };
 
   /// \return the number of residuals, and whether the corrections fell
-  std::pair<long, bool> refine(const Vector<S>& q0, const Vector<S>& p0);
-  long solve_in_full(const Vector<S>& q0, const Vector<S>& p0);
+  std::pair<long, bool> refine(const StepStart<S>& from);
+  long solve_in_full(const StepStart<S>& start);
   /// Residual of x_ with at least so many bits if there are as many: scaled by 2^-exponent into correction_.
   /// \return whether it was evaluated in the working precision
   bool residual(long bits, long& exponent);

@@ -30,11 +30,11 @@ class SimplifiedNewton {
 
   /// \return the number of residuals
   /// \throws StageFailure
-  long solve(const Vector<S>& q0, const Vector<S>& p0);
+  long solve(const StepStart<S>& from);
   /// The solution that shorter and shorter steps lead to, found by following it from 2^-12 or 2^-30 of the step.
   /// \return the number of residuals
   /// \throws StageFailure
-  long follow(const Vector<S>& q0, const Vector<S>& p0);
+  long follow(const StepStart<S>& from);
   /// Evaluates the Jacobian at the solution. \return false if it is singular
   [[nodiscard]] bool refresh();
 
@@ -59,7 +59,7 @@ class SimplifiedNewton {
   void prepare(Start start, const Vector<S>& p0);
   /// Follows the solution from a step 2^-halvings as long, where the constant v = p0 is a good start if it ever is, to
   /// the full one, by steps that grow as fast as Newton's iteration can follow.
-  long grow(const Vector<S>& q0, const Vector<S>& p0, int halvings);
+  long grow(const StepStart<S>& from, int halvings);
   /// \param positions what rounding of the positions amounts to in a step of this size
   long iterate(StageEquations<S>& equations, Jacobian<S>& jacobian, const Vector<S>& positions);
   /// x_ = base_ - factor correction_.

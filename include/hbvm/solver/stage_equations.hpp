@@ -37,6 +37,15 @@ struct PartCount {
   void remember(Archive& archive) { archive(name, calls, per_call, seconds); }
 };
 
+/// Where a step starts: q0 and p0, and what rounding took from them in the steps before, if it is known. Then the step
+/// is one from q0 + q_carry, p0 + p_carry: what rounding of its positions does to H and g has no pattern, and adds up
+/// like a random walk.
+template <Scalar S>
+struct StepStart {
+  const Vector<S>&q, &p;
+  const Vector<S>*q_carry = nullptr, *p_carry = nullptr;
+};
+
 /// The maps of which the stage equations (dispro1) consist, for steps of one size. Owns all storage they need.
 /// Problem and method must outlive it.
 template <Scalar S>
@@ -49,8 +58,9 @@ class StageEquations {
   const S& step() const { return h_; }
   StageUnknowns<S> make_unknowns() const;
 
-  /// The state the step starts from; the vectors must live as long as the step.
-  void start(const Vector<S>& q0, const Vector<S>& p0);
+  /// The vectors must live as long as the step.
+  void start(const StepStart<S>& start);
+  void start(const Vector<S>& q0, const Vector<S>& p0) { start(StepStart<S>{q0, p0}); }
   const Vector<S>& q0() const { return *q0_; }
   const Vector<S>& p0() const { return *p0_; }
 
@@ -127,6 +137,9 @@ class StageEquations {
   Lu<S> system_;
   const Vector<S>* q0_ = nullptr;
   const Vector<S>* p0_ = nullptr;
+  const Vector<S>* q_carry_ = nullptr;
+  const Vector<S>* p_carry_ = nullptr;
+  Vector<S> no_carry_;                   // m
   Matrix<S> I_centred_, I_hat_centred_;  ///< I_s and I_hat with c - 1/2 for c in column 0
   Vector<S> middle_;                     // m: q0 + h/2 M^-1 gamma_0
   Matrix<S> velocity_, h_velocity_;      // s x m

@@ -50,10 +50,10 @@ class StageSolver {
  public:
   virtual ~StageSolver() = default;
 
-  /// Solves for the step that starts at (q0, p0).
   /// \return the number of sweeps over the stage equations
   /// \throws StageFailure
-  virtual long solve(const Vector<S>& q0, const Vector<S>& p0) = 0;
+  virtual long solve(const StepStart<S>& start) = 0;
+  long solve(const Vector<S>& q0, const Vector<S>& p0) { return solve(StepStart<S>{q0, p0}); }
 
   /// The solution: its gamma and lambda are converged; its psi and zeta are those of the last sweep.
   virtual const StageUnknowns<S>& unknowns() const = 0;
