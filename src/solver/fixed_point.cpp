@@ -84,10 +84,13 @@ bool FixedPoint<S>::conditioned() {
 
 template <Scalar S>
 long FixedPoint<S>::check_root(long sweeps) {
-  if (root_check_.judge(equations_.q0(), equations_.p0(), x_.gamma) == RootCheck<S>::Verdict::other) {
+  using Verdict = typename RootCheck<S>::Verdict;
+  const Verdict verdict = root_check_.judge(equations_.q0(), equations_.p0(), x_.gamma);
+  if (verdict == Verdict::other || verdict == Verdict::lost) {
     extrapolation_.clear();
     throw StageFailure(FailureCause::stage_equations_diverge,
-                       "the solution found is not the one that shorter steps lead to",
+                       verdict == Verdict::other ? "the solution found is not the one that shorter steps lead to"
+                                                 : "the solution found cannot be followed from shorter steps",
                        to_scientific(rule_.relative_change(), 3), sweeps + root_check_.sweeps());
   }
   return root_check_.sweeps();

@@ -30,7 +30,7 @@ auto RootCheck<S>::judge(const Vector<S>& q0, const Vector<S>& p0, const Matrix<
     sweeps_ = rounded_->newton.follow({q, p});
   } catch (const StageFailure& failure) {
     sweeps_ = failure.sweeps();
-    return Verdict::unknown;
+    return Verdict::lost;
   }
   const Matrix<double>& followed = rounded_->newton.unknowns().gamma;
   for (const auto& block : problem_.mass.blocks()) {

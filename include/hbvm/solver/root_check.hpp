@@ -18,7 +18,8 @@ class RootCheck {
   enum class Verdict {
     same,
     other,
-    unknown  ///< double does not hold the problem, or the solution cannot be followed
+    lost,    ///< the solution cannot be followed
+    unknown  ///< double does not hold the problem
   };
   Verdict judge(const Vector<S>& q0, const Vector<S>& p0, const Matrix<S>& gamma);
   /// Residuals of the last judgement.
