@@ -47,6 +47,7 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
       base_{x_.gamma, x_.lambda},
       correction_(base_),
       base_scale_(problem.m()),
+      start_size_(problem.m()),
       first_row_of_inverse_X_(first_row_of_inverse(method.X_s)),
       momentum_change_(problem.m()),
       sequence_(x_.gamma.size() + x_.lambda.size()),
@@ -77,8 +78,9 @@ long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
       }
       copy(start_.gamma, x_.gamma);
       sweeps += iterate(equations_, jacobian_, positions_);
-      return start == Start::shorter || start == Start::shortest ||
-             !(is_far_from_start(equations_) || multipliers_run_wild());
+      if (start == Start::shorter || start == Start::shortest) return true;
+      keep_start_size(equations_);
+      return !is_far_from_start(equations_) && !multipliers_run_wild();
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       usable_ = false;
@@ -113,18 +115,19 @@ long SimplifiedNewton<S>::follow(const StepStart<S>& from) {
 }
 
 template <Scalar S>
-S SimplifiedNewton<S>::size_at_start(const StageEquations<S>& equations,
-                                     const typename MassMatrix<S>::Block& block) const {
+void SimplifiedNewton<S>::keep_start_size(const StageEquations<S>& equations) {
   const S& h = equations.step();
-  S size = 0;
-  for (Index j = block.offset; j < block.offset + block.size; ++j) {
-    raise_magnitude(size, equations.p0()[j]);
-    for (Index i = 0; i < start_.psi.rows(); ++i) {
-      raise_magnitude(size, S(h * start_.psi(i, j)));
-      raise_magnitude(size, S(h * start_.zeta(i, j)));
+  for (const auto& block : problem_.mass.blocks()) {
+    S size = 0;
+    for (Index j = block.offset; j < block.offset + block.size; ++j) {
+      raise_magnitude(size, equations.p0()[j]);
+      for (Index i = 0; i < start_.psi.rows(); ++i) {
+        raise_magnitude(size, S(h * start_.psi(i, j)));
+        raise_magnitude(size, S(h * start_.zeta(i, j)));
+      }
     }
+    for (Index j = block.offset; j < block.offset + block.size; ++j) set(start_size_[j], size);
   }
-  return size;
 }
 
 template <Scalar S>
@@ -137,7 +140,7 @@ bool SimplifiedNewton<S>::is_far_from_start(const StageEquations<S>& equations) 
         raise_magnitude(moved, S(x_.gamma(i, j) - start_.gamma(i, j)));
         raise_magnitude(forces_changed, S(equations.step() * (x_.psi(i, j) - start_.psi(i, j))));
       }
-    const S size = size_at_start(equations, block);
+    const S& size = start_size_[block.offset];
     if (moved > size || 2 * forces_changed > size) return true;
   }
   return false;
@@ -147,17 +150,14 @@ template <Scalar S>
 bool SimplifiedNewton<S>::multipliers_run_wild() const {
   constexpr int much = 4;
   const ConstraintGradient<S>& gradient = equations_.constraint_gradient();
-  for (const auto& block : problem_.mass.blocks()) {
-    const S most = much * size_at_start(equations_, block);
-    for (Index a = 0; a < x_.lambda.cols(); ++a) {
-      const auto& pattern = gradient.pattern(a);
-      for (std::size_t c = 0; c < pattern.coordinates.size(); ++c) {
-        const Index j = pattern.coordinates[c], column = pattern.first + static_cast<Index>(c);
-        if (j < block.offset || j >= block.offset + block.size) continue;
-        for (Index i = 0; i < x_.lambda.rows(); ++i) {
-          const S change = x_.lambda(i, a) - start_.lambda(i, a);
-          if (!(magnitude(S(equations_.step() * gradient.values()(i, column) * change)) <= most)) return true;
-        }
+  for (Index a = 0; a < x_.lambda.cols(); ++a) {
+    const auto& pattern = gradient.pattern(a);
+    for (std::size_t c = 0; c < pattern.coordinates.size(); ++c) {
+      const Index column = pattern.first + static_cast<Index>(c);
+      const S most = much * start_size_[pattern.coordinates[c]];
+      for (Index i = 0; i < x_.lambda.rows(); ++i) {
+        const S change = x_.lambda(i, a) - start_.lambda(i, a);
+        if (!(magnitude(S(equations_.step() * gradient.values()(i, column) * change)) <= most)) return true;
       }
     }
   }
@@ -200,6 +200,7 @@ long SimplifiedNewton<S>::grow(const StepStart<S>& from, int halvings) {
       usable_ = false;
       copy(start_.gamma, x_.gamma);
       sweeps += iterate(shorter, jacobian, positions);
+      if (first) keep_start_size(shorter);
       if (first && is_far_from_start(shorter))
         throw StageFailure(FailureCause::stage_equations_diverge,
                            "even much shorter steps have no solution near their start", "1", sweeps);

@@ -70,8 +70,8 @@ class SimplifiedNewton {
   void measure_change();
   /// A residual as large as what it is the residual of shows no solution, however small the increments.
   bool residual_is_small();
-  /// The greatest of |p0|, h |psi| and h |zeta| of a body at start_.
-  S size_at_start(const StageEquations<S>& equations, const typename MassMatrix<S>::Block& block) const;
+  /// start_size_ = the greatest of |p0|, h |psi| and h |zeta| at start_, each coordinate with its body's.
+  void keep_start_size(const StageEquations<S>& equations);
   /// Whether the momenta of some body are farther from those of start_ than the forces there explain, or its forces psi
   /// have changed by more than half of their size.
   bool is_far_from_start(const StageEquations<S>& equations) const;
@@ -90,6 +90,7 @@ class SimplifiedNewton {
   StageUnknowns<S> start_;              ///< gamma and lambda of the iteration's start, psi and zeta there
   StageResidual<S> base_, correction_;  ///< an iterate (gamma, h lambda) and the step from it
   Vector<S> base_scale_;                ///< of its coordinates
+  Vector<S> start_size_;
   Vector<S> first_row_of_inverse_X_, momentum_change_, sequence_;
   Extrapolation<S> extrapolation_;
   PositionScale<S> position_scale_;
