@@ -4,14 +4,15 @@
 
 namespace hbvm {
 
-/// x += increment, where carry holds what earlier roundings took (Kahan); increment is used up, t is scratch.
+/// x + carry += increment, where x holds the rounded sum and carry the rest (Kahan and Babuska): what is lost is a
+/// rounding of the carry. A sum of increment and carry, rounded before it is added, would lose the same bits of a
+/// constant increment step after step. s and t are scratch.
 template <Scalar S>
-void add_compensated(S& x, S& carry, S& increment, S& t) {
-  set_sum(increment, increment, carry);
-  set_sum(t, x, increment);
-  set_difference(x, t, x);
-  set_difference(carry, increment, x);
-  set(x, t);
+void add_compensated(S& x, S& carry, const S& increment, S& s, S& t) {
+  S& rest = scratch<S>();
+  set_exact_sum(s, rest, x, increment, t);
+  set_sum(rest, rest, carry);
+  set_exact_sum(x, carry, s, rest, t);
 }
 
 }  // namespace hbvm

@@ -16,11 +16,12 @@ template <Scalar S>
 long HbvmStepper<S>::step(State<S>& state) {
   const long sweeps = solver_->solve({state.q, state.p, &state.q_carry, &state.p_carry});
   const StageUnknowns<S>& x = solver_->unknowns();
+  const StepChange<S>& change = solver_->change();
   for (Index j = 0; j < problem_.m(); ++j) {
-    set(increment_, solver_->position_change()[j]);
-    add_compensated(state.q[j], state.q_carry[j], increment_, t_);
-    set(increment_, solver_->momentum_change()[j]);
-    add_compensated(state.p[j], state.p_carry[j], increment_, t_);
+    set_sum(state.q_carry[j], state.q_carry[j], change.q_rest[j]);
+    add_compensated(state.q[j], state.q_carry[j], change.q[j], s_, t_);
+    set_sum(state.p_carry[j], state.p_carry[j], change.p_rest[j]);
+    add_compensated(state.p[j], state.p_carry[j], change.p[j], s_, t_);
   }
   for (Index a = 0; a < problem_.nu(); ++a) {
     set_zero(multiplier_[a]);

@@ -160,8 +160,8 @@ void RungeKuttaStep<S>::update(State<S>& state, long sweeps) {
                          sweeps);
   }
   for (Index j = 0; j < problem_.m(); ++j) {
-    add_compensated(state.q[j], state.q_carry[j], position_change_(0, j), t_);
-    add_compensated(state.p[j], state.p_carry[j], momentum_change_(0, j), t_);
+    add_compensated(state.q[j], state.q_carry[j], position_change_(0, j), s_, t_);
+    add_compensated(state.p[j], state.p_carry[j], momentum_change_(0, j), s_, t_);
   }
 }
 

@@ -19,8 +19,7 @@ FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, cons
       rule_(problem.m(), roundings_of_a_sweep(problem, method)),
       root_check_(problem, method, step),
       positions_(problem.m()),
-      position_change_(problem.m()),
-      momentum_change_(problem.m()) {}
+      change_(problem.m()) {}
 
 template <Scalar S>
 long FixedPoint<S>::solve(const StepStart<S>& start) {
@@ -49,7 +48,7 @@ long FixedPoint<S>::solve(const StepStart<S>& start) {
   }
   if (doubtful || rule_.sweeps() > significand_bits<S>()) sweeps += check_root(sweeps);
   if (order_ == Order::newest) extrapolation_.add(x_.gamma.data());
-  equations_.changes(x_, position_change_, momentum_change_);
+  equations_.changes(x_, change_);
   return sweeps;
 }
 

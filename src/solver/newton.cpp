@@ -63,8 +63,7 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& ste
     : problem_(problem),
       method_(method),
       h_(step),
-      position_change_(problem.m()),
-      momentum_change_(problem.m()),
+      change_(problem.m()),
       position_scale_(problem, step),
       positions_(problem.m()),
       rule_(problem.m(), roundings_of_a_sweep(problem, method), static_cast<int>(bits_per_sweep - 10)) {
@@ -84,7 +83,7 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& ste
   r_ = {x_.gamma, x_.lambda};
   correction_ = {rounded_->unknowns().gamma, rounded_->unknowns().lambda};
   momentum_ = correction_.momentum;
-  change_.resize(problem.m());
+  momentum_change_.resize(problem.m());
   make_rungs();
 }
 
@@ -108,8 +107,7 @@ long Newton<S>::solve(const StepStart<S>& start) {
   if constexpr (std::same_as<S, double>) {
     const long sweeps = rounded_->solve(start);
     x_ = rounded_->unknowns();
-    rounded_->equations().changes(x_, position_change_, momentum_change_);
-    momentum_change_ = rounded_->momentum_change();
+    change_ = rounded_->change();
     return sweeps;
   } else {
     long sweeps = 0;
@@ -142,8 +140,7 @@ long Newton<S>::solve_in_full(const StepStart<S>& start) {
   for (Index i = 0; i < x_.lambda.size(); ++i) set(x_.lambda.data()[i], full_->unknowns().lambda.data()[i]);
   for (Index i = 0; i < x_.psi.size(); ++i) set(x_.psi.data()[i], full_->unknowns().psi.data()[i]);
   for (Index i = 0; i < x_.zeta.size(); ++i) set(x_.zeta.data()[i], full_->unknowns().zeta.data()[i]);
-  full_->equations().changes(full_->unknowns(), position_change_, momentum_change_);
-  for (Index j = 0; j < momentum_change_.size(); ++j) set(momentum_change_[j], full_->momentum_change()[j]);
+  change_ = full_->change();
   return sweeps;
 }
 
@@ -228,12 +225,12 @@ std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
     if (verdict == Verdict::converged) {
       if (full) {
         if (sweeps > 1) set(rate_, rule_.rate());
-        equations_->changes(x_, position_change_, momentum_change_);
-        change_.setZero();
-        rounded_->add_change_of_momentum(momentum_, correction_.momentum, change_);
-        for (Index j = 0; j < change_.size(); ++j) {
-          set_scaled(t_, change_[j], exponent);
-          set_sum(momentum_change_[j], momentum_change_[j], t_);
+        equations_->changes(x_, change_);
+        momentum_change_.setZero();
+        rounded_->add_change_of_momentum(momentum_, correction_.momentum, momentum_change_);
+        for (Index j = 0; j < momentum_change_.size(); ++j) {
+          set_scaled(t_, momentum_change_[j], exponent);
+          set_sum(change_.p_rest[j], change_.p_rest[j], t_);
         }
         return {sweeps, true};
       }

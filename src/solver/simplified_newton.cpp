@@ -49,8 +49,8 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
       base_scale_(problem.m()),
       start_size_(problem.m()),
       first_row_of_inverse_X_(first_row_of_inverse(method.X_s)),
-      momentum_change_(problem.m()),
       sequence_(x_.gamma.size() + x_.lambda.size()),
+      step_change_(problem.m()),
       extrapolation_(method.s, problem.m() + problem.nu()),
       position_scale_(problem, step),
       positions_(problem.m()),
@@ -345,11 +345,8 @@ long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jac
     waiting = last_ > 0 && !falls && evaluate ? waiting + 1 : 0;
     const bool floor = waiting >= 3 && change_ <= root_epsilon_;
     if ((verdict == Verdict::converged || floor) && residual_is_small()) {
-      for (Index j = 0; j < momentum_change_.size(); ++j) {
-        set_difference(momentum_change_[j], x_.psi(0, j), x_.zeta(0, j));
-        set_product(momentum_change_[j], momentum_change_[j], h);
-      }
-      add_change_of_momentum(momentum_, residual_.momentum, momentum_change_);
+      equations.changes(x_, step_change_);
+      add_change_of_momentum(momentum_, residual_.momentum, step_change_.p_rest);
       return sweeps;
     }
     exact = evaluate;

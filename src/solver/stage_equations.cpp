@@ -35,6 +35,8 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
       I_centred_(centred(method.I_s)),
       I_hat_centred_(centred(method.I_hat)),
       middle_(problem.m()),
+      varying_(Vector<S>::Zero(problem.m())),
+      half_rest_(problem.m()),
       half_(S(1) / 2) {
   const Index s = method.s, m = problem.m(), nu = problem.nu();
   velocity_.resize(s, m);
@@ -168,7 +170,10 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
     for (Index i = 0; i < psi.size(); ++i) set_zero(psi.data()[i]);
   // A constant force has the one coefficient psi_0 = force.
   const Vector<S>& constant = potential_.constant_force();
-  for (Index j = 0; j < psi.cols(); ++j) set_sum(psi(0, j), psi(0, j), constant[j]);
+  for (Index j = 0; j < psi.cols(); ++j) {
+    set(varying_[j], psi(0, j));
+    set_sum(psi(0, j), psi(0, j), constant[j]);
+  }
 }
 
 template <Scalar S>
@@ -242,14 +247,24 @@ void StageEquations<S>::hidden_constraints(const Matrix<S>& velocity, Out out) {
 }
 
 template <Scalar S>
-void StageEquations<S>::changes(const StageUnknowns<S>& x, Vector<S>& q, Vector<S>& p) {
+void StageEquations<S>::changes(const StageUnknowns<S>& x, StepChange<S>& change) {
+  auto& [q, p, q_rest, p_rest] = change;
   for (Index j = 0; j < p.size(); ++j) set(p[j], x.gamma(0, j));
   problem_.mass.velocity(lanes(std::as_const(p)), lanes(q));
+  const Vector<S>& constant = potential_.constant_force();
   for (Index j = 0; j < p.size(); ++j) {
     set_product(q[j], q[j], h_);
-    set_difference(p[j], x.psi(0, j), x.zeta(0, j));
+    set_exact_sum(p[j], p_rest[j], varying_[j], constant[j], t_);
+    set_negative(minus_zeta_, x.zeta(0, j));
+    set_exact_sum(p[j], rest_, x.psi(0, j), minus_zeta_, t_);
+    set_sum(p_rest[j], p_rest[j], rest_);
     set_product(p[j], p[j], h_);
+    set_product(p_rest[j], p_rest[j], h_);
+    set_product(half_rest_[j], p_rest[j], half_);
   }
+  // gamma_0 = p0 + h/2 (psi_0 - zeta_0) - ...
+  problem_.mass.velocity(lanes(std::as_const(half_rest_)), lanes(q_rest));
+  for (Index j = 0; j < q.size(); ++j) set_product(q_rest[j], q_rest[j], h_);
 }
 
 template <Scalar S>

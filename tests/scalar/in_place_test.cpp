@@ -1,5 +1,6 @@
 #include "hbvm/scalar/in_place.hpp"
 
+#include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
@@ -32,6 +33,22 @@ TYPED_TEST(InPlace, AgreesWithTheOperators) {
   EXPECT_EQ(z, x / y);
   set_zero(z);
   EXPECT_EQ(z, 0);
+}
+
+TYPED_TEST(InPlace, ExactSumKeepsWhatRoundingTakes) {
+  using S = TypeParam;
+  for (const int shift : {-200, -40, -1, 0, 1, 40, 200}) {
+    const S x = this->random.value(), y = this->random.value() * power_of_two<S>(shift);
+    S sum, rest;
+    set_exact_sum(sum, rest, x, y, this->t);
+    EXPECT_EQ(sum, S(x + y));
+    const BigFloat exact_x = exactly(x), exact_y = exactly(y), exact_sum = exactly(sum), exact_rest = exactly(rest);
+    Mpfr all, parts;
+    for (auto* const z : {&all, &parts}) mpfr_set_prec(raw(*z), 2000);
+    mpfr_add(raw(all), raw(exact_x), raw(exact_y), MPFR_RNDN);
+    mpfr_add(raw(parts), raw(exact_sum), raw(exact_rest), MPFR_RNDN);
+    EXPECT_EQ(mpfr_cmp(raw(all), raw(parts)), 0) << "2^" << shift;
+  }
 }
 
 TYPED_TEST(InPlace, ProductsAreRoundedBeforeTheyAreAdded) {

@@ -1,5 +1,6 @@
 #include "hbvm/solver/stage_equations.hpp"
 
+#include "hbvm/linear/product.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 #include "solver/stage_formulas.hpp"
@@ -62,10 +63,48 @@ TEST_P(StageMaps, ChangesOverTheStep) {
   x.gamma = generic(s, model.m(), 3);
   x.psi = generic(s, model.m(), 4);
   x.zeta = generic(s, model.m(), 5);
-  Vector<Mpfr> q(model.m()), p(model.m());
-  equations.changes(x, q, p);
-  expect_equal(Matrix<Mpfr>(q.transpose()), Matrix<Mpfr>(x.gamma.row(0) * model.W * h), "h M^-1 gamma_0");
-  expect_equal(Matrix<Mpfr>(p.transpose()), Matrix<Mpfr>((x.psi - x.zeta).row(0) * h), "h (psi_0 - zeta_0)");
+  StepChange<Mpfr> change(model.m());
+  equations.changes(x, change);
+  expect_equal(Matrix<Mpfr>(change.q.transpose()), Matrix<Mpfr>(x.gamma.row(0) * model.W * h), "h M^-1 gamma_0");
+  expect_equal(Matrix<Mpfr>(change.p.transpose()), Matrix<Mpfr>((x.psi - x.zeta).row(0) * h), "h (psi_0 - zeta_0)");
+}
+
+/// A constant force of 1/10 beside a force of the constraint of 8: what rounding of their sum takes is not lost.
+TEST(StepChanges, KeepWhatRoundingTakesFromTheForces) {
+  const std::string falling =
+      "dimension = 2\n[[body]]\nname = \"a\"\nmass = 3\nposition = [0, 1]\nvelocity = [1, 0]\n"
+      "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0.1, 0]\n";
+  const std::string spring =
+      "[[point]]\nname = \"sun\"\nposition = [0, 0]\n"
+      "[[effect]]\nkind = \"central_gravity\"\ncenter = \"sun\"\nstrength = 1e-9\n";
+  for (const bool varying : {false, true}) {
+    const auto scene = assemble<double>(read_scene(falling + (varying ? spring : ""), "scene"));
+    const double h = 0.125;
+    const auto method = make_hbvm<double>(2, 2);
+    StageEquations<double> equations(scene.problem, method, h);
+    equations.start(scene.q0, scene.p0);
+    StageUnknowns<double> x = equations.make_unknowns();
+    x.gamma.row(0) = scene.p0.transpose();
+    equations.move(x.gamma);
+    equations.forces(x.psi);
+    x.zeta(0, 0) = 8.3;
+    StepChange<double> change(2);
+    equations.changes(x, change);
+
+    const Quad force = Quad(scene.problem.mass.blocks()[0].mass) * Quad(0.1);
+    PotentialEvaluator<double> potential(scene.problem.potential, 2);
+    Matrix<double> at_nodes = Matrix<double>::Zero(2, 2);
+    if (varying) potential.varying_force(lanes(equations.quadrature_positions()), at_nodes);
+    Matrix<double> psi(2, 2);
+    product(psi, method.projection_hat, at_nodes);
+    const Quad constant = potential.constant_force()[0];
+    EXPECT_LE(magnitude(Quad(constant - force)), Quad(epsilon<double>()));
+    const Quad exact = Quad(h) * (Quad(psi(0, 0)) + constant - Quad(8.3));
+    const Quad lost = exact - Quad(change.p[0]);
+    EXPECT_NE(lost, 0);
+    EXPECT_LE(magnitude(Quad(lost - Quad(change.p_rest[0]))), magnitude(lost) * Quad(epsilon<double>()));
+    EXPECT_EQ(change.q_rest[0], h * (change.p_rest[0] / 2 * scene.problem.mass.blocks()[0].inverse_mass));
+  }
 }
 
 /// At unknowns that a sweep of the fixed-point iteration has made, the residual is what the next one would change.

@@ -32,7 +32,7 @@ class HbvmStepper final : public Stepper<S> {
   std::unique_ptr<StageSolver<S>> solver_;
   Vector<S> multiplier_;
   SolverCounts earlier_;  ///< those of a run that this one continues
-  S increment_, t_;
+  S s_, t_;
 };
 
 #define HBVM_DECLARE(S) extern template class HbvmStepper<S>;

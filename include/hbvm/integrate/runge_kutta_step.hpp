@@ -52,7 +52,7 @@ class RungeKuttaStep {
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;
-  S size_ = 0, t_ = 0;  // kept: creating them allocates
+  S size_ = 0, s_ = 0, t_ = 0;  // kept: creating them allocates
 };
 
 #define HBVM_DECLARE(S) extern template class RungeKuttaStep<S>;

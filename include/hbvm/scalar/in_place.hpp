@@ -63,6 +63,17 @@ void set_quotient(S& r, const S& a, const S& b) {
     r = a / b;
 }
 
+/// a + b without any rounding, as r + rest with r = fl(a + b) (Moller and Knuth, TwoSum); r and rest are neither a nor b.
+template <Scalar S>
+void set_exact_sum(S& r, S& rest, const S& a, const S& b, S& t) {
+  set_sum(r, a, b);
+  set_difference(t, r, a);     // what of b is in r
+  set_difference(rest, r, t);  // what of a is
+  set_difference(rest, a, rest);
+  set_difference(t, b, t);
+  set_sum(rest, rest, t);
+}
+
 /// A number of the working precision for use within one kernel, whose value nobody keeps: creating one would allocate.
 template <Scalar S>
 S& scratch() {

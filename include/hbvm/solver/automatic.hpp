@@ -18,8 +18,7 @@ class Automatic final : public StageSolver<S> {
 
   long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return current().unknowns(); }
-  const Vector<S>& position_change() const override { return current().position_change(); }
-  const Vector<S>& momentum_change() const override { return current().momentum_change(); }
+  const StepChange<S>& change() const override { return current().change(); }
   SolverCounts counts() const override;
   void measure_time() override;
   void remember(Archive& archive) override;

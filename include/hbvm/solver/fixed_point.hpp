@@ -28,8 +28,7 @@ class FixedPoint final : public StageSolver<S> {
 
   long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
-  const Vector<S>& position_change() const override { return position_change_; }
-  const Vector<S>& momentum_change() const override { return momentum_change_; }
+  const StepChange<S>& change() const override { return change_; }
   SolverCounts counts() const override { return {equations_.effect_counts(), equations_.part_counts()}; }
   void measure_time() override { equations_.measure_time(); }
   /// The multipliers are where those of the next step start from.
@@ -53,7 +52,8 @@ class FixedPoint final : public StageSolver<S> {
   PositionScale<S> position_scale_;
   StoppingRule<S> rule_;
   RootCheck<S> root_check_;
-  Vector<S> positions_, position_change_, momentum_change_;
+  Vector<S> positions_;
+  StepChange<S> change_;
 };
 
 #define HBVM_DECLARE(S) extern template class FixedPoint<S>;

@@ -29,8 +29,7 @@ class Newton final : public StageSolver<S> {
 
   long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
-  const Vector<S>& position_change() const override { return position_change_; }
-  const Vector<S>& momentum_change() const override { return momentum_change_; }
+  const StepChange<S>& change() const override { return change_; }
   SolverCounts counts() const override;
   void measure_time() override;
   void remember(Archive& archive) override;
@@ -77,8 +76,8 @@ class Newton final : public StageSolver<S> {
   std::vector<Rung> rungs_;
   StageResidual<double> correction_;
   Matrix<double> momentum_;
-  Vector<double> change_;
-  Vector<S> position_change_, momentum_change_;
+  Vector<double> momentum_change_;
+  StepChange<S> change_;
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;

@@ -43,8 +43,7 @@ class SimplifiedNewton {
   const Jacobian<S>& jacobian() const { return jacobian_; }
   StageEquations<S>& equations() { return equations_; }
   const StageEquations<S>& equations() const { return equations_; }
-  /// What the solution's momenta change over the step: h (psi_0 - zeta_0).
-  const Vector<S>& momentum_change() const { return momentum_change_; }
+  const StepChange<S>& change() const { return step_change_; }
   /// The change of h (psi_0 - zeta_0) when gamma changes by -correction, where the residual was `momentum`: row 0 of
   /// X_s^-1 (momentum - correction), since gamma - e_1 p0 = h X_s (psi - zeta).
   void add_change_of_momentum(const Matrix<S>& momentum, const Matrix<S>& correction, Vector<S>& change) const;
@@ -91,7 +90,8 @@ class SimplifiedNewton {
   StageResidual<S> base_, correction_;  ///< an iterate (gamma, h lambda) and the step from it
   Vector<S> base_scale_;                ///< of its coordinates
   Vector<S> start_size_;
-  Vector<S> first_row_of_inverse_X_, momentum_change_, sequence_;
+  Vector<S> first_row_of_inverse_X_, sequence_;
+  StepChange<S> step_change_;
   Extrapolation<S> extrapolation_;
   PositionScale<S> position_scale_;
   Vector<S> positions_;

@@ -27,6 +27,16 @@ struct StageResidual {
   Matrix<S> momentum, constraint;
 };
 
+/// What a step adds, by (q1p1new): q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), as q + q_rest and
+/// p + p_rest, where the rests are what rounding of the sum psi_0 - zeta_0 takes from them. Of a constant force it takes
+/// the same bits wherever the constraints' force beside it is of one binade: without the rests that would be a small
+/// force of its own, under which H drifts.
+template <Scalar S>
+struct StepChange {
+  Vector<S> q, p, q_rest, p_rest;
+  explicit StepChange(Index m) : q(m), p(m), q_rest(m), p_rest(m) {}
+};
+
 /// One part of the stage equations: how often it ran, what one call costs, and, if measured, the time it took.
 struct PartCount {
   std::string name{};
@@ -80,8 +90,8 @@ class StageEquations {
   /// gamma = e_1 p0 + h X_s (psi - zeta), which is (dispro1) by (IsPs).
   void momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
 
-  /// q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), (q1p1new).
-  void changes(const StageUnknowns<S>& x, Vector<S>& q, Vector<S>& p);
+  /// The change of the state at x, whose psi came from the last call of forces().
+  void changes(const StageUnknowns<S>& x, StepChange<S>& change);
 
   /// The residual at x.gamma and x.lambda; sets x.psi and x.zeta, too. Moves the nodes.
   void residual(StageUnknowns<S>& x, StageResidual<S>& r);
@@ -142,12 +152,14 @@ class StageEquations {
   Vector<S> no_carry_;                   // m
   Matrix<S> I_centred_, I_hat_centred_;  ///< I_s and I_hat with c - 1/2 for c in column 0
   Vector<S> middle_;                     // m: q0 + h/2 M^-1 gamma_0
+  Vector<S> varying_;                    // m: psi_0 of the last forces() without the constant force
+  Vector<S> half_rest_;                  // m
   Matrix<S> velocity_, h_velocity_;      // s x m
   Matrix<S> u_hat_, force_;              // k x m
   Matrix<S> u_, w_, stage_;              // s x m
   Matrix<S> coupling_;                   // s x s
   Vector<S> rhs_;                        // s nu
-  S half_, t_;
+  S half_, t_, rest_, minus_zeta_;
   std::vector<PartCount> parts_;
   bool timed_ = false;
 };

@@ -57,9 +57,7 @@ class StageSolver {
 
   /// The solution: its gamma and lambda are converged; its psi and zeta are those of the last sweep.
   virtual const StageUnknowns<S>& unknowns() const = 0;
-  /// q1 - q0 and p1 - p0 of (q1p1new): h M^-1 gamma_0 and h (psi_0 - zeta_0).
-  virtual const Vector<S>& position_change() const = 0;
-  virtual const Vector<S>& momentum_change() const = 0;
+  virtual const StepChange<S>& change() const = 0;
 
   /// What was done since construction.
   virtual SolverCounts counts() const = 0;
