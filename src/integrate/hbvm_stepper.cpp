@@ -18,7 +18,6 @@ long HbvmStepper<S>::step(State<S>& state) {
   const StageUnknowns<S>& x = solver_->unknowns();
   const StepChange<S>& change = solver_->change();
   for (Index j = 0; j < problem_.m(); ++j) {
-    set_sum(state.q_carry[j], state.q_carry[j], change.q_rest[j]);
     add_compensated(state.q[j], state.q_carry[j], change.q[j], s_, t_);
     set_sum(state.p_carry[j], state.p_carry[j], change.p_rest[j]);
     add_compensated(state.p[j], state.p_carry[j], change.p[j], s_, t_);

@@ -35,8 +35,7 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
       I_centred_(centred(method.I_s)),
       I_hat_centred_(centred(method.I_hat)),
       middle_(problem.m()),
-      varying_(Vector<S>::Zero(problem.m())),
-      half_rest_(problem.m()),
+      psi_rest_(Vector<S>::Zero(problem.m())),
       half_(S(1) / 2) {
   const Index s = method.s, m = problem.m(), nu = problem.nu();
   velocity_.resize(s, m);
@@ -50,6 +49,9 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
   order_ = order_for_band(nu, entries);
   system_.resize(s * nu, s * (order_.half_bandwidth + 1) - 1);
   rhs_.resize(s * nu);
+  set_product(h_half_, h_, half_);
+  for (Index j = 0; j < m; ++j)
+    if (potential_.constant_force()[j] != 0) pulled_.push_back(j);
   describe_parts();
 }
 
@@ -93,7 +95,11 @@ void StageEquations<S>::describe_parts() {
     parts_[part].per_call.add(Op::add, rows * m);
   }
   if (potential_.has_varying_force()) parts_[projection].per_call.add_dots(s * m, k);
-  parts_[projection].per_call.add(Op::add, m);
+  const auto pulled = static_cast<Index>(pulled_.size());
+  OperationCounts exact_sum;
+  exact_sum.add(Op::add, 2 * pulled);
+  exact_sum.add(Op::subtract, 4 * pulled);
+  parts_[projection].per_call += exact_sum;
   parts_[gradients].per_call = gradient_.operations();
   for (const auto& pair : gradient_.couplings()) {
     parts_[matrix].per_call.add_dots(s * s, static_cast<Index>(pair.terms.size()));
@@ -108,7 +114,11 @@ void StageEquations<S>::describe_parts() {
   gamma.add(Op::subtract, s * m);
   gamma.add(Op::multiply, 2 * s * m);
   gamma.add_products((s - 1) * m);
-  gamma.add(Op::add, 2 * m);
+  gamma.add(Op::add, 2 * (m - pulled));
+  gamma += exact_sum + exact_sum;
+  gamma.add(Op::negate, pulled);
+  gamma.add(Op::multiply, pulled);
+  gamma.add(Op::add, 4 * pulled);
   OperationCounts hidden;
   hidden.add_dots(s * m, s);
   for (Index a = 0; a < problem_.nu(); ++a)
@@ -170,9 +180,9 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
     for (Index i = 0; i < psi.size(); ++i) set_zero(psi.data()[i]);
   // A constant force has the one coefficient psi_0 = force.
   const Vector<S>& constant = potential_.constant_force();
-  for (Index j = 0; j < psi.cols(); ++j) {
-    set(varying_[j], psi(0, j));
-    set_sum(psi(0, j), psi(0, j), constant[j]);
+  for (const Index j : pulled_) {
+    set(x_, psi(0, j));
+    set_exact_sum(psi(0, j), psi_rest_[j], x_, constant[j], t_);
   }
 }
 
@@ -248,23 +258,19 @@ void StageEquations<S>::hidden_constraints(const Matrix<S>& velocity, Out out) {
 
 template <Scalar S>
 void StageEquations<S>::changes(const StageUnknowns<S>& x, StepChange<S>& change) {
-  auto& [q, p, q_rest, p_rest] = change;
+  auto& [q, p, p_rest] = change;
   for (Index j = 0; j < p.size(); ++j) set(p[j], x.gamma(0, j));
   problem_.mass.velocity(lanes(std::as_const(p)), lanes(q));
-  const Vector<S>& constant = potential_.constant_force();
   for (Index j = 0; j < p.size(); ++j) {
     set_product(q[j], q[j], h_);
-    set_exact_sum(p[j], p_rest[j], varying_[j], constant[j], t_);
-    set_negative(minus_zeta_, x.zeta(0, j));
-    set_exact_sum(p[j], rest_, x.psi(0, j), minus_zeta_, t_);
-    set_sum(p_rest[j], p_rest[j], rest_);
+    set_difference(p[j], x.psi(0, j), x.zeta(0, j));
     set_product(p[j], p[j], h_);
-    set_product(p_rest[j], p_rest[j], h_);
-    set_product(half_rest_[j], p_rest[j], half_);
+    set_zero(p_rest[j]);
   }
-  // gamma_0 = p0 + h/2 (psi_0 - zeta_0) - ...
-  problem_.mass.velocity(lanes(std::as_const(half_rest_)), lanes(q_rest));
-  for (Index j = 0; j < q.size(); ++j) set_product(q_rest[j], q_rest[j], h_);
+  for (const Index j : pulled_) {
+    take_rest(x.psi, x.zeta, j);
+    set_product(p_rest[j], rest_, h_);
+  }
 }
 
 template <Scalar S>
@@ -294,6 +300,7 @@ template <Scalar S>
 void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
   const Index s = method_.s;
   const Matrix<S>& X = method_.X_s;
+  auto pulled = pulled_.begin();
   for (Index i = 0; i < w_.size(); ++i) set_difference(w_.data()[i], psi.data()[i], zeta.data()[i]);
   for (Index j = 0; j < gamma.cols(); ++j) {
     for (Index i = 0; i < s; ++i) {
@@ -305,9 +312,28 @@ void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta,
       if (i + 1 < s) add_product(sum, X(i, i + 1), w_(i + 1, j), t_);
       set_product(sum, sum, h_);
     }
-    set_sum(gamma(0, j), gamma(0, j), (*p_carry_)[j]);
-    set_sum(gamma(0, j), gamma(0, j), (*p0_)[j]);
+    if (pulled == pulled_.end() || *pulled != j) {
+      set_sum(gamma(0, j), gamma(0, j), (*p_carry_)[j]);
+      set_sum(gamma(0, j), gamma(0, j), (*p0_)[j]);
+      continue;
+    }
+    // As in StepChange: without the rest, gamma_0 = p0 + h/2 (psi_0 - zeta_0) + ... would have a bias.
+    ++pulled;
+    take_rest(psi, zeta, j);
+    set_product(rest_, rest_, h_half_);
+    set_sum(rest_, rest_, (*p_carry_)[j]);
+    set(x_, gamma(0, j));
+    set_exact_sum(gamma(0, j), y_, x_, (*p0_)[j], t_);
+    set_sum(rest_, rest_, y_);
+    set_sum(gamma(0, j), gamma(0, j), rest_);
   }
+}
+
+template <Scalar S>
+void StageEquations<S>::take_rest(const Matrix<S>& psi, const Matrix<S>& zeta, Index j) {
+  set_negative(x_, zeta(0, j));
+  set_exact_sum(y_, rest_, psi(0, j), x_, t_);
+  set_sum(rest_, rest_, psi_rest_[j]);
 }
 
 #define HBVM_DEFINE(S) template class StageEquations<S>;

@@ -27,14 +27,13 @@ struct StageResidual {
   Matrix<S> momentum, constraint;
 };
 
-/// What a step adds, by (q1p1new): q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), as q + q_rest and
-/// p + p_rest, where the rests are what rounding of the sum psi_0 - zeta_0 takes from them. Of a constant force it takes
-/// the same bits wherever the constraints' force beside it is of one binade: without the rests that would be a small
-/// force of its own, under which H drifts.
+/// What a step adds, by (q1p1new): q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), which is p + p_rest. The
+/// rest is what rounding of the sum takes from a constant force: the same bits wherever the constraints' force beside it
+/// is of one binade. Without it that would be a small force of its own, under which H drifts.
 template <Scalar S>
 struct StepChange {
-  Vector<S> q, p, q_rest, p_rest;
-  explicit StepChange(Index m) : q(m), p(m), q_rest(m), p_rest(m) {}
+  Vector<S> q, p, p_rest;
+  explicit StepChange(Index m) : q(m), p(m), p_rest(Vector<S>::Zero(m)) {}
 };
 
 /// One part of the stage equations: how often it ran, what one call costs, and, if measured, the time it took.
@@ -131,6 +130,8 @@ class StageEquations {
   /// Positions at c (unless they are those at c_hat) and the constraints' gradients there.
   void move_constraints();
   void set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
+  /// rest_ = (psi_0 - zeta_0)_j, for a j of pulled_, less its rounded value.
+  void take_rest(const Matrix<S>& psi, const Matrix<S>& zeta, Index j);
   void project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta);
   /// The matrix of (lam) at the current nodes, factored.
   [[nodiscard]] bool factor_matrix();
@@ -152,14 +153,14 @@ class StageEquations {
   Vector<S> no_carry_;                   // m
   Matrix<S> I_centred_, I_hat_centred_;  ///< I_s and I_hat with c - 1/2 for c in column 0
   Vector<S> middle_;                     // m: q0 + h/2 M^-1 gamma_0
-  Vector<S> varying_;                    // m: psi_0 of the last forces() without the constant force
-  Vector<S> half_rest_;                  // m
+  std::vector<Index> pulled_;            // the coordinates on which a constant force acts
+  Vector<S> psi_rest_;                   // m: what rounding took from their psi_0 in the last forces()
   Matrix<S> velocity_, h_velocity_;      // s x m
   Matrix<S> u_hat_, force_;              // k x m
   Matrix<S> u_, w_, stage_;              // s x m
   Matrix<S> coupling_;                   // s x s
   Vector<S> rhs_;                        // s nu
-  S half_, t_, rest_, minus_zeta_;
+  S half_, h_half_, rest_, t_, x_, y_;  // the last three are scratch
   std::vector<PartCount> parts_;
   bool timed_ = false;
 };
