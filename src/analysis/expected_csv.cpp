@@ -4,6 +4,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/read_file.hpp"
+#include "hbvm/scalar/literal.hpp"
 
 namespace hbvm {
 
@@ -14,6 +15,8 @@ std::vector<std::string> split(const std::string& line) {
   if (!line.empty() && line.back() == ',') cells.emplace_back();
   return cells;
 }
+
+double value_of(const std::string& cell) { return literal<double>(cell); }
 
 ExpectedCsv::ExpectedCsv(const std::filesystem::path& path) {
   std::istringstream text(read_file(path));

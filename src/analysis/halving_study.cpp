@@ -5,12 +5,9 @@
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "hbvm/analysis/step_halving.hpp"
-#include "hbvm/scalar/literal.hpp"
 
 namespace hbvm {
 namespace {
-
-double value(const std::string& text) { return literal<double>(text); }
 
 struct Block {
   HalvingRequest request;
@@ -36,7 +33,7 @@ Agreement check(const Experiment& experiment, const std::vector<Block>& blocks, 
     for (std::size_t c = 0; c < expected.columns.size(); ++c) {
       const std::string& column = expected.columns[c];
       const std::string& figure = printed[c];
-      if (column.starts_with("e_") && !figure.empty() && value(figure) > above_round_off) {
+      if (column.starts_with("e_") && !figure.empty() && value_of(figure) > above_round_off) {
         ++agreement.stated;
         const std::string computed = found ? found->cell(column) : "nothing";
         if (computed == figure)
@@ -50,7 +47,7 @@ Agreement check(const Experiment& experiment, const std::vector<Block>& blocks, 
         const Constants method{{"k", Expression::parse(k)}, {"s", Expression::parse(s)}};
         const double order = evaluate<double>(orders.at(column), method);
         const std::string computed = found->cell(column);
-        if (computed != "***" && std::abs(value(computed) - order) <= value("1/10"))
+        if (computed != "***" && std::abs(value_of(computed) - order) <= value_of("1/10"))
           ++agreement.further_agreed;
         else
           agreement.complaints.push_back(place + column + " is " + computed + " instead of " +
@@ -124,7 +121,7 @@ Findings halving_study(const Experiment& experiment, TomlTable& top) {
   }
   const Expression above_round_off = top.number("compare_above");
   if (experiment.check)
-    findings.agreement = check(experiment, blocks, value(above_round_off.text()), round_off, orders);
+    findings.agreement = check(experiment, blocks, value_of(above_round_off.text()), round_off, orders);
   return findings;
 }
 

@@ -5,12 +5,9 @@
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "hbvm/analysis/run.hpp"
-#include "hbvm/scalar/literal.hpp"
 
 namespace hbvm {
 namespace {
-
-double value(const std::string& text) { return literal<double>(text); }
 
 std::string to_three_digits(const std::string& text) {
   BigFloat x(200);
@@ -37,7 +34,7 @@ Agreement check(const Experiment& experiment, const Table& table, const std::vec
       const auto bound = [&](const char* name, const std::string& computed, const std::string& limit, bool upper) {
         if (limit.empty()) return;
         ++agreement.stated;
-        if (upper ? value(computed) <= value(limit) : value(computed) >= value(limit))
+        if (upper ? value_of(computed) <= value_of(limit) : value_of(computed) >= value_of(limit))
           ++agreement.agreed;
         else
           agreement.complaints.push_back(place + name + " is " + computed + (upper ? ", above " : ", below ") + limit);

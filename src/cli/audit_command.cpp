@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct AuditArguments {
   std::optional<std::string> claims, method, out;
   bool quick = false, full = false, json = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -50,7 +50,7 @@ std::vector<Claim> filtered(std::vector<Claim> claims, const std::string& filter
   return claims;
 }
 
-std::vector<Claim> claims_of(const Options& o) {
+std::vector<Claim> claims_of(const AuditArguments& o) {
   std::vector<Claim> claims;
   const bool from_file = o.claims && fs::is_regular_file(*o.claims);
   if (from_file) {
@@ -67,7 +67,7 @@ std::vector<Claim> claims_of(const Options& o) {
 }
 
 /// Where results go; with --json nowhere unless it is said.
-std::optional<fs::path> folder_of(const Options& o) {
+std::optional<fs::path> folder_of(const AuditArguments& o) {
   if (o.json && !o.out) return std::nullopt;
   const fs::path folder = o.out.value_or("audit-results");
   std::error_code failure;
@@ -76,7 +76,7 @@ std::optional<fs::path> folder_of(const Options& o) {
   return folder;
 }
 
-void audit_command(const Options& o) {
+void audit_command(const AuditArguments& o) {
   check_jobs(o.jobs);
   const std::vector<Claim> claims = claims_of(o);
   std::string command = "hbvm audit";
@@ -140,7 +140,7 @@ void audit_command(const Options& o) {
 }  // namespace
 
 void add_audit_command(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<AuditArguments>();
   CLI::App* const command =
       app.add_subcommand("audit", "Decide the paper's claims, or your own, in as many digits as it takes");
   command->add_option("--claims", o->claims,

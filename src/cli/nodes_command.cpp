@@ -12,13 +12,13 @@
 namespace hbvm {
 namespace {
 
-struct Options {
+struct NodesArguments {
   int n = 0;
   std::string precision = "double";
   bool json = false;
 };
 
-void nodes_command(const Options& o) {
+void nodes_command(const NodesArguments& o) {
   const Precision precision = Precision::parse(o.precision);
   std::vector<std::string> c, b;
   with_scalar(precision, [&]<Scalar S>() {
@@ -41,7 +41,7 @@ void nodes_command(const Options& o) {
 }  // namespace
 
 void add_nodes_command(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<NodesArguments>();
   CLI::App* const command = app.add_subcommand("nodes", "Print Gauss-Legendre abscissae and weights on [0,1]");
   command->add_option("N", o->n, "Number of nodes, 1 to " + std::to_string(max_quadrature_nodes))->required();
   command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();

@@ -21,7 +21,7 @@
 namespace hbvm {
 namespace {
 
-struct Options {
+struct RunArguments {
   std::string scene, method, step, until;
   std::string precision = "double", solver = "auto", on_failure = "stop";
   std::optional<std::string> out, start;
@@ -173,7 +173,7 @@ void print(const RunRequest& request, const RunResult& result) {
   if (request.account) fmt::print("\n{}", to_text(result.account));
 }
 
-std::unique_ptr<CsvFile> open(const std::string& path, const Options& o) {
+std::unique_ptr<CsvFile> open(const std::string& path, const RunArguments& o) {
   try {
     if (o.resumed) return std::make_unique<CsvFile>(path, CsvFile::Opening::to_go_on);
     for (const std::optional<std::string>& input : {std::optional(o.scene), o.start}) {
@@ -196,7 +196,7 @@ Expression expression(const std::string& what, const std::string& text) {
 }
 
 /// What the run is; of one that goes on, what it was. \throws InputError if it is not the same
-RunIdentity identity_of(const Options& o, const CLI::App& command) {
+RunIdentity identity_of(const RunArguments& o, const CLI::App& command) {
   const auto refuse = [&](const std::string& why) { throw InputError("--resume: '" + *o.resume + "' " + why); };
   RunIdentity identity;
   if (o.resumed) {
@@ -216,7 +216,7 @@ RunIdentity identity_of(const Options& o, const CLI::App& command) {
   return identity;
 }
 
-RunRequest request_of(const Options& o, const RunIdentity& identity) {
+RunRequest request_of(const RunArguments& o, const RunIdentity& identity) {
   RunRequest request{o.resumed ? read_scene(identity.scene, identity.scene_name) : load_scene(o.scene),
                      MethodName::parse(o.method),
                      parse_solver(o.solver),
@@ -232,7 +232,7 @@ RunRequest request_of(const Options& o, const RunIdentity& identity) {
 }
 
 /// The file that keeps the run: the one it goes on from, unless it is to be another.
-std::optional<Checkpoints> checkpoints_of(const Options& o, const RunIdentity& identity) {
+std::optional<Checkpoints> checkpoints_of(const RunArguments& o, const RunIdentity& identity) {
   const std::optional<std::string>& file = o.checkpoint ? o.checkpoint : o.resume;
   if (!file) return std::nullopt;
   std::error_code ignored;
@@ -243,7 +243,7 @@ std::optional<Checkpoints> checkpoints_of(const Options& o, const RunIdentity& i
   return checkpoints;
 }
 
-void run_command(const Options& o, const CLI::App& command) {
+void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
     throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
   if (!(o.every_seconds >= 0)) throw InputError("--every-seconds is negative");
@@ -283,7 +283,7 @@ void run_command(const Options& o, const CLI::App& command) {
 }  // namespace
 
 void add_run_command(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RunArguments>();
   CLI::App* const command = app.add_subcommand("run", "Integrate a scene and report the final state and its errors");
   command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
   command->add_option("--method", o->method, "hbvm:K,S with K >= S >= 1 (K = S is Gauss), or hbvm:auto,S")->required();

@@ -11,12 +11,12 @@
 namespace hbvm {
 namespace {
 
-struct Options {
+struct ProjectArguments {
   std::string scene, precision = "double";
   std::optional<std::string> out;
 };
 
-void project_command(const Options& o) {
+void project_command(const ProjectArguments& o) {
   const Scene scene = load_scene(o.scene);
   const std::string text = with_scalar(Precision::parse(o.precision), [&]<Scalar S>() {
     const Scene projected = project<S>(scene);
@@ -40,7 +40,7 @@ void add_scene_command(CLI::App& app) {
   scene->require_subcommand(1);
   scene->footer("Example: hbvm scene check tethered_satellites");
   for (const bool check : {true, false}) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<ProjectArguments>();
     CLI::App* const command =
         check ? scene->add_subcommand("check", "Explain a scene: dimensions, effects, energy, momenta")
               : scene->add_subcommand("project", "Write the nearest scene whose initial state fulfils the constraints");

@@ -22,13 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct StabilityArguments {
   std::optional<std::string> out, cases;
   bool quick = false, full = false, json = false, figures = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
 
-std::vector<HardCase> cases_of(const Options& o) {
+std::vector<HardCase> cases_of(const StabilityArguments& o) {
   std::vector<HardCase> cases = hard_cases(o.full ? Collection::full : Collection::quick);
   if (!o.cases) return cases;
   std::string families;
@@ -41,7 +41,7 @@ std::vector<HardCase> cases_of(const Options& o) {
   return cases;
 }
 
-void stability_command(const Options& o) {
+void stability_command(const StabilityArguments& o) {
   check_jobs(o.jobs);
   if (o.figures && !o.out) throw InputError("--figures needs a folder: --out FOLDER");
   const std::vector<HardCase> cases = cases_of(o);
@@ -109,7 +109,7 @@ void stability_command(const Options& o) {
 }  // namespace
 
 void add_stability_command(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<StabilityArguments>();
   CLI::App* const command =
       app.add_subcommand("stability", "Run the collection of hard cases: each holds, or fails as it should");
   auto* const quick = command->add_flag("--quick", o->quick, "Some cases of each family (default): about a minute");

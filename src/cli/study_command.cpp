@@ -10,13 +10,13 @@
 namespace hbvm {
 namespace {
 
-struct Options {
+struct StudyArguments {
   std::vector<std::string> folders;
   std::vector<std::string> precisions{"double"};
   bool check = false;
 };
 
-void study_command(const Options& o) {
+void study_command(const StudyArguments& o) {
   std::vector<Precision> precisions;
   for (const std::string& name : o.precisions) precisions.push_back(Precision::parse(name));
   long agreed = 0, stated = 0;
@@ -61,7 +61,7 @@ void study_command(const Options& o) {
 }  // namespace
 
 void add_study_command(CLI::App& app) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<StudyArguments>();
   CLI::App* const command =
       app.add_subcommand("study", "Run the experiments of studies/ and draw their tables and figures");
   command->add_option("folders", o->folders, "Folders with a study.toml; results go to results/ in each")->required();

@@ -18,7 +18,7 @@ std::string with(const std::vector<std::string>& effects, const std::string& vel
   return text;
 }
 const std::string gravity = "kind = \"uniform_gravity\"\nacceleration = [0, -1]",
-                  attraction = "kind = \"central_gravity\"\ncenter = \"O\"\nstrength = 1";
+                  central_attraction = "kind = \"central_gravity\"\ncenter = \"O\"\nstrength = 1";
 std::string spring(const std::string& exponent, const std::string& length = "0") {
   return "kind = \"spring\"\nbetween = [\"a\", \"O\"]\nstiffness = 1\nexponent = " + exponent +
          "\nrest_length = " + length;
@@ -41,8 +41,8 @@ TEST(DegreeOfU, IsTheGreatestOfItsEffects) {
 }
 
 TEST(DegreeOfU, IsNoneIfOneEffectIsNoPolynomial) {
-  EXPECT_EQ(degree({attraction}), std::nullopt);
-  EXPECT_EQ(degree({gravity, attraction, spring("4")}), std::nullopt);
+  EXPECT_EQ(degree({central_attraction}), std::nullopt);
+  EXPECT_EQ(degree({gravity, central_attraction, spring("4")}), std::nullopt);
   EXPECT_EQ(degree({spring("3")}), std::nullopt);       // |r|^3
   EXPECT_EQ(degree({spring("2", "1")}), std::nullopt);  // a rest length takes the root
 }
@@ -125,7 +125,7 @@ TYPED_TEST(ChooseK, OtherwiseIsTheLeastThatReachesRoundOff) {
   using S = TypeParam;
   constexpr int s = 2;
   const S step = literal<S>("1/16");
-  const auto scene = assembled<S>({attraction});
+  const auto scene = assembled<S>({central_attraction});
   const ChosenK chosen = this->chosen(scene, s, "1/16");
   EXPECT_NE(chosen.reason.find("not a polynomial"), std::string::npos) << chosen.reason;
   ASSERT_GT(chosen.k, s);
@@ -143,7 +143,7 @@ TYPED_TEST(ChooseK, OtherwiseIsTheLeastThatReachesRoundOff) {
 }
 
 TYPED_TEST(ChooseK, OtherwiseConservesEnergyToRoundOff) {
-  const auto scene = assembled<TypeParam>({attraction, gravity});
+  const auto scene = assembled<TypeParam>({central_attraction, gravity});
   const int k = this->chosen(scene, 1, "1/32").k;
   EXPECT_LE(this->energy_error(scene, k, 1, "1/32", "1/2"), 1'000 * epsilon<TypeParam>());
   EXPECT_GT(this->energy_error(scene, 1, 1, "1/32", "1/2"), literal<TypeParam>("1e-6"));
@@ -152,7 +152,7 @@ TYPED_TEST(ChooseK, OtherwiseConservesEnergyToRoundOff) {
 /// From the apocentre of a long orbit the first steps need few nodes, and the passage of the pericentre in the last
 /// ones many: hbvm:auto must conserve energy through it.
 TEST(ChosenK, ServesTheWholeRunAndNotItsFirstStepAlone) {
-  const Scene scene = read_scene(with({attraction}, "[0, \"sqrt(3/5)\"]"), "ellipse");  // excentricity 2/5
+  const Scene scene = read_scene(with({central_attraction}, "[0, \"sqrt(3/5)\"]"), "ellipse");  // excentricity 2/5
   for (const char* precision : {"double", "quad"}) {
     const RunResult result = run({scene, MethodName::parse("hbvm:auto,1"), SolverKind::fixed_point,
                                   Expression::parse("1/8"), Expression::parse("2"), Precision::parse(precision), false},
@@ -163,7 +163,7 @@ TEST(ChosenK, ServesTheWholeRunAndNotItsFirstStepAlone) {
 }
 
 TYPED_TEST(ChooseK, SmallerStepsNeedFewerNodes) {
-  const auto scene = assembled<TypeParam>({attraction});
+  const auto scene = assembled<TypeParam>({central_attraction});
   const int most = this->chosen(scene, 1, "1/4").k, middle = this->chosen(scene, 1, "1/16").k,
             least = this->chosen(scene, 1, "1/256").k;
   EXPECT_LT(least, middle);
@@ -180,21 +180,21 @@ TYPED_TEST(ChooseK, DefectOfAConstantForceIsZero) {
 /// 16 (k + s) epsilon = 32 epsilon of that size.
 TYPED_TEST(ChooseK, DefectIsMeasuredInRoundOff) {
   using S = TypeParam;
-  const auto scene = assembled<S>({attraction});
+  const auto scene = assembled<S>({central_attraction});
   const S h = literal<S>("1/1024");
   const S defect = quadrature_defect(scene.problem, 1, 1, h, SolverKind::fixed_point, scene.q0, scene.p0);
   EXPECT_NEAR(approximately(S(defect * 32 * epsilon<S>() / (h * h))), 1.0 / 8, 1e-3);
 }
 
 TYPED_TEST(ChooseK, OfAStepThatCannotBeMadeIsAnIntegrationError) {
-  EXPECT_THROW(this->chosen(assembled<TypeParam>({attraction}, "[0, 0]"), 1, "20"), StepError);
+  EXPECT_THROW(this->chosen(assembled<TypeParam>({central_attraction}, "[0, 0]"), 1, "20"), StepError);
 }
 
 /// A stone falls into the center within the first steps: whatever comes before is integrated by a k that is enough for
 /// it, and the run ends where it must.
 TYPED_TEST(ChooseK, OfALaterStepThatCannotBeMadeIsThatOfTheStepsBefore) {
   using S = TypeParam;
-  const auto scene = assembled<S>({attraction}, "[0, 0]");
+  const auto scene = assembled<S>({central_attraction}, "[0, 0]");
   const ChosenK chosen = this->chosen(scene, 2, "1/8");
   EXPECT_NE(chosen.reason.find("no k makes more than the first"), std::string::npos) << chosen.reason;
   const Hbvm<S> method = make_hbvm<S>(chosen.k, 2);

@@ -22,7 +22,7 @@ Scene circle(const std::string& effect) {
 }
 const std::string well = "kind = \"trap\", center = \"O\", stiffness = 1, exponent = 2",
                   weight = "kind = \"uniform_gravity\", acceleration = [0, -1]",
-                  attraction = "kind = \"spring\", between = [\"a\", \"O\"], stiffness = 1, exponent = 4";
+                  quartic_attraction = "kind = \"spring\", between = [\"a\", \"O\"], stiffness = 1, exponent = 4";
 
 Conservation after(const Scene& scene, int s, Nodes nodes) {
   return conservation({&scene, s, nodes, Expression::parse("1/16"), Expression::parse("8")},
@@ -32,8 +32,8 @@ Conservation after(const Scene& scene, int s, Nodes nodes) {
 TEST(Conservation, OfMoreNodesTakesThoseOfAutoOrTwiceAsMany) {
   EXPECT_EQ(after(circle(weight), 2, Nodes::s).method.k, 2);
   EXPECT_EQ(after(circle(weight), 2, Nodes::more).method.k, 4) << "hbvm:auto takes 2";
-  EXPECT_EQ(after(circle(attraction), 3, Nodes::s).method.k, 3);
-  EXPECT_EQ(after(circle(attraction), 3, Nodes::more).method.k, 6) << "of hbvm:auto";
+  EXPECT_EQ(after(circle(quartic_attraction), 3, Nodes::s).method.k, 3);
+  EXPECT_EQ(after(circle(quartic_attraction), 3, Nodes::more).method.k, 6) << "of hbvm:auto";
 }
 
 /// H and L in units of their terms: p^2/(2 m) = 1 and U = 32, L = 16; g = q^2 - 64, whose displacements, of two

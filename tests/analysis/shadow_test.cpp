@@ -13,8 +13,8 @@
 namespace hbvm {
 namespace {
 
-RunResult result_of(const Scene& scene, const char* method, const char* step, const char* until,
-                    const char* precision) {
+RunResult shadowed_result_of(const Scene& scene, const char* method, const char* step, const char* until,
+                             const char* precision) {
   RunRequest request{scene,
                      MethodName::parse(method),
                      SolverKind::automatic,
@@ -54,7 +54,7 @@ std::vector<BigFloat> numbers(const std::vector<std::string>& texts, const char*
 
 void expect_truth(const char* name, const char* step, const char* until, const char* precision) {
   const Scene scene = load_scene(name);
-  const RunResult result = result_of(scene, "hbvm:3,3", step, until, precision);
+  const RunResult result = shadowed_result_of(scene, "hbvm:3,3", step, until, precision);
   ASSERT_TRUE(result.shadow && result.shadow->failure.empty());
   const auto q = numbers(result.q, precision), p = numbers(result.p, precision);
   const PrecisionScope more(Precision::parse(precision).digits() + 40);
@@ -83,14 +83,14 @@ TEST(Shadow, SaysHowManyDigitsSurvivedWithinAFactorOf3) {
 TEST(Shadow, IsNamed) {
   const Scene scene = load_scene("kepler");
   for (const auto& [precision, shadow] : {std::pair("double", "mpfr:32"), {"quad", "mpfr:50"}, {"mpfr:70", "mpfr:86"}})
-    EXPECT_EQ(result_of(scene, "hbvm:2,2", "1/8", "1/4", precision).shadow->precision, shadow);
+    EXPECT_EQ(shadowed_result_of(scene, "hbvm:2,2", "1/8", "1/4", precision).shadow->precision, shadow);
 }
 
 TEST(Shadow, OfWhatRoundingDoesNotTouchHasAllDigits) {
   // A free body whose every position is a number of the precision.
   const Scene scene = read_scene(
       "dimension = 2\nbody = [{name = \"b\", mass = 2, position = [1, 2], velocity = [1, \"1/2\"]}]\n", "free");
-  const Shadow shadow = *result_of(scene, "hbvm:2,2", "1/8", "4", "double").shadow;
+  const Shadow shadow = *shadowed_result_of(scene, "hbvm:2,2", "1/8", "4", "double").shadow;
   for (const auto& digits : {shadow.q, shadow.p})
     for (const double d : digits) EXPECT_NEAR(d, 53 * std::log10(2), 1e-12);
 }
@@ -99,7 +99,7 @@ TEST(Shadow, OfWhatRoundingDoesNotTouchHasAllDigits) {
 TEST(Shadow, StartsFromTheExactScene) {
   const Scene scene = read_scene(
       "dimension = 2\nbody = [{name = \"b\", mass = 1, position = [\"10^6+1/3\", 1], velocity = [0, 1]}]\n", "third");
-  const Shadow shadow = *result_of(scene, "hbvm:1,1", "1/8", "1", "double").shadow;
+  const Shadow shadow = *shadowed_result_of(scene, "hbvm:1,1", "1/8", "1", "double").shadow;
   const double rounding =
       std::log10((1e6 + 1.0 / 3) / std::abs(approximately(Quad(literal<Quad>("10^6+1/3") - Quad(1e6 + 1.0 / 3)))));
   EXPECT_NEAR(shadow.q[0], rounding, 0.01);

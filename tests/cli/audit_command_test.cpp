@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const char* const gauss = R"(name = "Gauss"
+const char* const gauss_tableau = R"(name = "Gauss"
 A = [["1/4", "1/4-sqrt(3)/6"], ["1/4+sqrt(3)/6", "1/4"]]
 b = ["1/2", "1/2"]
 )";
@@ -52,13 +52,12 @@ TEST(AuditCommand, WritesTablesAndTheFigure) {
     EXPECT_FALSE(text_of(folder / ("out/" + std::string(file))).empty()) << file;
   const auto lines = lines_of(text_of(folder / "out/audit.csv"));
   EXPECT_EQ(lines.at(0), "# problem,claim,quantity,over,k,s,predicted,measured,+-,precision,verdict");
-  EXPECT_NE(text_of(folder / "out/audit.csv").find("command hbvm audit --claims 'simple_pendulum'"),
-            std::string::npos);
+  EXPECT_NE(text_of(folder / "out/audit.csv").find("command hbvm audit --claims 'simple_pendulum'"), std::string::npos);
 }
 
 TEST(AuditCommand, AuditsATableau) {
   const Folder folder;
-  const Json json = json_of({"--method", folder.write("gauss.toml", gauss)}, 0);
+  const Json json = json_of({"--method", folder.write("gauss.toml", gauss_tableau)}, 0);
   for (const Json& claim : json.at("claims")) {
     EXPECT_EQ(claim.at("verdict"), "holds") << claim.dump();
     EXPECT_TRUE(claim.at("k").is_null());
@@ -114,7 +113,7 @@ TEST(AuditCommand, RefusesBadInput) {
   expect_refused({"audit", "--out", "/proc/nowhere"}, {"/proc/nowhere"});
   const std::string constrained =
       "[[claim]]\nquantity = \"q\"\nproblem = \"double_pendulum\"\nmethod = \"gauss.toml\"\nrate = 4\n";
-  folder.write("gauss.toml", gauss);
+  folder.write("gauss.toml", gauss_tableau);
   expect_refused({"audit", "--json", "--claims", folder.write("claims.toml", constrained)}, {"constraint"});
 }
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
+#include "cli/json.hpp"
 #include "cli/program.hpp"
 #include "hbvm/checksum.hpp"
 #include "hbvm/scalar/literal.hpp"
@@ -284,9 +284,7 @@ TEST(FullDisk, EndsTheTrajectoryWithACompleteLine) {
   EXPECT_GT(text_of(csv).size(), 99'000u);
 }
 
-ordered_json json_of(const Arguments& arguments) { return result_of(hbvm(arguments + Arguments{"--json"})); }
-
-double number(const ordered_json& text) { return std::stod(text.get<std::string>()); }
+ordered_json result_of(const Arguments& arguments) { return result_of(hbvm(arguments + Arguments{"--json"})); }
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> parts;
@@ -303,10 +301,10 @@ TEST(Start, AndReverseComeBackToRoundOff) {
       const Arguments run{
           "run",    "charged_double_pendulum", "--method", method, "--step", "1/32", "--until", "2", "--precision",
           precision};
-      const ordered_json forth = json_of(run + Arguments{"--out", csv});
+      const ordered_json forth = result_of(run + Arguments{"--out", csv});
       EXPECT_FALSE(forth.contains("reverse"));
       const std::string there = folder.write("there.json", forth.dump());
-      const ordered_json j = json_of(run + Arguments{"--start", there, "--reverse", "--out", back});
+      const ordered_json j = result_of(run + Arguments{"--start", there, "--reverse", "--out", back});
       EXPECT_EQ(j["t"], "-2");
       EXPECT_EQ(j["until"], "2");
       EXPECT_EQ(j["reverse"], true);
@@ -334,13 +332,13 @@ TEST(Start, TakesAStateWithItsCarry) {
   const Folder folder;
   const std::string scene = folder.write("pendulum.toml", pendulum("1"));
   const Arguments run{"run", scene, "--method", "hbvm:2,2", "--step", "1/64", "--until", "1"};
-  ordered_json end = json_of(run);
+  ordered_json end = result_of(run);
   EXPECT_EQ(end["q_carry"].size(), 2u);
   EXPECT_EQ(end["p_carry"].size(), 2u);
-  const ordered_json with = json_of(run + Arguments{"--start", folder.write("a.json", end.dump())});
+  const ordered_json with = result_of(run + Arguments{"--start", folder.write("a.json", end.dump())});
   end.erase("q_carry");
   end.erase("p_carry");
-  const ordered_json without = json_of(run + Arguments{"--start", folder.write("a.json", end.dump())});
+  const ordered_json without = result_of(run + Arguments{"--start", folder.write("a.json", end.dump())});
   EXPECT_NE(with.dump(), without.dump());
   for (const int i : {0, 1})
     EXPECT_NEAR(number(with["q"][static_cast<std::size_t>(i)]), number(without["q"][static_cast<std::size_t>(i)]),

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "cli/json.hpp"
 #include "cli/program.hpp"
 #include "hbvm/basis/gauss_legendre.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -11,12 +10,6 @@ namespace hbvm {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::vector<std::string> keys_of(const ordered_json& object) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.push_back(key);
-  return keys;
-}
 
 TEST(Nodes, AsJsonAreTheLibrarysWithAllDigits) {
   for (const char* precision : {"double", "quad", "mpfr:50", "mpfr:200"})

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "cli/json.hpp"
 #include "cli/program.hpp"
 #include "hbvm/integrate/drift.hpp"
 #include "hbvm/integrate/output_state.hpp"
@@ -27,14 +27,6 @@ ordered_json json_of(const Arguments& arguments) {
   EXPECT_EQ(outcome.err, "");
   return ordered_json::parse(outcome.out);
 }
-
-Texts keys_of(const ordered_json& object) {
-  Texts keys;
-  for (const auto& [key, value] : object.items()) keys.push_back(key);
-  return keys;
-}
-
-double number(const ordered_json& text) { return std::stod(text.get<std::string>()); }
 
 template <Scalar S>
 Texts texts(const Vector<S>& v) {

@@ -493,11 +493,6 @@ struct Overconstrained {
   std::vector<Index> redundant;
 };
 
-std::string rod(const char* a, const char* b, const char* length) {
-  return "[[constraint]]\nkind = \"rod\"\nbetween = [\"" + std::string(a) + "\", \"" + b + "\"]\nlength = " + length +
-         "\n";
-}
-
 std::string line_of_three(const char* zero) {
   const std::string dimension = std::string(zero).empty() ? "2" : "3";
   const auto body = [&](const char* name, const char* x, const char* v) {

@@ -16,7 +16,7 @@ struct Malformed {
 };
 void PrintTo(const Malformed& m, std::ostream* out) { *out << m.to; }
 
-std::string name_of_case(const ::testing::TestParamInfo<Malformed>& info) { return info.param.name; }
+std::string name_of_malformed(const ::testing::TestParamInfo<Malformed>& info) { return info.param.name; }
 
 void expect_message(const std::string& message, const std::string& where, const std::vector<const char*>& words) {
   EXPECT_TRUE(message.starts_with(where)) << "not at " << where << " but: " << message;
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Malformed{"ControlCharacter", "\"made up\"", "\"made\x01up\"", "source", {}},
                       Malformed{"HugeInteger", "mass = 3", "mass = 99999999999999999999", "mass = 99999", {}},
                       Malformed{"LeadingZero", "mass = 3", "mass = 03", "mass = 03", {}}),
-    name_of_case);
+    name_of_malformed);
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, MalformedScene,
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
                   {"central_gravity", "'center'"}},
         Malformed{
             "MissingAxis", "axis = [1, 2, 2]\n", "", "[[effect]]\nkind = \"oblateness\"", {"oblateness", "'axis'"}}),
-    name_of_case);
+    name_of_malformed);
 
 INSTANTIATE_TEST_SUITE_P(
     Values, MalformedScene,
@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "[point2]\n[[rigid_body]]\nname = \"top\"",
                   "[point2]",
                   {"'point2'"}}),
-    name_of_case);
+    name_of_malformed);
 
 INSTANTIATE_TEST_SUITE_P(
     References, MalformedScene,
@@ -250,7 +250,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "[[\"a\", \"b\", \"c\"]]",
                   "between = [[",
                   {"spring", "'between'"}}),
-    name_of_case);
+    name_of_malformed);
 
 TEST(MalformedScenes, EmptyFile) { expect_message(refusal(""), "test.toml:1: ", {"'dimension'"}); }
 

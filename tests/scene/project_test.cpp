@@ -29,9 +29,6 @@ std::string body(const std::string& name, const std::string& mass, const std::st
   return "[[body]]\nname = \"" + name + "\"\nmass = " + mass + "\nposition = " + position + "\nvelocity = " + velocity +
          "\n";
 }
-std::string rod(const std::string& a, const std::string& b, const std::string& length) {
-  return "[[constraint]]\nkind = \"rod\"\nbetween = [\"" + a + "\", \"" + b + "\"]\nlength = " + length + "\n";
-}
 const std::string plane_with_origin = "dimension = 2\n[[point]]\nname = \"O\"\nposition = [0, 0]\n";
 
 /// The nearest point of a circle is on the radius; of the velocity the part along it goes.

@@ -177,7 +177,7 @@ struct Decimal {
   const char *name, *line, *value;
 };
 void PrintTo(const Decimal& d, std::ostream* out) { *out << d.line; }
-std::string name_of_case(const ::testing::TestParamInfo<Decimal>& info) { return info.param.name; }
+std::string name_of_decimal(const ::testing::TestParamInfo<Decimal>& info) { return info.param.name; }
 
 class ReadDecimal : public ::testing::TestWithParam<Decimal> {};
 
@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
         Decimal{"QuotedSum", "mass = \"0.1 + 0.2\"", "3/10"}, Decimal{"Root", "mass = \"sqrt(1/2)\"", "2^(-1/2)"},
         Decimal{"Constant", "mass = \"L^2\"", "1/4"}, Decimal{"Integer", "mass = 1_000", "1000"},
         Decimal{"HexadecimalInteger", "mass = 0xff", "255"}, Decimal{"BelowDoubleRange", "mass = 1e-400", "10^-400"}),
-    name_of_case);
+    name_of_decimal);
 
 TEST(ReadDecimals, AreExactAfterOtherCharactersInTheSameLine) {
   const PrecisionScope digits(50);

@@ -157,6 +157,11 @@ inline std::string changed(std::string text, std::string_view from, std::string_
   return text.replace(at, from.size(), to);
 }
 
+/// The constraint that keeps two bodies or points at a length.
+inline std::string rod(const std::string& a, const std::string& b, const std::string& length) {
+  return "[[constraint]]\nkind = \"rod\"\nbetween = [\"" + a + "\", \"" + b + "\"]\nlength = " + length + "\n";
+}
+
 /// The line, from 1, on which `part` first stands.
 inline std::size_t line_of(std::string_view text, std::string_view part) {
   const std::size_t at = text.find(part);

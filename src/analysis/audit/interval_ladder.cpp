@@ -9,7 +9,7 @@ namespace hbvm {
 namespace {
 
 /// What some thousand steps' roundings add up to, in units of the last digit, as log2.
-constexpr double roundings = 14;
+constexpr double run_roundings = 14;
 
 /// The exact motion from one start, at the end of the interval.
 class Destination {
@@ -60,7 +60,7 @@ class Destination {
 
 template <Scalar S>
 Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
-  const double unit = 1 - significand_bits<S>() + roundings;
+  const double unit = 1 - significand_bits<S>() + run_roundings;
   const Claim& subject = cell.subject();
   Trial<S> trial(subject);
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);

@@ -7,14 +7,14 @@ namespace hbvm {
 namespace {
 
 /// What a few hundred roundings add up to, at most, in units of the last digit, as log2.
-constexpr double roundings = 12;
+constexpr double step_roundings = 12;
 
 /// One step of the method from one state against the exact motion.
 template <Scalar S>
 class StepMeasurement {
  public:
   StepMeasurement(Laboratory& laboratory, const Cell& cell, double log2_epsilon)
-      : laboratory_(laboratory), subject_(cell.subject()), unit_(log2_epsilon + roundings), s_(cell.stages()) {}
+      : laboratory_(laboratory), subject_(cell.subject()), unit_(log2_epsilon + step_roundings), s_(cell.stages()) {}
 
   Margins measure(Trial<S>& trial, const Laboratory::Start& start, double log2_h, Sizes& sizes) {
     const Problem<Mpfr>& problem = laboratory_.problem();

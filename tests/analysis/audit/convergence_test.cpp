@@ -6,10 +6,11 @@
 #include <functional>
 #include <limits>
 
+#include "analysis/not_finite.hpp"
+
 namespace hbvm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double ulp = std::numeric_limits<double>::epsilon();
 /// Below every error here.
 constexpr double deep_floor = -1'000;

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Every key, a scene and a tableau beside the file, and a claim of round-off.
-const std::string good = R"([[claim]]
+const std::string good_claims = R"([[claim]]
 label = "Theorem 7"
 quantity = "raw_p"
 problem = "double_pendulum"
@@ -63,7 +63,7 @@ class ReadClaims : public ::testing::Test {
     return read_claims(path());
   }
   static std::string changed(const std::string& from, const std::string& to) {
-    std::string text = good;
+    std::string text = good_claims;
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return text.replace(at, from.size(), to);
@@ -86,7 +86,7 @@ class ReadClaims : public ::testing::Test {
 };
 
 TEST_F(ReadClaims, TakesAllKeys) {
-  const auto claims = read(good);
+  const auto claims = read(good_claims);
   ASSERT_EQ(claims.size(), 3u);
   const Claim& c = claims[0];
   EXPECT_EQ(c.label, "Theorem 7");
@@ -106,7 +106,7 @@ TEST_F(ReadClaims, TakesAllKeys) {
 }
 
 TEST_F(ReadClaims, MayLeaveOutKeys) {
-  const Claim c = read(good)[1];
+  const Claim c = read(good_claims)[1];
   EXPECT_EQ(c.label, "stated");
   EXPECT_EQ(c.form, Form::at_least);
   EXPECT_EQ(c.span, Span::interval);
@@ -114,7 +114,7 @@ TEST_F(ReadClaims, MayLeaveOutKeys) {
 }
 
 TEST_F(ReadClaims, FilesStandBesideTheClaims) {
-  const Claim c = read(good)[1];
+  const Claim c = read(good_claims)[1];
   EXPECT_EQ(c.problem, (folder_ / "own.toml").string());
   ASSERT_TRUE(c.tableau);
   EXPECT_EQ(c.method_text(), "midpoint");
@@ -127,7 +127,7 @@ TEST_F(ReadClaims, FilesMayStandElsewhere) {
 }
 
 TEST_F(ReadClaims, RoundOffIsAForm) {
-  const Claim c = read(good)[2];
+  const Claim c = read(good_claims)[2];
   EXPECT_EQ(c.form, Form::round_off);
   EXPECT_EQ(c.quantity, Quantity::angular_momentum);
 }
@@ -164,8 +164,8 @@ TEST_F(ReadClaims, RefusesMissingKeys) {
 TEST_F(ReadClaims, RefusesUnknownKeys) {
   expect_refusal(changed("over = ", "ovre = "), 8, {"claim 1", "unknown key 'ovre'", "'over'"});
   expect_refusal(changed("hat = true", "hatt = true"), 9, {"perturb", "unknown key 'hatt'", "'hat'"});
-  expect_refusal("title = \"x\"\n" + good, 1, {"unknown key 'title'"});
-  expect_refusal(good + "[more]\nx = 1\n", 22, {"unknown key 'more'"});
+  expect_refusal("title = \"x\"\n" + good_claims, 1, {"unknown key 'title'"});
+  expect_refusal(good_claims + "[more]\nx = 1\n", 22, {"unknown key 'more'"});
 }
 
 TEST_F(ReadClaims, RefusesUnknownNames) {
@@ -283,9 +283,9 @@ TEST_F(ReadClaims, RefusesWhatIsNoFile) {
 
 TEST_F(ReadClaims, ReadsOrRefusesEveryBeginning) {
   int read_at_all = 0;
-  for (std::size_t length = 0; length <= good.size(); ++length) {
+  for (std::size_t length = 0; length <= good_claims.size(); ++length) {
     try {
-      EXPECT_FALSE(read(good.substr(0, length)).empty());
+      EXPECT_FALSE(read(good_claims.substr(0, length)).empty());
       ++read_at_all;
     } catch (const InputError&) {
     }

@@ -6,17 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
+
+#include "analysis/not_finite.hpp"
 
 namespace hbvm {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 Finding finding(const std::string& label = "ord2s", const std::string& problem = "kepler") {
   Finding f;

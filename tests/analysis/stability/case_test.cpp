@@ -2,18 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include "analysis/not_finite.hpp"
+#include "analysis/stability/measured.hpp"
 
 namespace hbvm {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-
 HardCase hard_case(const Expected& expected) {
   return {"family", "case", "parameter", "double", expected, 1, [] { return CaseResult{}; }};
 }
-CaseResult measured(double value, double bound = 2) { return {{{"figure", value, bound}}, {}, "", ""}; }
 CaseResult failed(const std::string& cause) { return {{}, {}, cause, "what was seen"}; }
 
 CaseVerdict verdict(const Expected& expected, const CaseResult& result) {

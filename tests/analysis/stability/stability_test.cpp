@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "analysis/stability/measured.hpp"
 #include "hbvm/analysis/stability/collection.hpp"
 
 namespace hbvm {
@@ -15,7 +16,6 @@ namespace {
 HardCase hard_case(const std::string& name, const std::function<CaseResult()>& run) {
   return {"family", name, "", "double", {}, 1, run};
 }
-CaseResult measured(double value) { return {{{"figure", value, 2}}, {}, "", ""}; }
 CaseResult of_a_crash() {
   std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <limits>
+
+namespace hbvm {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace hbvm
