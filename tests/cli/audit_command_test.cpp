@@ -88,7 +88,7 @@ TEST(AuditCommand, RefusesFalseClaims) {
 
 TEST(AuditCommand, FullGoesOnFromWhatItFound) {
   const Folder folder;
-  const Arguments arguments{"audit", "--full", "--claims", "conical_pendulum", "--out", folder / "out"};
+  const Arguments arguments{"audit", "--full", "--claims", "costo", "--out", folder / "out"};
   const Outcome first = hbvm(arguments, 600);
   EXPECT_EQ(first.code, 0) << first.err;
   // As if it had been ended in the middle of a line.
