@@ -63,7 +63,8 @@ void set_quotient(S& r, const S& a, const S& b) {
     r = a / b;
 }
 
-/// a + b without any rounding, as r + rest with r = fl(a + b) (Moller and Knuth, TwoSum); r and rest are neither a nor b.
+/// a + b without any rounding, as r + rest with r = fl(a + b) (Moller and Knuth, TwoSum); r and rest are neither a nor b,
+/// and t is scratch.
 template <Scalar S>
 void set_exact_sum(S& r, S& rest, const S& a, const S& b, S& t) {
   set_sum(r, a, b);

@@ -29,7 +29,8 @@ struct StageResidual {
 
 /// What a step adds, by (q1p1new): q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), which is p + p_rest. The
 /// rest is what rounding of the sum takes from a constant force: the same bits wherever the constraints' force beside it
-/// is of one binade. Without it that would be a small force of its own, under which H drifts.
+/// is of one binade. Without it that would be a small force of its own, under which H drifts. Newton's last correction,
+/// too small for p, is in it as well.
 template <Scalar S>
 struct StepChange {
   Vector<S> q, p, p_rest;

@@ -19,12 +19,12 @@ struct Oblateness {
 
   template <class T>
   static T U(const Interaction<T>& body) {
-    const std::vector<T>& axis = body.vector("axis");
-    const T along = Interaction<T>::dot(axis, body.x);
+    const std::vector<T>& direction = body.vector("axis");
+    const T along = Interaction<T>::dot(direction, body.x);
     const T r2 = body.squared_distance(), r = body.distance();
     const T radius = body.number("radius");
     const T factor = body.number("strength") * body.number("J2") * radius * radius / 2 * body.masses[0];
-    const T z2 = along * along / (Interaction<T>::dot(axis, axis) * r2);
+    const T z2 = along * along / (Interaction<T>::dot(direction, direction) * r2);
     return -(factor * (3 * z2 - 1) / (r2 * r));
   }
 };
