@@ -75,7 +75,7 @@ bool FixedPoint<S>::sweep(bool factor) {
 template <Scalar S>
 bool FixedPoint<S>::conditioned() {
   if (x_.lambda.size() == 0) return false;
-  const double kappa = gram_condition(equations_.problem(), equations_.q0());
+  const double kappa = angle_condition(equations_.problem(), equations_.q0());
   if (!(rule_.condition_wanted() <= kappa)) return false;
   rule_.set_condition(kappa);
   return true;

@@ -106,6 +106,48 @@ TEST(AnyStep, SucceedsOrFailsButNeverLies) {
   EXPECT_GT(failed, 100);
 }
 
+/// Two bodies on circles that know nothing of one another: what the Gram matrix makes of their masses and radii is no
+/// condition that rounding could be excused with, so that the step that is too long for one fails beside the other,
+/// too.
+TEST(BeyondBreakdown, UnequalBodiesExcuseNothing) {
+  const std::string fast = R"toml(
+[[body]]
+name = "fast"
+mass = 1
+position = ["3/5000", "-4/5000"]
+velocity = ["4/5000", "3/5000"]
+[[constraint]]
+kind = "quadric"
+body = "fast"
+A = [[1, 0], [0, 1]]
+b = [0, 0]
+c = "-10^(-6)"
+)toml",
+                    light = R"toml(
+[[body]]
+name = "light"
+mass = "10^(-16)"
+position = ["3/5", "4/5"]
+velocity = ["-4/500", "3/500"]
+[[constraint]]
+kind = "quadric"
+body = "light"
+A = [[1, 0], [0, 1]]
+b = [0, 0]
+c = -1
+)toml",
+                    gravity = "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, \"-1/5\"]\n";
+  const Hbvm<double> method = make_hbvm<double>(4, 4);
+  for (const std::string& bodies : {fast, fast + light, light + fast}) {
+    const Assembled<double> scene = assemble<double>(read_scene("dimension = 2\n" + bodies + gravity, "bodies"));
+    for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::paper}) {
+      HbvmStepper<double> stepper(scene.problem, method, 1.5, kind);
+      State<double> state(scene.q0, scene.p0);
+      EXPECT_THROW(stepper.step(state), StageFailure) << scene.problem.nu() << " constraints";
+    }
+  }
+}
+
 /// Near the breakdown the increments fall slowly, and once rise on the way: "stop at the first increment that does not
 /// fall" ends after two sweeps with an error of 0.3.
 TEST(NearBreakdown, AStepIsSolvedCompletely) {
