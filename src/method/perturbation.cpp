@@ -103,7 +103,9 @@ template <Scalar S>
 void perturb(Hbvm<S>& method, const Perturbation& p) {
   using Part = Perturbation::Part;
   check(p.i >= 0 && p.j >= 0);
-  const S relative = evaluate<S>(p.relative);
+  // What alters no number of this precision may lie below its least number.
+  const S factor = evaluate<S>(Expression::parse("1+(" + p.relative.text() + ")"));
+  const S relative = factor == 1 ? S(0) : evaluate<S>(p.relative);
   if (p.part == Part::X) {
     check(p.i < method.s && p.j < method.s);
     change(method.X_s(p.i, p.j), relative);

@@ -55,34 +55,22 @@ void for_each_condition(const RungeKutta<S>& method, int max_order, const Use& u
   }
 }
 
-/// c_i^n.
+/// The defects of B, C and D for one power n, from c_i^(n-1).
 template <Scalar S>
-Vector<S> powers(const Vector<S>& c, int n) {
-  Vector<S> r(c.size());
-  for (Index i = 0; i < c.size(); ++i) {
-    r[i] = 1;
-    for (int k = 0; k < n; ++k) r[i] *= c[i];
-  }
-  return r;
-}
-
-/// The defects of B, C and D for one power n.
-template <Scalar S>
-S defect_B(const RungeKutta<S>& method, int n) {
-  return magnitude(S(dot(method.b, powers(method.c, n - 1)) - S(1) / S(n)));
+S defect_B(const RungeKutta<S>& method, int n, const Vector<S>& before) {
+  return magnitude(S(dot(method.b, before) - S(1) / S(n)));
 }
 
 template <Scalar S>
-S defect_C(const RungeKutta<S>& method, int n) {
-  const Vector<S> before = powers(method.c, n - 1), sums = method.A.lazyProduct(before);
+S defect_C(const RungeKutta<S>& method, int n, const Vector<S>& before) {
+  const Vector<S> sums = method.A.lazyProduct(before);
   S worst = 0;
   for (Index i = 0; i < sums.size(); ++i) raise_to(worst, magnitude(S(sums[i] - before[i] * method.c[i] / S(n))));
   return worst;
 }
 
 template <Scalar S>
-S defect_D(const RungeKutta<S>& method, int n) {
-  const Vector<S> before = powers(method.c, n - 1);
+S defect_D(const RungeKutta<S>& method, int n, const Vector<S>& before) {
   S worst = 0;
   for (Index j = 0; j < method.b.size(); ++j) {
     S sum = 0;
@@ -93,12 +81,25 @@ S defect_D(const RungeKutta<S>& method, int n) {
 }
 
 template <Scalar S>
-using Defect = S (*)(const RungeKutta<S>&, int);
+using Defect = S (*)(const RungeKutta<S>&, int, const Vector<S>&);
+
+/// Calls use(defect) for the powers 1, 2, ... most, as long as it returns true.
+template <Scalar S, class Use>
+void for_each_power(Defect<S> defect, const RungeKutta<S>& method, int most, const Use& use) {
+  Vector<S> power = Vector<S>::Ones(method.c.size());
+  for (int n = 1; n <= most; ++n) {
+    if (!use(defect(method, n, power))) return;
+    for (Index i = 0; i < power.size(); ++i) power[i] *= method.c[i];
+  }
+}
 
 template <Scalar S>
 S worst_of(Defect<S> defect, const RungeKutta<S>& method, int last) {
   S worst = 0;
-  for (int n = 1; n <= last; ++n) raise_to(worst, defect(method, n));
+  for_each_power(defect, method, last, [&](const S& own) {
+    raise_to(worst, own);
+    return true;
+  });
   return worst;
 }
 
@@ -106,7 +107,7 @@ S worst_of(Defect<S> defect, const RungeKutta<S>& method, int last) {
 template <Scalar S>
 int fulfilled(Defect<S> defect, const RungeKutta<S>& method, const S& tolerance, int most) {
   int n = 0;
-  while (n < most && defect(method, n + 1) <= tolerance) ++n;
+  for_each_power(defect, method, most, [&](const S& own) { return own <= tolerance && ++n > 0; });
   return n;
 }
 
