@@ -15,6 +15,7 @@
 #include "hbvm/analysis/audit/report.hpp"
 #include "hbvm/analysis/read_tableau.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/scalar/literal.hpp"
 #include "hbvm/version.hpp"
 #include "progress_bar.hpp"
 #include "write_text.hpp"
@@ -25,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct AuditArguments {
-  std::optional<std::string> claims, method, out;
+  std::optional<std::string> claims, method, out, until;
+  double limit = AuditOptions().limit;
   bool quick = false, full = false, json = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
@@ -76,6 +78,17 @@ std::optional<fs::path> folder_of(const AuditArguments& o) {
   return folder;
 }
 
+/// \throws InputError
+Expression time_from(const std::string& text) {
+  try {
+    const Expression time = Expression::parse(text);
+    if (evaluate<double>(time) > 0) return time;
+  } catch (const ExpressionError& error) {
+    throw InputError("--until: '" + text + "' is no time: " + error.what());
+  }
+  throw InputError("--until: '" + text + "' is no time after the start");
+}
+
 void audit_command(const AuditArguments& o) {
   check_jobs(o.jobs);
   const std::vector<Claim> claims = claims_of(o);
@@ -83,6 +96,8 @@ void audit_command(const AuditArguments& o) {
   if (o.method) command += " --method " + *o.method;
   if (o.claims) command += " --claims '" + *o.claims + "'";
   if (o.full || o.quick) command += o.full ? " --full" : " --quick";
+  if (o.until) command += " --until '" + *o.until + "'";
+  if (o.limit != AuditArguments().limit) command += fmt::format(" --limit {}", o.limit);
 
   const std::optional<fs::path> folder = folder_of(o);
   std::map<std::string, Finding> known;
@@ -100,6 +115,8 @@ void audit_command(const AuditArguments& o) {
   AuditOptions options;
   options.jobs = o.jobs;
   options.starts = o.full ? 3 : 2;
+  options.limit = o.limit;
+  if (o.until) options.until = time_from(*o.until);
   options.known = [&](const std::string& key) -> const Finding* {
     const auto place = known.find(std::to_string(options.starts) + key);
     return place == known.end() ? nullptr : &place->second;
@@ -127,14 +144,15 @@ void audit_command(const AuditArguments& o) {
     fmt::print("{}", to_text(table));
     for (const Finding& f : findings)
       if (f.verdict != Verdict::holds)
-        fmt::print("{}: {} of {} on {}, {}\n", name_of(f.verdict), name_of(f.claim.quantity), f.claim.method_text(),
+        fmt::print("{}: {} of {} on {}: {}\n", name_of(f.verdict), name_of(f.claim.quantity), f.claim.method_text(),
                    f.claim.problem, f.reason);
     fmt::print("{}\n", summary(findings));
     if (folder) fmt::print("written to {}\n", folder->string());
     std::fflush(stdout);
   }
-  if (std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.verdict == Verdict::fails; }))
-    throw CLI::RuntimeError(1);
+  const auto any = [&](const auto& is) { return std::any_of(findings.begin(), findings.end(), is); };
+  if (any([](const Finding& f) { return f.verdict == Verdict::fails; })) throw CLI::RuntimeError(1);
+  if (any([](const Finding& f) { return f.verdict != Verdict::holds; })) throw CLI::RuntimeError(4);
 }
 
 }  // namespace
@@ -153,10 +171,23 @@ void add_audit_command(CLI::App& app) {
       "--out", o->out,
       "Folder for table (CSV, Markdown, LaTeX) and figure, audit-results if absent (with --json: none); "
       "--full goes on from what it finds there");
+  command->add_option(
+      "--until", o->until,
+      "Look at all of the motion up to this time, in the scene's units (if absent, at half of the time in "
+      "which it changes, from two or three states); takes longer in proportion");
+  command
+      ->add_option(
+          "--limit", o->limit,
+          "Seconds of processor time that a claim may take before it is undecidable, 0: any; claims that share "
+          "their runs share their time")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_option("--jobs", o->jobs, "Threads")->check(CLI::Number)->capture_default_str();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
-      "Exit code 1 if a claim fails. A file of claims: tables [[claim]] with quantity, problem, method and rate, as\n"
+      "Exit code 0 if all claims hold, 1 if one fails, 4 if none fails but some are undecidable, of a degenerate "
+      "motion or\n"
+      "could not be run. A file of claims: tables [[claim]] with quantity, problem, method and rate, as\n"
       "  quantity = \"raw p\", problem = \"double_pendulum\", method = \"hbvm:3,2\", rate = \"2*s\"; a tableau:\n"
       "  A = [[\"1/4\", \"1/4-sqrt(3)/6\"], [\"1/4+sqrt(3)/6\", \"1/4\"]], b = [\"1/2\", \"1/2\"], c if it is not the "
       "row sums.\n"

@@ -77,15 +77,20 @@ const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
 }
 
 template <Scalar S>
-const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
-  if (problem_.nu() == 0) return multiplier_;
-  gradient_.update(lanes(q));
+void Point<S>::set_force(const Vector<S>& q) {
   if (potential_.has_varying_force()) {
     potential_.varying_force(lanes(q), force_);
   } else {
     force_.setZero();
   }
   force_ += potential_.constant_force().transpose();
+}
+
+template <Scalar S>
+const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
+  if (problem_.nu() == 0) return multiplier_;
+  gradient_.update(lanes(q));
+  set_force(q);
   Vector<S> acceleration(problem_.m());
   problem_.mass.velocity(lanes(force_), lanes(acceleration));
   problem_.mass.velocity(lanes(p), lanes(v_));
@@ -95,6 +100,18 @@ const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
   }
   solve_gram(multiplier_);
   return multiplier_;
+}
+
+template <Scalar S>
+const typename Point<S>::Forces& Point<S>::forces(const Vector<S>& q, const Vector<S>& p) {
+  set_force(q);
+  forces_.applied = force_.transpose();
+  forces_.constraint = Vector<S>::Zero(problem_.m());
+  if (problem_.nu() == 0) return forces_;
+  multiplier(q, p);
+  for (Index a = 0; a < problem_.nu(); ++a) row_(0, a) = -multiplier_[a];
+  gradient_.add_times(row_, lanes(forces_.constraint));
+  return forces_;
 }
 
 #define HBVM_DEFINE(S) template class Point<S>;

@@ -37,8 +37,15 @@ void StepPolynomials::at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<M
 }
 
 ReferenceMotion::ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,
-                                 const Mpfr& duration, long steps, int stages)
-    : problem_(problem), q0_(q0), p0_(p0), duration_(duration), steps_(steps), stages_(stages), point_(problem) {
+                                 const Mpfr& duration, long steps, int stages, std::function<void()> after_step)
+    : problem_(problem),
+      q0_(q0),
+      p0_(p0),
+      duration_(duration),
+      steps_(steps),
+      stages_(stages),
+      after_step_(std::move(after_step)),
+      point_(problem) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
   errors_ = {unknown, unknown, unknown};
   run(SolverKind::newton);
@@ -53,6 +60,7 @@ void ReferenceMotion::run(SolverKind solver) {
   for (long n = 0; n < steps_; ++n) {
     if (n + 1 == steps_) polynomials_.q0 = state.q;
     stepper.step(state);
+    if (after_step_) after_step_();
   }
   q_ = state.q;
   p_ = point_.tangential(state.q, state.p);
@@ -62,10 +70,17 @@ void ReferenceMotion::run(SolverKind solver) {
   polynomials_.gamma = stepper.solver().unknowns().gamma;
 }
 
+double ReferenceMotion::q_unit() const {
+  return log2_of(std::max(max_norm(q0_), max_norm(q_))) - static_cast<double>(mpfr_working_bits());
+}
+
+double ReferenceMotion::p_unit() const {
+  return log2_of(std::max(max_norm(p0_), max_norm(p_))) - static_cast<double>(mpfr_working_bits());
+}
+
 bool ReferenceMotion::is_exact() const {
-  const double round_off = static_cast<double>(-mpfr_working_bits()),
-               size = log2_of(Mpfr(1 + max_norm(q_) + max_norm(p_)));
-  return std::max(errors_.q, errors_.p) < round_off + size;
+  constexpr int units = 10;
+  return errors_.q <= q_unit() + units && errors_.p <= p_unit() + units;
 }
 
 bool ReferenceMotion::refine() {
@@ -73,12 +88,11 @@ bool ReferenceMotion::refine() {
   const Vector<Mpfr> q = q_, p = p_, lambda = lambda_;
   stages_ += 2;
   run(SolverKind::fixed_point);
-  const auto change = [](const Vector<Mpfr>& now, const Vector<Mpfr>& before) {
-    return std::max(log2_of(distance(now, before)), static_cast<double>(-mpfr_working_bits()));
-  };
   const Errors before = errors_;
-  errors_ = {change(q_, q), change(p_, p), change(lambda_, lambda)};
-  return std::max(errors_.q, errors_.p) < std::max(before.q, before.p);
+  const double lambda_unit = log2_of(max_norm(lambda_)) - static_cast<double>(mpfr_working_bits());
+  errors_ = {std::max(log2_of(distance(q_, q)), q_unit()), std::max(log2_of(distance(p_, p)), p_unit()),
+             std::max(log2_of(distance(lambda_, lambda)), lambda_unit)};
+  return std::max(errors_.q - q_unit(), errors_.p - p_unit()) < std::max(before.q - q_unit(), before.p - p_unit());
 }
 
 }  // namespace hbvm

@@ -160,6 +160,28 @@ TYPED_TEST(PointTest, MultiplierOfTheSimplePendulum) {
 }
 
 // m q'' = m g - 2 lambda q and |q| = l give lambda = (|p|^2 / m + m q.g) / (2 l^2).
+/// Along p' = grad U - grad g lambda and q' = M^-1 p the hidden constraints keep their value: their derivative, by
+/// differences that are exact for what is quadratic, is 0.
+TYPED_TEST(PointTest, ForcesKeepTheHiddenConstraints) {
+  using S = TypeParam;
+  for (const Index d : {2, 3}) {
+    const Problem<S> problem = this->mixed(d);
+    Point<S> point(problem);
+    const Vector<S> q = this->random.vector(problem.m()), p = this->random.vector(problem.m());
+    const typename Point<S>::Forces forces = point.forces(q, p);
+    const Vector<S> rate = forces.applied + forces.constraint;
+    Vector<S> v(problem.m());
+    problem.mass.velocity(lanes(p), lanes(v));
+    // grad g is linear in q, so that a half step each way gives d/dt (grad g^T v) = grad g(v)^T v + grad g^T M^-1 p'.
+    const Vector<S> zero = Vector<S>::Zero(problem.m()), moved = point.hidden_constraints(q + v, p),
+                    here = point.hidden_constraints(q, p), pushed = point.hidden_constraints(q, rate);
+    for (Index a = 0; a < problem.nu(); ++a)
+      EXPECT_LE(magnitude(S(moved[a] - here[a] + pushed[a])), 4096 * epsilon<S>() * (1 + magnitude(moved[a])))
+          << d << " " << a;
+    EXPECT_GT(max_norm(forces.constraint), S(0));
+  }
+}
+
 TYPED_TEST(PointTest, MultiplierOfAHeavyPendulumOfAnotherLength) {
   const auto problem = this->pendulum(2, TypeParam(4), TypeParam(4));
   Point<TypeParam> point(problem);

@@ -50,9 +50,12 @@ AuditOptions one_start() {
   return options;
 }
 
+/// How many no longer hold. (With some signs flipped steps cannot be made, or rates do not settle.)
 int failures(std::vector<Claim> claims, const Perturbation& perturbation) {
   for (Claim& c : claims) c.perturbation = perturbation;
-  return count(audit(claims, one_start()), Verdict::fails);
+  AuditOptions options = one_start();
+  options.coefficient_digits = 0;
+  return static_cast<int>(claims.size()) - count(audit(claims, options), Verdict::holds);
 }
 
 /// One number of the method wrong by a relative 1e-11, 1e-16 or 1e-25, or with its sign flipped, is caught by the
@@ -174,7 +177,9 @@ TEST(Audit, HoldsAnIntervalAgainstItsSteps) {
   Claim c = claim(Quantity::q, "modified_pendulum", {2, 2}, Span::interval, Form::at_least, 4);
   EXPECT_EQ(audit({c}, one_start()).front().verdict, Verdict::holds);
   c.perturbation = Perturbation{Part::node, false, 0, 0, Expression::parse("1e-25")};
-  EXPECT_EQ(audit({c}, one_start()).front().verdict, Verdict::fails);
+  AuditOptions options = one_start();
+  options.coefficient_digits = 0;
+  EXPECT_EQ(audit({c}, options).front().verdict, Verdict::fails);
 }
 
 /// The evidence falls with the precision: what is round-off in double is an error in more digits.
@@ -198,7 +203,7 @@ TEST(Audit, TakesRoundOffOfDoubleForNoAnswer) {
       audit({claim(Quantity::q, "modified_pendulum", {8, 8}, Span::interval, Form::at_least, 16)}, one_start()).front();
   EXPECT_EQ(f.verdict, Verdict::holds);
   EXPECT_NEAR(f.measured, 16, 0.5);
-  EXPECT_EQ(f.precision, "mpfr:50");
+  EXPECT_GE(f.evidence.size(), 3u);
   EXPECT_EQ(audit({claim(Quantity::q, "modified_pendulum", {8, 8}, Span::interval, Form::at_least, 18)}, one_start())
                 .front()
                 .verdict,

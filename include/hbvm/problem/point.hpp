@@ -32,7 +32,17 @@ class Point {
   /// \throws IntegrationError as tangential does
   const Vector<S>& multiplier(const Vector<S>& q, const Vector<S>& p);
 
+  /// The two parts of p' = grad U(q) - grad g(q) lambda with that multiplier.
+  struct Forces {
+    Vector<S> applied;     ///< grad U
+    Vector<S> constraint;  ///< -grad g lambda
+  };
+  /// \throws IntegrationError as tangential does
+  const Forces& forces(const Vector<S>& q, const Vector<S>& p);
+
  private:
+  /// force_ = grad U(q).
+  void set_force(const Vector<S>& q);
   /// x = (grad g^T M^-1 grad g)^-1 x at the q of the last gradient.
   void solve_gram(Vector<S>& x);
 
@@ -42,6 +52,7 @@ class Point {
   Lu<S> gram_;
   Vector<S> U_, v_, g_, hidden_, tangential_, multiplier_;
   Matrix<S> force_, row_, gram_matrix_;
+  Forces forces_;
 };
 
 #define HBVM_DECLARE(S) extern template class Point<S>;

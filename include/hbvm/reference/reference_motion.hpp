@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "hbvm/problem/point.hpp"
 #include "hbvm/solver/stage_solver.hpp"
 
@@ -22,9 +24,10 @@ struct StepPolynomials {
 class ReferenceMotion {
  public:
   /// \param stages of the first run; every further one has two more
+  /// \param after_step is called after every step, and may throw to end the work
   /// \throws StageFailure, IntegrationError
   ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0, const Mpfr& duration,
-                  long steps, int stages);
+                  long steps, int stages, std::function<void()> after_step = {});
 
   /// At the end of the time.
   const Vector<Mpfr>& q() const { return q_; }
@@ -38,19 +41,23 @@ class ReferenceMotion {
   /// Of the last step.
   const StepPolynomials& polynomials() const { return polynomials_; }
 
-  /// Whether the errors of q and p are round-off.
+  /// Whether the errors of q and p are round-off: each a thousand units of its own at most.
   bool is_exact() const;
   /// One more run, unless the last one changed nothing but round-off. \return whether it was made
   bool refine();
 
  private:
   void run(SolverKind solver);
+  /// log2 of one unit of round-off of q and of p: of what they are and what they change by.
+  double q_unit() const;
+  double p_unit() const;
 
   const Problem<Mpfr>& problem_;
   Vector<Mpfr> q0_, p0_;
   Mpfr duration_;
   long steps_;
   int stages_;
+  std::function<void()> after_step_;
   Point<Mpfr> point_;
   Vector<Mpfr> q_, p_, lambda_;
   StepPolynomials polynomials_;

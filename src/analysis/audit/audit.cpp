@@ -46,7 +46,8 @@ std::vector<Auditor::Unit> units_of(const std::vector<Claim>& claims, const std:
 std::string key_of(const Claim& claim) {
   return std::string(name_of(claim.quantity)) + "|" + subject_key(claim) + "|" +
          std::to_string(static_cast<int>(claim.span)) + std::to_string(static_cast<int>(claim.form)) + "|" +
-         std::to_string(claim.predicted) + "|" + std::to_string(claim.tolerance);
+         std::to_string(claim.predicted) + "|" + std::to_string(claim.tolerance) +
+         (claim.of_degenerate_motion ? "|degenerate" : "");
 }
 
 std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions& options) {
@@ -66,13 +67,14 @@ std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions&
   const long total = static_cast<long>(claims.size());
   if (options.progress) options.progress(decided, total);
 
+  Motions motions;
   std::atomic<std::size_t> next{0};
   std::mutex reporting;
   std::exception_ptr error;
   const auto work = [&] {
     for (std::size_t u = next++; u < units.size(); u = next++) {
       try {
-        Auditor(claims, units[u], options, findings).work();
+        Auditor(claims, units[u], options, motions, findings).work();
       } catch (...) {
         const std::lock_guard lock(reporting);
         if (!error) error = std::current_exception();

@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
+#include "exactness.hpp"
+#include "hbvm/clock.hpp"
+#include "hbvm/interruption.hpp"
 #include "hbvm/reference/closed_form.hpp"
+#include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "measurements.hpp"
 
@@ -16,15 +21,29 @@ constexpr std::string_view precisions[] = {"double", "quad", "mpfr:50", "mpfr:10
 /// Of the errors of one step, at least so many; of what is conserved to round-off, exactly so many.
 constexpr std::size_t deep = 4;
 
-/// What is 0 but for round-off may be so many units off: a few for each of a few hundred operations whose errors meet.
-constexpr double allowed_units = 1 << 10;
+/// What is claimed to be exact is looked at over so many steps of 2^-4 of the time scale.
+constexpr ConservationRun short_steps{-4, 16};
+/// And where an error could hide, in more digits, over some of half the time scale; not in more digits than these.
+constexpr ConservationRun long_steps{-1, 4};
+constexpr int most_digits = 3'000;
+
 /// Of a tableau's conditions, for each of its stages: every entry is rounded once, and each condition is a short sum.
 constexpr double allowed_ulps_a_stage = 2;
+/// Conditions that hold to so many digits are meant to hold.
+constexpr int meant_digits = 10;
 
 /// By how much the rate of what is measured exceeds the rate that is claimed.
 double offset(const Claim& claim) { return claim.tableau && claim.span == Span::interval ? 1 : 0; }
 
+bool is_rate(const Claim& claim) { return claim.form == Form::at_least || claim.form == Form::exactly; }
+
 }  // namespace
+
+Motion Motions::of(const std::string& problem) {
+  const std::lock_guard lock(mutex_);
+  const auto place = known_.find(problem);
+  return place != known_.end() ? place->second : known_.emplace(problem, motion_of(problem)).first->second;
+}
 
 Auditor::Kind Auditor::kind_of(const Claim& claim) {
   switch (claim.quantity) {
@@ -41,30 +60,90 @@ Auditor::Kind Auditor::kind_of(const Claim& claim) {
     case Quantity::sweeps:
       return Kind::special;
     default:
-      break;
+      return claim.form == Form::round_off ? Kind::round_off : Kind::rates;
   }
-  if (claim.form == Form::round_off) return Kind::round_off;
-  // The order of a Runge-Kutta method is that of its local error less one, which shows far smaller flaws.
-  return claim.span == Span::step || claim.tableau ? Kind::step : Kind::interval;
 }
 
-Auditor::Auditor(const std::vector<Claim>& claims, const Unit& unit, const AuditOptions& options,
+Auditor::Auditor(const std::vector<Claim>& claims, const Unit& unit, const AuditOptions& options, Motions& motions,
                  std::vector<Finding>& findings)
-    : unit_(unit), options_(options), findings_(findings) {
-  for (const std::size_t i : unit.members) cell_.claims.push_back(claims[i]);
-  cell_.first_start = options.first_start;
-  cell_.starts = options.starts;
-  cell_.log2_interval = options.log2_interval;
+    : unit_(unit), options_(options), motions_(motions), findings_(findings) {
+  for (const std::size_t i : unit.members) {
+    const Claim& claim = claims[i];
+    // The order of a Runge-Kutta method is that of its local error less one, which shows far smaller flaws.
+    (claim.span == Span::step || claim.tableau ? steps_ : intervals_).push_back(cell_.claims.size());
+    cell_.claims.push_back(claim);
+  }
 }
 
 void Auditor::work() {
+  const double began = thread_seconds();
+  if (options_.limit > 0) cell_.stop_at = began + options_.limit * static_cast<double>(cell_.claims.size());
+  const auto give_up = [&](Verdict verdict, const std::string& reason) {
+    for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+      if (settled_.contains(c)) continue;
+      finding(c).verdict = verdict;
+      finding(c).reason = reason;
+    }
+  };
+  try {
+    prepare();
+    decide();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const LimitReached&) {
+    give_up(Verdict::undecidable, "not decided in the time there is, see --limit");
+  } catch (const std::bad_alloc&) {
+    give_up(Verdict::not_run, "out of memory");
+  } catch (const Error& error) {
+    give_up(Verdict::not_run, error.what());
+  }
+  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+    weigh(finding(c));
+    finding(c).seconds = thread_seconds() - began;
+  }
+}
+
+void Auditor::prepare() {
   for (std::size_t c = 0; c < cell_.claims.size(); ++c) finding(c).reference = reference();
+  if (options_.coefficient_digits > 0) {
+    coefficients_.emplace(cell_.subject(), options_.coefficient_digits);
+    cell_.check_time();
+  }
+  cell_.starts.count = options_.starts;
+  cell_.starts.lead += options_.first_start * cell_.starts.stride;
+  if (unit_.kind == Kind::tableau || unit_.kind == Kind::special) return;
+  const std::string& problem = cell_.subject().problem;
+  motion_ = motions_.of(problem);
+  cell_.log2_scale = motion_.log2_scale;
+  cell_.log2_interval = options_.log2_interval;
+  const double eighth = std::exp2(cell_.log2_scale - 3), window = std::exp2(cell_.log2_scale + cell_.log2_interval);
+  if (options_.until) {
+    // The starts share the time between them, and each goes on to the next.
+    const PrecisionScope scope(30);
+    const double until = approximately(evaluate<Mpfr>(*options_.until));
+    if (has_closed_form(problem)) cell_.starts.count = 1;
+    const double share = until / cell_.starts.count;
+    cell_.windows = std::max(1L, std::lround(std::ceil(share / window)));
+    cell_.starts.lead = 0;
+    cell_.starts.stride = std::max(1L, std::lround(share / eighth));
+  }
+  const bool closed = has_closed_form(problem);
+  const auto at = [&](long n) { return closed ? 0 : static_cast<double>(n) * eighth; };
+  const double last = at(cell_.starts.lead + (cell_.starts.count - 1) * cell_.starts.stride);
+  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+    const bool one_step = is_rate(finding(c).claim) && finding(c).claim.span == Span::step;
+    finding(c).interval =
+        Interval{at(cell_.starts.lead), last + (one_step ? 2 * eighth : window * static_cast<double>(cell_.windows))};
+  }
+}
+
+void Auditor::decide() {
   switch (unit_.kind) {
-    case Kind::step:
-      return follow_steps();
-    case Kind::interval:
-      follow_intervals();
-      return compare_with_one_step();
+    case Kind::rates:
+      if (!steps_.empty()) follow_steps();
+      settled_.insert(steps_.begin(), steps_.end());
+      if (!intervals_.empty()) follow_intervals();
+      return;
     case Kind::round_off:
       return conserve();
     case Kind::tableau:
@@ -83,7 +162,7 @@ std::string Auditor::reference() const {
       return "the condition, in twice the digits";
     case Kind::special:
       return subject.quantity == Quantity::hidden_constant ? "the leading term" : "the run itself";
-    default:
+    case Kind::rates:
       break;
   }
   if (has_closed_form(subject.problem)) return "closed form";
@@ -91,51 +170,54 @@ std::string Auditor::reference() const {
 }
 
 template <class Measure>
-void Auditor::climb(std::size_t at_least, const Measure& measure) {
+void Auditor::climb(const std::vector<std::size_t>& members, std::size_t at_least, const Measure& measure) {
   for (std::size_t level = 0; level < std::size(precisions); ++level) {
     const Precision precision = Precision::parse(precisions[level]);
     const Ladders ladders = with_scalar(precision, measure);
-    bool decided = true;
-    for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+    if (level + 1 == deep && !steps_.empty() && &members == &steps_) deep_ = ladders;
+    bool decided = true, open = false;
+    for (const std::size_t c : members) {
       Finding& f = finding(c);
+      f.precision = precision.name();
       const auto ladder = ladders.find(f.claim.quantity);
       if (ladder == ladders.end()) {
-        f.precision = precision.name();
-        f.verdict = Verdict::undecidable;
-        f.reason = "the quantity does not exist on this problem";
-        if (!ladders.empty()) continue;
-        // Steps that are all too long for a fast motion say nothing; but the shortest one step must be possible.
-        f.verdict = unit_.kind == Kind::step ? Verdict::fails : Verdict::undecidable;
-        f.reason = unit_.kind == Kind::step ? "no step can be made: the stage equations have no solution that is found"
-                                            : "all steps are too long for the motion: no run could be made";
+        f.verdict = ladders.empty() ? Verdict::not_run : Verdict::undecidable;
+        f.reason = ladders.empty() ? "no step could be made: the stage equations have no solution that is found"
+                                   : "the quantity does not exist on this problem";
+        decided = decided && !ladders.empty();
         continue;
       }
       f.evidence.push_back({precision.name(), ladder->second});
       take(f, ladder->second, precision);
       decided = decided && f.verdict == Verdict::holds;
+      open = open || f.verdict == Verdict::undecidable;
     }
     if (level + 1 < at_least || precision.digits() < least_digits()) continue;
-    if (decided || (level + 1 >= deep && none_is_open(ladders))) return;
+    if (decided || (level + 1 >= deep && !open)) return;
   }
 }
 
 void Auditor::follow_steps() {
-  climb(deep, [&]<Scalar S>() {
+  climb(steps_, deep, [&]<Scalar S>() {
     return step_ladder<S>(cell_, [&](const Ladders& ladders) { return cell_.is_lost(ladders); });
   });
 }
 
 void Auditor::follow_intervals() {
+  Cell cell = cell_;
+  cell.claims.clear();
+  for (const std::size_t c : intervals_) cell.claims.push_back(cell_.claims[c]);
   const auto holds = [](const Ladders& ladders, const Claim& claim) {
     const auto ladder = ladders.find(claim.quantity);
     return ladder != ladders.end() && judge(claim, convergence_rate(ladder->second)) == Verdict::holds;
   };
-  climb(1, [&]<Scalar S>() {
-    return interval_ladder<S>(cell_, options_.most_steps, [&](const Ladders& ladders) {
-      return cell_.is_lost(ladders) || std::all_of(cell_.claims.begin(), cell_.claims.end(),
-                                                   [&](const Claim& claim) { return holds(ladders, claim); });
+  climb(intervals_, 1, [&]<Scalar S>() {
+    return interval_ladder<S>(cell, options_.most_steps, [&](const Ladders& ladders) {
+      return cell.is_lost(ladders) || std::all_of(cell.claims.begin(), cell.claims.end(),
+                                                  [&](const Claim& claim) { return holds(ladders, claim); });
     });
   });
+  compare_with_one_step();
 }
 
 unsigned Auditor::least_digits() const {
@@ -144,14 +226,7 @@ unsigned Auditor::least_digits() const {
   return digits;
 }
 
-bool Auditor::none_is_open(const Ladders& ladders) {
-  for (std::size_t c = 0; c < cell_.claims.size(); ++c)
-    if (finding(c).verdict == Verdict::undecidable && ladders.contains(finding(c).claim.quantity)) return false;
-  return true;
-}
-
 void Auditor::take(Finding& f, const std::vector<Rung>& rungs, const Precision& precision) {
-  f.precision = precision.name();
   std::optional<Rate> rate = convergence_rate(rungs);
   if (!rate) {
     // An error that no step brings above the round-off of so many digits is O(h^rate) for any rate.
@@ -174,46 +249,82 @@ void Auditor::take(Finding& f, const std::vector<Rung>& rungs, const Precision& 
 
 void Auditor::compare_with_one_step() {
   const Precision precision = Precision::parse(precisions[deep - 1]);
-  const Ladders ladders = with_scalar(precision, [&]<Scalar S>() {
-    return step_ladder<S>(cell_, [&](const Ladders& so_far) { return cell_.is_lost(so_far); });
-  });
-  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+  if (!deep_)
+    deep_ = with_scalar(precision, [&]<Scalar S>() {
+      return step_ladder<S>(cell_, [&](const Ladders& so_far) { return cell_.is_lost(so_far); });
+    });
+  for (const std::size_t c : intervals_) {
     Finding& f = finding(c);
-    const auto ladder = ladders.find(f.claim.quantity);
-    if (f.verdict != Verdict::holds || ladder == ladders.end()) continue;
+    const auto ladder = deep_->find(f.claim.quantity);
+    if (f.verdict != Verdict::holds || ladder == deep_->end()) continue;
+    if (Precision::parse(f.precision).digits() < precision.digits()) f.precision = precision.name();
     const std::optional<Rate> rate = convergence_rate(ladder->second);
     Claim at_least = f.claim;
     at_least.form = Form::at_least;
     if (judge(at_least, rate) != Verdict::fails) continue;
-    f.verdict = Verdict::fails;
-    f.precision = precision.name();
     f.measured = rate->value;
     f.uncertainty = rate->uncertainty;
     f.evidence.push_back({precision.name(), ladder->second});
-    f.reason = "the error of one step, at steps far smaller, has this rate only";
+    fail(f, "the error of one step, at steps far smaller, has this rate only");
+  }
+}
+
+double Auditor::allowed_units() const {
+  const Claim& claim = cell_.subject();
+  return 4 * (claim.tableau ? claim.tableau->stages() : claim.method.k + claim.method.s);
+}
+
+void Auditor::conserve_in(const Precision& precision, int log2_step, long steps) {
+  const auto measured = with_scalar(precision, [&]<Scalar S>() { return round_off<S>(cell_, {log2_step, steps}); });
+  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+    Finding& f = finding(c);
+    f.precision = precision.name();
+    const auto found = measured.find(f.claim.quantity);
+    if (found == measured.end()) {
+      f.verdict = Verdict::undecidable;
+      f.reason = "there is nothing to measure on this problem";
+      continue;
+    }
+    f.evidence.push_back({precision.name(), {found->second.rung}});
+    f.uncertainty = allowed_units();
+    f.measured = std::max(f.measured, found->second.ratio * f.uncertainty);
+    if (found->second.ratio > 1) {
+      fail(f, "it is more than round-off");
+      settled_.insert(c);
+    } else if (f.verdict != Verdict::fails) {
+      f.verdict = Verdict::holds;
+    }
   }
 }
 
 void Auditor::conserve() {
-  for (std::size_t level = 0; level < deep; ++level) {
-    const Precision precision = Precision::parse(precisions[level]);
-    std::map<Quantity, RoundOff> measured;
-    try {
-      measured = with_scalar(precision, [&]<Scalar S>() { return round_off<S>(cell_); });
-    } catch (const StageFailure& failure) {
-      for (std::size_t c = 0; c < cell_.claims.size(); ++c)
-        settle(c, precision, {}, std::string("a step could not be made: ") + failure.what());
-      continue;
+  for (std::size_t level = 0; level < deep; ++level)
+    conserve_in(Precision::parse(precisions[level]), short_steps.log2_step, short_steps.steps * cell_.windows);
+  int digits = 0;
+  std::vector<std::size_t> unproved;
+  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+    if (finding(c).verdict != Verdict::holds) continue;
+    finding(c).reason = coefficients_ ? proof_of(finding(c).claim, *coefficients_) : "";
+    if (!finding(c).reason.empty()) continue;
+    unproved.push_back(c);
+    digits = std::max(digits, digits_to_show(finding(c).claim, cell_.log2_scale));
+  }
+  if (unproved.empty()) return;
+  const int shown = std::clamp(digits, 100, most_digits);
+  const Precision precision = Precision::parse("mpfr:" + std::to_string(shown));
+  constexpr int shorter = 2;
+  for (int halvings = 0;; ++halvings) try {
+      conserve_in(precision, long_steps.log2_step - halvings, long_steps.steps);
+      break;
+    } catch (const StageFailure&) {
+      if (halvings == shorter) throw;
     }
-    for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
-      const auto found = measured.find(finding(c).claim.quantity);
-      if (found == measured.end()) {
-        settle(c, precision, {}, "there is nothing to measure on this problem");
-        continue;
-      }
-      finding(c).evidence.push_back({precision.name(), {found->second.rung}});
-      settle(c, precision, found->second.units, {}, allowed_units);
-    }
+  for (const std::size_t c : unproved) {
+    Finding& f = finding(c);
+    if (f.verdict != Verdict::holds || digits <= shown) continue;
+    f.verdict = Verdict::undecidable;
+    f.reason =
+        "an error would show in " + std::to_string(digits) + " digits, and " + std::to_string(shown) + " are looked at";
   }
 }
 
@@ -221,47 +332,86 @@ void Auditor::check_tableau() {
   const int stages = cell_.subject().method.k;
   for (std::size_t level = 0; level < deep; ++level) {
     const Precision precision = Precision::parse(precisions[level]);
-    const auto defects = with_scalar(precision, [&]<Scalar S>() { return tableau_defects<S>(cell_.subject()); });
-    for (std::size_t c = 0; c < cell_.claims.size(); ++c)
-      settle(c, precision, defects.at(finding(c).claim.quantity), {}, allowed_ulps_a_stage * stages);
+    const auto units = with_scalar(precision, [&]<Scalar S>() {
+      auto defects = tableau_defects<S>(cell_.subject());
+      for (auto& [quantity, defect] : defects) defect = std::exp2(defect - (1 - significand_bits<S>()));
+      return defects;
+    });
+    for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+      Finding& f = finding(c);
+      f.precision = precision.name();
+      f.uncertainty = allowed_ulps_a_stage * stages;
+      f.measured = std::max(f.measured, units.at(f.claim.quantity));
+      if (f.measured <= f.uncertainty)
+        f.verdict = Verdict::holds;
+      else
+        fail(f, "it is more than round-off");
+    }
   }
 }
 
 void Auditor::measure_special() {
   Finding& f = finding(0);
-  f.precision = f.claim.tableau || f.claim.quantity == Quantity::hidden_constant ? "mpfr:100" : "double";
-  try {
-    f.measured = special_value(f.claim);
-  } catch (const StageFailure& failure) {
-    f.reason = std::string("a step could not be made: ") + failure.what();
+  if (f.claim.tableau) {
+    if (!coefficients_) coefficients_.emplace(f.claim, 100);
+    const bool order = f.claim.quantity == Quantity::order_conditions;
+    const int digits = coefficients_->digits();
+    f.precision = "mpfr:" + std::to_string(digits);
+    f.measured = order ? coefficients_->order_to(digits) : coefficients_->row_sums() >= digits ? 1 : 0;
+    f.verdict = f.measured >= f.claim.predicted ? Verdict::holds : Verdict::fails;
+    const int next = static_cast<int>(f.measured) + 1;
+    if (f.verdict == Verdict::fails)
+      f.reason = order
+                     ? "the conditions of order " + std::to_string(next) + " are met to " +
+                           std::to_string(coefficients_->order(next)) + " digits only"
+                     : "c is the sum of the rows of A to " + std::to_string(coefficients_->row_sums()) + " digits only";
     return;
   }
+  f.precision = f.claim.quantity == Quantity::hidden_constant ? "mpfr:100" : "double";
+  f.measured = special_value(cell_);
   f.uncertainty = f.claim.tolerance;
   const double miss =
       f.claim.form == Form::at_least ? f.claim.predicted - f.measured : std::abs(f.measured - f.claim.predicted);
   f.verdict = miss <= f.claim.tolerance ? Verdict::holds : Verdict::fails;
-  if (f.verdict == Verdict::fails)
-    f.reason = f.claim.quantity == Quantity::C ? "c is not the sum of the rows of A"
-               : f.claim.quantity == Quantity::order_conditions
-                   ? order_flaw(*f.claim.tableau, static_cast<int>(f.measured))
-                   : "the value is another";
+  if (f.verdict == Verdict::fails) f.reason = "the value is another";
 }
 
-void Auditor::settle(std::size_t c, const Precision& precision, std::optional<double> units, const std::string& reason,
-                     double allowed) {
-  Finding& f = finding(c);
-  f.precision = precision.name();
-  if (!units) {
-    if (f.verdict != Verdict::fails) {
-      f.verdict = Verdict::undecidable;
-      f.reason = reason;
-    }
-    return;
+void Auditor::fail(Finding& f, const std::string& reason) {
+  f.verdict = Verdict::fails;
+  f.reason = reason;
+}
+
+void Auditor::weigh(Finding& f) {
+  if (coefficients_) weigh_coefficients(f);
+  if (f.verdict != Verdict::holds && f.verdict != Verdict::undecidable) return;
+  if (f.claim.of_degenerate_motion || unit_.kind == Kind::tableau || unit_.kind == Kind::special) return;
+  const bool no_turn = motion_.straight && f.claim.quantity == Quantity::angular_momentum;
+  if (motion_.degenerate.empty() && !no_turn) return;
+  f.verdict = Verdict::degenerate;
+  f.reason = "the motion says nothing of the method: " +
+             (motion_.degenerate.empty() ? "every body moves on a straight line" : motion_.degenerate);
+}
+
+void Auditor::weigh_coefficients(Finding& f) {
+  const CoefficientCheck& check = *coefficients_;
+  int seen = check.definition();
+  if (f.claim.tableau) {
+    const double order = f.claim.span == Span::step ? f.claim.predicted - 1 : f.claim.predicted;
+    const int shown = check.order_to(meant_digits);
+    // What the claim needs, as far as it is meant to be there; an order above that is due to the problem.
+    const bool is_order = is_rate(f.claim) || f.claim.quantity == Quantity::order_conditions;
+    const int needed = is_order ? std::min(static_cast<int>(std::ceil(order)), shown) : shown;
+    seen = check.order(needed);
+    const auto also = [&](int digits) {
+      if (digits >= meant_digits) seen = std::min(seen, digits);
+    };
+    if (f.claim.quantity == Quantity::angular_momentum) also(check.symplecticity());
+    if (f.claim.quantity == Quantity::reversal) also(check.symmetry());
+    if (f.claim.quantity == Quantity::C) seen = check.row_sums();
   }
-  f.uncertainty = allowed;
-  f.measured = std::max(f.measured, *units);
-  f.verdict = f.measured <= allowed ? Verdict::holds : Verdict::fails;
-  f.reason = f.verdict == Verdict::fails ? "it is more than round-off" : "";
+  f.coefficients_to = seen;
+  if (f.verdict != Verdict::holds || seen >= check.digits()) return;
+  fail(f, "the coefficients are right to " + std::to_string(seen) + " digits only");
 }
 
 }  // namespace hbvm

@@ -1,17 +1,34 @@
 #pragma once
 
+#include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
+#include <set>
 
 #include "cell.hpp"
+#include "coefficients.hpp"
 #include "hbvm/analysis/audit/audit.hpp"
 #include "hbvm/scalar/precision.hpp"
+#include "motion.hpp"
 
 namespace hbvm {
+
+/// The motions of the problems that were looked at, for all threads.
+class Motions {
+ public:
+  /// \throws as motion_of does, every time
+  Motion of(const std::string& problem);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, Motion> known_;
+};
 
 /// Decides the claims of one unit of work; the findings go to the claims' places.
 class Auditor {
  public:
-  enum class Kind { step, interval, round_off, tableau, special };
+  enum class Kind { rates, round_off, tableau, special };
   static Kind kind_of(const Claim& claim);
 
   /// Claims of one kind about one method on one problem: what one series of runs decides.
@@ -20,40 +37,50 @@ class Auditor {
     std::vector<std::size_t> members;  ///< places of the claims
   };
 
-  Auditor(const std::vector<Claim>& claims, const Unit& unit, const AuditOptions& options,
+  Auditor(const std::vector<Claim>& claims, const Unit& unit, const AuditOptions& options, Motions& motions,
           std::vector<Finding>& findings);
 
-  /// \throws InputError, IntegrationError
+  /// What cannot be run, or not in the time there is, is found to be so; nothing but Interrupted is thrown.
   void work();
 
  private:
   Finding& finding(std::size_t c) { return findings_[unit_.members[c]]; }
   std::string reference() const;
 
+  void prepare();
+  void decide();
   void follow_steps();
   void follow_intervals();
   void conserve();
   void check_tableau();
   void measure_special();
 
-  /// Raises the precision, over at least so many levels, until every claim is decided.
+  /// Raises the precision, over at least so many levels, until every claim of those given is decided.
   template <class Measure>
-  void climb(std::size_t at_least, const Measure& measure);
+  void climb(const std::vector<std::size_t>& members, std::size_t at_least, const Measure& measure);
   unsigned least_digits() const;
-  /// Whether more digits could not change a verdict.
-  bool none_is_open(const Ladders& ladders);
   void take(Finding& f, const std::vector<Rung>& rungs, const Precision& precision);
   /// An error over an interval falls no faster than that of its first step, which can be followed far deeper: to where
   /// a wrong 25th digit of a coefficient takes over.
   void compare_with_one_step();
-  /// The worst of all precisions counts.
-  void settle(std::size_t c, const Precision& precision, std::optional<double> units, const std::string& reason,
-              double allowed = 0);
+  /// One run of all claims about conservation in one precision; the worst of all counts.
+  void conserve_in(const Precision& precision, int log2_step, long steps);
+  void fail(Finding& f, const std::string& reason);
+  /// What was measured to be so may still be due to the motion, or not to the coefficients.
+  void weigh(Finding& f);
+  void weigh_coefficients(Finding& f);
+  double allowed_units() const;
 
   Cell cell_;
   const Unit& unit_;
   const AuditOptions& options_;
+  Motions& motions_;
   std::vector<Finding>& findings_;
+  Motion motion_;
+  std::optional<CoefficientCheck> coefficients_;
+  std::vector<std::size_t> steps_, intervals_;  ///< claims about a step, and about an interval
+  std::optional<Ladders> deep_;                 ///< the errors of one step in 100 digits
+  std::set<std::size_t> settled_;               ///< claims whose verdict what is left to do cannot change
 };
 
 }  // namespace hbvm

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 
+#include "hbvm/clock.hpp"
+
 namespace hbvm {
 
 int Cell::stages() const {
   const Claim& claim = subject();
   return claim.tableau ? std::min(claim.tableau->stages(), 20) : claim.method.s;
+}
+
+void Cell::check_time() const {
+  if (stop_at > 0 && thread_seconds() > stop_at) throw LimitReached("the limit of time was reached");
 }
 
 bool Cell::is_lost(const Ladders& ladders) const {

@@ -1,20 +1,38 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "hbvm/analysis/audit/claim.hpp"
+#include "hbvm/error.hpp"
 
 namespace hbvm {
 
 /// Errors of some quantities in one precision.
 using Ladders = std::map<Quantity, std::vector<Rung>>;
 
+/// The time that the claims may take is over.
+class LimitReached : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The states of a motion that a method starts from: number i lies about lead + i stride steps of an eighth of the time
+/// scale after the scene's own start.
+struct Starts {
+  int count = 1;
+  long lead = 3, stride = 2;
+};
+
 /// The claims about one method on one problem that one series of runs decides. Not empty.
 struct Cell {
   std::vector<Claim> claims;
-  int first_start = 0, starts = 1;
-  int log2_interval = -1;
+  Starts starts;
+  int log2_scale = 0;      ///< of the motion's time scale
+  int log2_interval = -1;  ///< of the time in which errors are looked at, over the time scale
+  long windows = 1;        ///< how often that time follows upon itself
+  double stop_at = 0;      ///< thread_seconds() at which to stop, 0: never
 
   const Claim& subject() const { return claims.front(); }
   bool asks_for(Quantity quantity) const;
@@ -22,6 +40,8 @@ struct Cell {
   bool is_lost(const Ladders& ladders) const;
   /// s, or the tableau's number of stages: what a reference must exceed. No order that is asked for needs more than 20.
   int stages() const;
+  /// \throws LimitReached
+  void check_time() const;
 };
 
 }  // namespace hbvm

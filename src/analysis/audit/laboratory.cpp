@@ -21,34 +21,26 @@ Vector<S> rounded(const Vector<Mpfr>& x) {
 
 }  // namespace
 
-Laboratory::Laboratory(const std::string& scene, int first, int count) : assembled_(assemble<Mpfr>(load_scene(scene))) {
+Laboratory::Laboratory(const Cell& cell) : assembled_(assemble<Mpfr>(load_scene(cell.subject().problem))) {
   point_.emplace(assembled_.problem);
-  if (has_closed_form(scene)) {
+  if (has_closed_form(cell.subject().problem))
     starts_.push_back({assembled_.q0, assembled_.p0});
-    return;
-  }
-  // A motion that 1/8 is too long a step for is faster: then shorter steps lead to states that differ as much.
-  for (int halvings = 3;; halvings += 3) {
-    try {
-      walk(first, count, ldexp(Mpfr(1), -halvings));
-      break;
-    } catch (const StageFailure& failure) {
-      if (halvings > 20)
-        throw IntegrationError("problem '" + scene + "': no state but the start can be reached: " + failure.what());
-    }
-  }
+  else
+    walk(cell);
 }
 
-void Laboratory::walk(int first, int count, const Mpfr& h) {
+void Laboratory::walk(const Cell& cell) {
   // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion.
-  starts_.clear();
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 4);
-  HbvmStepper<Mpfr> stepper(assembled_.problem, method, h, SolverKind::automatic);
+  HbvmStepper<Mpfr> stepper(assembled_.problem, method, ldexp(Mpfr(1), cell.log2_scale - 3), SolverKind::automatic);
   State<Mpfr> state(assembled_.q0, assembled_.p0);
-  const int last = 3 + 2 * (first + count - 1);
-  for (int n = 1; n <= last; ++n) {
+  const Starts& wanted = cell.starts;
+  for (long n = 0;; ++n) {
+    if (n >= wanted.lead && (n - wanted.lead) % wanted.stride == 0)
+      starts_.push_back({state.q, point_->tangential(state.q, state.p)});
+    if (static_cast<int>(starts_.size()) == wanted.count) return;
     stepper.step(state);
-    if (n >= 3 + 2 * first && (n - 3) % 2 == 0) starts_.push_back({state.q, point_->tangential(state.q, state.p)});
+    cell.check_time();
   }
 }
 

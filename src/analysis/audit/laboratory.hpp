@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "hbvm/analysis/audit/claim.hpp"
+#include "cell.hpp"
 #include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/runge_kutta_step.hpp"
 #include "hbvm/reference/reference_motion.hpp"
@@ -33,17 +33,16 @@ class Laboratory {
     Vector<Mpfr> q, p;
   };
 
-  /// \param first, count: which states. State 0 is on the scene's motion some steps after its start, state i further
-  /// on; of a scene with a closed form it is the scene's own start, and the only one.
-  /// \throws InputError, IntegrationError
-  Laboratory(const std::string& scene, int first, int count);
+  /// With the starts of a cell; of a scene with a closed form it is the scene's own start alone.
+  /// \throws InputError, IntegrationError, StageFailure
+  explicit Laboratory(const Cell& cell);
 
   const Problem<Mpfr>& problem() const { return assembled_.problem; }
   const std::vector<Start>& starts() const { return starts_; }
   Point<Mpfr>& point() { return *point_; }
 
  private:
-  void walk(int first, int count, const Mpfr& h);
+  void walk(const Cell& cell);
 
   Assembled<Mpfr> assembled_;
   std::vector<Start> starts_;

@@ -35,6 +35,9 @@ class List {
     add(label, quantity, Span::interval, form, value);
     claims_.back().tolerance = tolerance;
   }
+  void of_degenerate_motion() {
+    for (Claim& claim : claims_) claim.of_degenerate_motion = true;
+  }
   void in_digits(unsigned digits) {
     for (Claim& claim : claims_) claim.least_digits = digits;
   }
@@ -96,13 +99,14 @@ void constrained(std::vector<Claim>& all, const Witness& witness, int s, int mos
   }
 }
 
-/// delta-lambda = 0, (dli0): all converges with order 2s, against the closed form.
+/// delta-lambda = 0, (dli0), as on any relative equilibrium: all converges with order 2s, against the closed form.
 void conical(std::vector<Claim>& all, int k, int s) {
   List list("conical_pendulum", k, s);
   for (const Quantity quantity : {Q::q, Q::p}) list.rate("ord2s, dli0", quantity, Span::interval, 2 * s);
   for (const Quantity quantity : {Q::q, Q::p}) list.rate("ord2s, dli0", quantity, Span::step, 2 * s + 1);
   list.zero("gheq0", Q::g);
   list.zero("evai", Q::H);
+  list.of_degenerate_motion();
   list.append_to(all);
 }
 

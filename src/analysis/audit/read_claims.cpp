@@ -23,6 +23,14 @@ int counted_from_one(TomlTable& reader, const char* key) {
   return static_cast<int>(value) - 1;
 }
 
+/// False if absent.
+bool flag(TomlTable& reader, const char* key) {
+  const toml::node* const node = reader.take(key);
+  if (!node) return false;
+  if (!node->is_boolean()) reader.fail(*node, "'" + std::string(key) + "' is true or false");
+  return node->value_or(false);
+}
+
 Perturbation perturbation(TomlTable reader) {
   using Part = Perturbation::Part;
   const std::string name = reader.string("part");
@@ -34,11 +42,7 @@ Perturbation perturbation(TomlTable reader) {
                                    {"legendre", Part::legendre}})
     if (name == own) part = value;
   if (!part) reader.fail("unknown part '" + name + "': use node, weight, integral, X or legendre");
-  bool hat = false;
-  if (const toml::node* const node = reader.take("hat")) {
-    if (!node->is_boolean()) reader.fail(*node, "'hat' is true or false");
-    hat = node->value_or(false);
-  }
+  const bool hat = flag(reader, "hat");
   Perturbation result{*part, hat, counted_from_one(reader, "i"), counted_from_one(reader, "j"),
                       reader.number("relative")};
   reader.finish();
@@ -72,6 +76,7 @@ class ClaimReader {
       reader_.fail("unknown form '" + form + "': use 'at least' or 'exactly'");
     claim.form = form == "exactly" ? Form::exactly : Form::at_least;
     read_rate(claim);
+    claim.of_degenerate_motion = flag(reader_, "degenerate");
     if (const toml::node* const node = reader_.take("perturb")) {
       if (!node->is_table()) reader_.fail(*node, "'perturb' is a table");
       if (claim.tableau) reader_.fail(*node, "'perturb' is for hbvm:K,S; a tableau is changed in its own file");
@@ -133,7 +138,11 @@ class ClaimReader {
       reader_.fail("quantity '" + name + "' is claimed with rate = \"round-off\"");
     if (q == Quantity::angular_momentum && claim.form != Form::round_off && claim.span == Span::step)
       reader_.fail("the angular momentum is looked at over an interval");
-    checked([&] { load_scene(claim.problem); });
+    checked([&] {
+      const Scene scene = load_scene(claim.problem);
+      if (claim.tableau && !(scene.constraints.empty() && scene.rigid_bodies.empty()))
+        throw InputError("a tableau is for problems without constraints, and '" + claim.problem + "' has some");
+    });
   }
 
   TomlTable reader_;

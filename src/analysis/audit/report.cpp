@@ -69,6 +69,9 @@ Json json_of(const Finding& f) {
             {"measured", json_number(f.measured)},
             {"uncertainty", json_number(f.uncertainty)},
             {"precision", f.precision},
+            {"coefficients_to", f.coefficients_to > 0 ? Json(f.coefficients_to) : Json(nullptr)},
+            {"interval", f.interval ? Json{f.interval->from, f.interval->to} : Json(nullptr)},
+            {"seconds", f.seconds},
             {"verdict", hbvm::name_of(f.verdict)},
             {"reason", f.reason},
             {"reference", f.reference}};
@@ -84,8 +87,13 @@ Finding finding_of(const Json& j) {
   f.precision = j.at("precision");
   f.reason = j.at("reason");
   f.reference = j.at("reference");
+  if (const Json& digits = j.at("coefficients_to"); !digits.is_null()) f.coefficients_to = digits;
+  if (const Json& interval = j.at("interval"); !interval.is_null())
+    f.interval = Interval{interval.at(0), interval.at(1)};
+  f.seconds = number_of(j.at("seconds"));
   const std::string verdict_text = j.at("verdict");
-  for (const Verdict verdict : {Verdict::holds, Verdict::fails, Verdict::undecidable})
+  for (const Verdict verdict :
+       {Verdict::holds, Verdict::fails, Verdict::undecidable, Verdict::degenerate, Verdict::not_run})
     if (verdict_text == hbvm::name_of(verdict)) f.verdict = verdict;
   for (const Json& ladder : j.at("evidence")) {
     Ladder read{ladder.at("precision"), {}};
@@ -111,7 +119,7 @@ Table audit_table(const std::vector<Finding>& findings) {
   table.columns = {"claim", "quantity", "over"};
   for (const char* const column : tableaux ? std::vector{"method"} : std::vector{"k", "s"})
     table.columns.emplace_back(column);
-  for (const char* const column : {"predicted", "measured", "+-", "precision", "verdict"})
+  for (const char* const column : {"predicted", "measured", "+-", "precision", "coefficients to", "verdict"})
     table.columns.emplace_back(column);
   std::map<std::string, std::size_t> places;
   for (const Finding& f : findings) {
@@ -127,6 +135,7 @@ Table audit_table(const std::vector<Finding>& findings) {
     else
       row.insert(row.end(), {std::to_string(c.method.k), std::to_string(c.method.s)});
     row.insert(row.end(), {predicted_text(c), short_text(f.measured), short_text(f.uncertainty), f.precision,
+                           f.coefficients_to > 0 ? std::to_string(f.coefficients_to) : "---",
                            std::string(hbvm::name_of(f.verdict))});
     table.groups[place->second].rows.push_back(std::move(row));
   }
@@ -134,10 +143,10 @@ Table audit_table(const std::vector<Finding>& findings) {
 }
 
 std::string summary(const std::vector<Finding>& findings) {
-  int counts[3] = {};
+  int counts[5] = {};
   for (const Finding& f : findings) ++counts[static_cast<int>(f.verdict)];
-  return fmt::format("{} claims: {} hold, {} fail, {} are undecidable", findings.size(), counts[0], counts[1],
-                     counts[2]);
+  return fmt::format("{} claims: {} hold, {} fail, {} undecidable, {} of degenerate motions, {} not run",
+                     findings.size(), counts[0], counts[1], counts[2], counts[3], counts[4]);
 }
 
 std::string to_json(const std::vector<Finding>& findings, const std::string& command) {

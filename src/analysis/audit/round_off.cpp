@@ -1,60 +1,112 @@
 #include <algorithm>
+#include <cmath>
 
-#include "hbvm/problem/momenta.hpp"
 #include "measurements.hpp"
+#include "sensitivity.hpp"
 
 namespace hbvm {
+namespace {
+
+/// What round-off may do to conserved quantities along a run: in every step each coordinate may be off by as many units
+/// as numbers are summed for it, twice over, at k + s nodes and coefficients.
+class Allowance {
+ public:
+  Allowance(const Cell& cell, double log2_epsilon)
+      : log2_unit_(log2_epsilon + std::log2(4 * summands(cell.subject()))) {}
+
+  /// One more step, with the change that a unit makes there, as log2. \return log2 of all so far
+  double step(double sensitivity) {
+    steps_ = sum(steps_, sensitivity);
+    return log2_unit_ + steps_;
+  }
+
+  /// log2(2^a + 2^b).
+  static double sum(double a, double b) {
+    const double greater = std::max(a, b);
+    return std::isfinite(greater) ? greater + std::log2(std::exp2(a - greater) + std::exp2(b - greater)) : greater;
+  }
+
+ private:
+  static double summands(const Claim& claim) {
+    return claim.tableau ? claim.tableau->stages() : claim.method.k + claim.method.s;
+  }
+  double log2_unit_, steps_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
 
 template <Scalar S>
-std::map<Quantity, RoundOff> round_off(const Cell& cell) {
-  constexpr long steps = 16;
+std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& run) {
   const int last_bit = 1 - significand_bits<S>();
   Trial<S> trial(cell.subject());
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
-  const Mpfr epsilon_of_S = ldexp(Mpfr(1), last_bit);
-  Laboratory laboratory(cell.subject().problem, cell.first_start, cell.starts);
+  Laboratory laboratory(cell);
   const Problem<Mpfr>& problem = laboratory.problem();
   Point<Mpfr>& point = laboratory.point();
-  const Mpfr h = Mpfr(1) / steps;
+  const int log2_h = cell.log2_scale + run.log2_step;
+  const Mpfr h = ldexp(Mpfr(1), log2_h);
   std::map<Quantity, RoundOff> result;
-  const auto add = [&](Quantity quantity, const Mpfr& error, const Mpfr& size) {
+  const auto add = [&](Quantity quantity, const Mpfr& error, double floor) {
     if (!cell.asks_for(quantity)) return;
-    const Mpfr unit = size * epsilon_of_S;
-    RoundOff& entry =
-        result.try_emplace(quantity, RoundOff{0, {log2_of(h), log2_of(error), log2_of(unit)}}).first->second;
-    const double units = error == 0 ? 0 : approximately(Mpfr(error / unit));
-    if (units <= entry.units) return;
-    entry = {units, {log2_of(h), log2_of(error), log2_of(unit)}};
+    const double size = log2_of(error);
+    // An error of 0 is none, whatever could have been.
+    const double ratio = error == 0 ? 0 : std::exp2(size - floor);
+    const RoundOff now{ratio, {static_cast<double>(log2_h), size, floor}};
+    const auto [place, is_new] = result.try_emplace(quantity, now);
+    if (!is_new && ratio > place->second.ratio) place->second = now;
   };
   std::vector<MomentumComponent<Mpfr>> momenta;
   if (cell.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem);
   for (const Laboratory::Start& start : laboratory.starts()) {
     Vector<Mpfr> q = start.q, p = start.p;
-    const Mpfr H0 = point.energy(q, p), H_size = point.energy_size(q, p);
+    const Mpfr H0 = point.energy(q, p);
     std::vector<MomentumValue<Mpfr>> momentum_0;
     for (const auto& component : momenta) momentum_0.push_back(momentum(problem, component, q, p));
+    Allowance of_H(cell, last_bit), of_g(cell, last_bit), of_q(cell, last_bit), of_p(cell, last_bit);
+    std::vector<Allowance> of_momenta(momenta.size(), Allowance(cell, last_bit));
     trial.begin(start, h);
-    for (long n = 1; n <= steps; ++n) {
+    for (long n = 1; n <= run.steps; ++n) {
+      const Sensitivity here = Sensitivity::at(problem, point, cell.log2_scale, momenta, q, p);
       trial.step();
+      cell.check_time();
       trial.state(q, p);
-      add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), H_size);
-      if (problem.nu() > 0) add(Quantity::g, max_norm(point.constraints(q)), point.constraint_size(q));
+      add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), of_H.step(here.H));
+      if (problem.nu() > 0) add(Quantity::g, max_norm(point.constraints(q)), of_g.step(here.g));
       for (std::size_t c = 0; c < momenta.size(); ++c)
         add(Quantity::angular_momentum, abs(Mpfr(momentum(problem, momenta[c], q, p).value - momentum_0[c].value)),
-            momentum_0[c].size);
+            of_momenta[c].step(here.momenta[c]));
+      of_q.step(here.q);
+      of_p.step(here.p);
     }
     if (!cell.asks_for(Quantity::reversal)) continue;
+    // What the way back makes of an error at the turn shows what it makes of all that were made before: the same way is
+    // gone once more from a state that is off.
+    const int small = last_bit / 2;
+    const auto go_back = [&](Vector<Mpfr>& to_q, Vector<Mpfr>& to_p) {
+      for (long n = 1; n <= run.steps; ++n) {
+        trial.step();
+        cell.check_time();
+      }
+      trial.reverse();
+      trial.state(to_q, to_p);
+    };
+    const Kick off = kick(problem, point, cell.log2_scale, q, p, 1);
+    const Mpfr factor = ldexp(Mpfr(1), small);
+    Vector<Mpfr> near_q = q, near_p = p, back_q = q, back_p = p;
     trial.reverse();
-    for (long n = 1; n <= steps; ++n) trial.step();
-    trial.reverse();
-    trial.state(q, p);
-    add(Quantity::reversal, distance(q, start.q), max_norm(start.q));
-    add(Quantity::reversal, distance(p, start.p), std::max(max_norm(start.p), max_norm(start.q)));
+    go_back(back_q, back_p);
+    trial.begin({q + factor * off.q, -(p + factor * off.p)}, h);
+    go_back(near_q, near_p);
+    const double grown_q = log2_of(distance(near_q, back_q)) - small,
+                 grown_p = log2_of(distance(near_p, back_p)) - small;
+    const double steps = std::log2(2 * static_cast<double>(run.steps));
+    add(Quantity::reversal, distance(back_q, start.q), std::max(of_q.step(grown_q + steps), of_q.step(grown_q)));
+    add(Quantity::reversal, distance(back_p, start.p), std::max(of_p.step(grown_p + steps), of_p.step(grown_p)));
   }
   return result;
 }
 
-#define HBVM_DEFINE(S) template std::map<Quantity, RoundOff> round_off<S>(const Cell&);
+#define HBVM_DEFINE(S) template std::map<Quantity, RoundOff> round_off<S>(const Cell&, const ConservationRun&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

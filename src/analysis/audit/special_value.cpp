@@ -2,7 +2,6 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/problem/constraint.hpp"
-#include "hbvm/scalar/text.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {
@@ -61,10 +60,11 @@ LeadingTerm leading_term(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, co
 ///
 ///     w = -kappa h^s (psi(t) - psi(0)), s even;   w = -kappa/2 h^(s+1) (psi'(t) - psi'(0)), s odd, t/h even;
 ///     kappa = s! / ((s + 1) (2 s)!)
-double hidden_constant(const Claim& claim) {
+double hidden_constant(const Cell& cell) {
   const PrecisionScope scope(100);
+  const Claim& claim = cell.subject();
   const int s = claim.method.s;
-  Laboratory laboratory(claim.problem, 0, 1);
+  Laboratory laboratory(cell);
   const Laboratory::Start& start = laboratory.starts().front();
   const Mpfr until = Mpfr(1) / 4, h = ldexp(Mpfr(1), -8);
   Trial<Mpfr> trial(claim);
@@ -107,49 +107,30 @@ double hidden_drift(const Claim& claim) {
 }
 
 /// Mean sweeps of the paper's iteration over 64 steps of 1/16 in double.
-double mean_sweeps(Claim claim) {
+double mean_sweeps(const Cell& cell) {
   constexpr long steps = 64;
   const PrecisionScope scope(static_cast<unsigned>(digits10<double>()) + guard_digits);
-  Laboratory laboratory(claim.problem, 0, 1);
-  Trial<double> trial(claim, SolverKind::paper);
+  Laboratory laboratory(cell);
+  Trial<double> trial(cell.subject(), SolverKind::paper);
   trial.begin(laboratory.starts().front(), Mpfr(1) / 16);
   long sweeps = 0;
   for (long n = 0; n < steps; ++n) sweeps += trial.step();
   return static_cast<double>(sweeps) / steps;
 }
 
-/// What the conditions of a Runge-Kutta method show in 100 digits: the order, or the greatest q of C(q).
-double tableau_value(const Claim& claim) {
-  const PrecisionScope scope(100);
-  const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(*claim.tableau);
-  const Mpfr tolerance = 1000 * epsilon<Mpfr>();
-  if (claim.quantity == Quantity::order_conditions) return order(method, tolerance);
-  int q = 0;
-  while (q < method.stages() && condition_C(method, q + 1) <= tolerance) ++q;
-  return q;
-}
-
 }  // namespace
 
-std::string order_flaw(const Tableau& tableau, int order) {
-  if (order < 0 || order >= max_tree_order) return "the conditions show another order";
-  const PrecisionScope scope(100);
-  const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau);
-  const std::vector<Mpfr> defects = order_defects(method, order + 1);
-  return "the conditions of order " + std::to_string(order + 1) + " are off by " + to_scientific(defects.back(), 2);
-}
-
-double special_value(const Claim& claim) {
-  if (claim.tableau) return tableau_value(claim);
+double special_value(const Cell& cell) {
+  const Claim& claim = cell.subject();
   switch (claim.quantity) {
     case Quantity::hidden_constant:
-      return hidden_constant(claim);
+      return hidden_constant(cell);
     case Quantity::hidden_drift:
       return hidden_drift(claim);
     case Quantity::sweeps: {
-      Claim least = claim;
-      least.method.k = claim.method.s;
-      return mean_sweeps(claim) - mean_sweeps(least);
+      Cell least = cell;
+      least.claims.front().method.k = claim.method.s;
+      return mean_sweeps(cell) - mean_sweeps(least);
     }
     default:
       throw InputError("quantity '" + std::string(name_of(claim.quantity)) + "' is measured by its rate");

@@ -21,10 +21,8 @@ template <Scalar S>
 std::map<Quantity, double> tableau_defects(const Claim& subject) {
   Hbvm<S> method = make_hbvm<S>(subject.method.k, subject.method.s);
   if (subject.perturbation) perturb(method, *subject.perturbation);
-  const int last_bit = 1 - significand_bits<S>();
   // Twice the digits show the rounding of each entry, and nothing of the sums.
   const PrecisionScope scope(2 * static_cast<unsigned>(digits10<S>()) + guard_digits);
-  const Mpfr unit = ldexp(Mpfr(1), last_bit);
   const int k = method.k, s = method.s;
   const Matrix<Mpfr> P = exact<S>(method.P_s), I = exact<S>(method.I_s), X = exact<S>(method.X_s),
                      projection = exact<S>(method.projection);
@@ -35,8 +33,9 @@ std::map<Quantity, double> tableau_defects(const Claim& subject) {
 
   std::map<Quantity, double> result;
   const auto add = [&](Quantity quantity, const Mpfr& defect) {
-    double& units = result[quantity];
-    units = std::max(units, approximately(Mpfr(defect / unit)));
+    const double size = log2_of(defect);
+    const auto [place, is_new] = result.try_emplace(quantity, size);
+    if (!is_new) place->second = std::max(place->second, size);
   };
   add(Quantity::B, condition_B(gauss, 2 * s));
   add(Quantity::B, condition_B(hat, 2 * k));

@@ -20,49 +20,53 @@ Verdict judged(Form form, double predicted, double measured, double uncertainty)
   return judge(claim, Rate{measured, uncertainty, 4, 4});
 }
 
-TEST(Judge, RatesNearThePredictedHold) {
+TEST(Judge, IntervalsThatHoldTheWholeRateHold) {
   for (const Form form : {Form::at_least, Form::exactly}) {
     EXPECT_EQ(judged(form, 4, 4, 0), Verdict::holds);
-    EXPECT_EQ(judged(form, 4, 4 - quarter, quarter / 2), Verdict::holds);
-    EXPECT_EQ(judged(form, 4, 4 + quarter, quarter / 2), Verdict::holds);
+    EXPECT_EQ(judged(form, 4, 3.9, 0.11), Verdict::holds);
+    EXPECT_EQ(judged(form, 4, 4.1, 0.11), Verdict::holds);
   }
 }
 
-TEST(Judge, SmallerRatesFail) {
+TEST(Judge, IntervalsBelowFail) {
   for (const Form form : {Form::at_least, Form::exactly}) {
     EXPECT_EQ(judged(form, 4, 3, 0), Verdict::fails);
-    EXPECT_EQ(judged(form, 4, 3, quarter), Verdict::fails);
+    EXPECT_EQ(judged(form, 4, 3, 0.99), Verdict::fails);
+    EXPECT_EQ(judged(form, 4, 3.9, 0.09), Verdict::fails);
     EXPECT_EQ(judged(form, 4, -1, 2), Verdict::fails);
   }
 }
 
-TEST(Judge, GreaterRatesFailOnlyIfClaimedExactly) {
+TEST(Judge, IntervalsAboveFailOnlyIfClaimedExactly) {
   EXPECT_EQ(judged(Form::at_least, 4, 5, 0), Verdict::holds);
   EXPECT_EQ(judged(Form::at_least, 4, 40, 10), Verdict::holds);
   EXPECT_EQ(judged(Form::exactly, 4, 5, 0), Verdict::fails);
-  EXPECT_EQ(judged(Form::exactly, 4, 5, quarter), Verdict::fails);
+  EXPECT_EQ(judged(Form::exactly, 4, 4.1, 0.09), Verdict::fails);
 }
 
-TEST(Judge, IntervalsThatStraddleTheLowerBoundAreUndecidable) {
+/// No rate that is not whole is that of an error, and no half is allowed it.
+TEST(Judge, RatesThatAreNotWholeNeverHoldBeyondTheInterval) {
+  for (const double off : {0.05, 0.1, 0.25, 0.4, 0.49, 0.4999}) {
+    EXPECT_EQ(judged(Form::at_least, 2 + off, 2, 0.005), Verdict::fails) << off;
+    EXPECT_EQ(judged(Form::at_least, 2 - off, 2, 0.005), Verdict::holds) << off;
+    EXPECT_EQ(judged(Form::exactly, 2 + off, 2, 0.005), Verdict::fails) << off;
+    EXPECT_EQ(judged(Form::exactly, 2 - off, 2, 0.005), Verdict::fails) << off;
+  }
   for (const Form form : {Form::at_least, Form::exactly}) {
-    EXPECT_EQ(judged(form, 4, 4, 1), Verdict::undecidable);
-    EXPECT_EQ(judged(form, 4, 3, 1), Verdict::undecidable);
-    EXPECT_EQ(judged(form, 4, 4 - half, quarter), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 2.004, 2, 0.005), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 2.004, 2, 0.003), Verdict::fails);
   }
 }
 
-TEST(Judge, IntervalsThatStraddleTheUpperBoundAreUndecidableIfClaimedExactly) {
-  EXPECT_EQ(judged(Form::exactly, 4, 4 + half, quarter), Verdict::undecidable);
-  EXPECT_EQ(judged(Form::exactly, 4, 5, 1), Verdict::undecidable);
-  EXPECT_EQ(judged(Form::at_least, 4, 4 + half, quarter), Verdict::holds);
-  EXPECT_EQ(judged(Form::at_least, 4, 5, 1), Verdict::holds);
-}
-
-/// Half-way between two whole numbers a rate is neither.
-TEST(Judge, BoundItselfDecidesNothing) {
-  EXPECT_EQ(judged(Form::at_least, 4, 4 - half, 0), Verdict::undecidable);
-  EXPECT_EQ(judged(Form::exactly, 4, 4 - half, 0), Verdict::undecidable);
-  EXPECT_EQ(judged(Form::exactly, 4, 4 + half, 0), Verdict::undecidable);
+TEST(Judge, WideIntervalsAreUndecidable) {
+  for (const Form form : {Form::at_least, Form::exactly}) {
+    EXPECT_EQ(judged(form, 4, 4, 1), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 4, 3, 1.1), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 4, 4, quarter), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 4, 4 - half, 1), Verdict::undecidable);
+    EXPECT_EQ(judged(form, 4, 4, std::numeric_limits<double>::infinity()), Verdict::undecidable);
+  }
+  EXPECT_EQ(judged(Form::at_least, 4, 5, 0.99), Verdict::holds) << "from the bound on it is wide enough";
 }
 
 TEST(Judge, WithoutARateNothingIsDecided) {
@@ -128,6 +132,8 @@ TEST(Verdicts, HaveNames) {
   EXPECT_EQ(name_of(Verdict::holds), "holds");
   EXPECT_EQ(name_of(Verdict::fails), "fails");
   EXPECT_EQ(name_of(Verdict::undecidable), "undecidable");
+  EXPECT_EQ(name_of(Verdict::degenerate), "degenerate");
+  EXPECT_EQ(name_of(Verdict::not_run), "not run");
 }
 
 TEST(Claims, NameTheirMethod) {

@@ -138,6 +138,12 @@ TEST_F(ReadClaims, RatesMayBeNumbers) {
   EXPECT_EQ(read(changed("\"2*s+k-1\"", "0"))[0].predicted, 0);
 }
 
+TEST_F(ReadClaims, MaySpeakOfDegenerateMotions) {
+  EXPECT_FALSE(read(good_claims)[0].of_degenerate_motion);
+  EXPECT_TRUE(read(changed("over = \"step\"", "over = \"step\"\ndegenerate = true"))[0].of_degenerate_motion);
+  expect_refusal(changed("over = \"step\"", "over = \"step\"\ndegenerate = 1"), 9, {"'degenerate' is true or false"});
+}
+
 TEST_F(ReadClaims, PerturbationsCountFromOneAndAreNotOfTheHats) {
   using Part = Perturbation::Part;
   for (const auto& [name, part] :

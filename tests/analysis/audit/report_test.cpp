@@ -30,6 +30,9 @@ Finding finding(const std::string& label = "ord2s", const std::string& problem =
   f.precision = "mpfr:50";
   f.reference = "closed form";
   f.reason = "the error has another rate";
+  f.coefficients_to = 997;
+  f.interval = Interval{double{1} / 3, 7};
+  f.seconds = double{1} / 9;
   f.evidence = {{"double", {{-1, -10, -50}, {-2, double{-40} / 3, -50}, {-3, -infinity, -50}}},
                 {"mpfr:50", {{-1, -1'000'000, -2'000'000}}}};
   return f;
@@ -63,6 +66,13 @@ class Lines : public ::testing::Test {
     EXPECT_EQ(a.precision, b.precision);
     EXPECT_EQ(a.reference, b.reference);
     EXPECT_EQ(a.reason, b.reason);
+    EXPECT_EQ(a.coefficients_to, b.coefficients_to);
+    ASSERT_EQ(a.interval.has_value(), b.interval.has_value());
+    if (a.interval) {
+      expect_number(a.interval->from, b.interval->from, "from");
+      expect_number(a.interval->to, b.interval->to, "to");
+    }
+    expect_number(a.seconds, b.seconds, "seconds");
     ASSERT_EQ(a.evidence.size(), b.evidence.size());
     for (std::size_t n = 0; n < a.evidence.size(); ++n) {
       EXPECT_EQ(a.evidence[n].precision, b.evidence[n].precision);
@@ -86,6 +96,8 @@ TEST_F(Lines, AreReadBackToTheLastBit) {
   Finding open = of_tableau("Radau \"IIA\", two\nstages \xC3\xA9");
   open.verdict = Verdict::undecidable;
   open.evidence.clear();
+  open.coefficients_to = 0;
+  open.interval.reset();
   const std::vector<std::pair<std::string, Finding>> findings{
       {"first", finding()}, {"round-off", round_off}, {"a \"key\", with \\ and\nlines \xC3\xA9", open}};
   std::string text;
@@ -177,7 +189,8 @@ TEST_F(Lines, OfWrongTypesAreLeftOut) {
 }
 
 TEST_F(Lines, EachKeyIsNeeded) {
-  for (const char* const key : {"measured", "uncertainty", "precision", "reason", "reference", "verdict", "evidence"}) {
+  for (const char* const key : {"measured", "uncertainty", "precision", "reason", "reference", "verdict", "evidence",
+                                "coefficients_to", "interval", "seconds"}) {
     Json line = Json::parse(to_line(finding(), "key"));
     line["finding"].erase(key);
     EXPECT_TRUE(read(line.dump()).empty()) << key;
@@ -190,7 +203,7 @@ TEST(AuditJson, HasTheFieldsOfEachClaim) {
   const Json json = Json::parse(to_json({finding(), finding()}, "hbvm audit --full"));
   EXPECT_EQ(json.at("command"), "hbvm audit --full");
   EXPECT_FALSE(json.at("version").get<std::string>().empty());
-  EXPECT_EQ(json.at("summary"), "2 claims: 0 hold, 2 fail, 0 are undecidable");
+  EXPECT_EQ(json.at("summary"), "2 claims: 0 hold, 2 fail, 0 undecidable, 0 of degenerate motions, 0 not run");
   ASSERT_EQ(json.at("claims").size(), 2u);
   const Json& claim = json.at("claims").at(0);
   EXPECT_EQ(claim.at("claim"), "ord2s");
@@ -208,6 +221,9 @@ TEST(AuditJson, HasTheFieldsOfEachClaim) {
   EXPECT_EQ(claim.at("verdict"), "fails");
   EXPECT_EQ(claim.at("reason"), "the error has another rate");
   EXPECT_EQ(claim.at("reference"), "closed form");
+  EXPECT_EQ(claim.at("coefficients_to"), 997);
+  EXPECT_EQ(claim.at("interval"), Json::array({double{1} / 3, 7}));
+  EXPECT_EQ(claim.at("seconds"), double{1} / 9);
   const Json& evidence = claim.at("evidence");
   ASSERT_EQ(evidence.size(), 2u);
   EXPECT_EQ(evidence.at(0).at("precision"), "double");
@@ -263,15 +279,15 @@ TEST(AuditTable, HasOneGroupAProblem) {
 TEST(AuditTable, HasKAndS) {
   const Table table = audit_table({finding()});
   EXPECT_EQ(table.columns, (std::vector<std::string>{"claim", "quantity", "over", "k", "s", "predicted", "measured",
-                                                     "+-", "precision", "verdict"}));
+                                                     "+-", "precision", "coefficients to", "verdict"}));
   EXPECT_EQ(table.groups.at(0).rows.at(0), (std::vector<std::string>{"ord2s", "tangential p", "step", "3", "2", ">= 5",
-                                                                     "3.333", "0.143", "mpfr:50", "fails"}));
+                                                                     "3.333", "0.143", "mpfr:50", "997", "fails"}));
 }
 
 TEST(AuditTable, HasMethodsIfOneIsATableau) {
   const Table table = audit_table({of_tableau("midpoint"), finding()});
   EXPECT_EQ(table.columns, (std::vector<std::string>{"claim", "quantity", "over", "method", "predicted", "measured",
-                                                     "+-", "precision", "verdict"}));
+                                                     "+-", "precision", "coefficients to", "verdict"}));
   EXPECT_EQ(table.groups.at(0).rows.at(0).at(3), "midpoint");
   EXPECT_EQ(table.groups.at(0).rows.at(1).at(3), "HBVM(3,2)");
   for (const auto& row : table.groups[0].rows) EXPECT_EQ(row.size(), table.columns.size());
@@ -311,11 +327,13 @@ TEST(AuditTable, CellsHoldNoLines) {
 TEST(AuditTable, OfNothingHasNoGroups) { EXPECT_TRUE(audit_table({}).groups.empty()); }
 
 TEST(AuditSummary, CountsVerdicts) {
-  EXPECT_EQ(summary({}), "0 claims: 0 hold, 0 fail, 0 are undecidable");
-  std::vector<Finding> findings(6);
+  EXPECT_EQ(summary({}), "0 claims: 0 hold, 0 fail, 0 undecidable, 0 of degenerate motions, 0 not run");
+  std::vector<Finding> findings(9);
   findings[0].verdict = findings[1].verdict = findings[2].verdict = Verdict::holds;
   findings[3].verdict = findings[4].verdict = Verdict::fails;
-  EXPECT_EQ(summary(findings), "6 claims: 3 hold, 2 fail, 1 are undecidable");
+  findings[6].verdict = findings[7].verdict = Verdict::degenerate;
+  findings[8].verdict = Verdict::not_run;
+  EXPECT_EQ(summary(findings), "9 claims: 3 hold, 2 fail, 1 undecidable, 2 of degenerate motions, 1 not run");
 }
 
 }  // namespace

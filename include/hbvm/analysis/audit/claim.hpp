@@ -72,6 +72,7 @@ struct Claim {
   unsigned least_digits = 0;                 ///< with which it must be looked at
   std::shared_ptr<const Tableau> tableau{};  ///< in place of HBVM(k, s)
   std::optional<Perturbation> perturbation{};
+  bool of_degenerate_motion = false;  ///< it speaks of the very motion, though that says nothing of the method
 
   /// "HBVM(3,2)", or the tableau's name.
   std::string method_text() const;
@@ -81,7 +82,13 @@ struct Claim {
 Claim make_claim(const std::string& label, Quantity quantity, const std::string& problem, Span span, Form form,
                  double predicted);
 
-enum class Verdict { holds, fails, undecidable };
+enum class Verdict {
+  holds,
+  fails,
+  undecidable,  ///< neither, with the digits and the time there are
+  degenerate,   ///< so it is, but for any method: the motion is too special
+  not_run       ///< nothing could be measured
+};
 std::string_view name_of(Verdict verdict);
 
 /// The errors of a quantity in one precision.
@@ -90,20 +97,30 @@ struct Ladder {
   std::vector<Rung> rungs;
 };
 
+/// Of time, in the scene's units.
+struct Interval {
+  double from = 0, to = 0;
+};
+
 /// What the audit found out about a claim.
 struct Finding {
   Claim claim;
   Verdict verdict = Verdict::undecidable;
   double measured = 0, uncertainty = 0;  ///< rate, NaN if there is only round-off; of Form::round_off, units of
-                                         ///< round-off and how many are allowed
-  std::string precision;                 ///< the last one used
+                                         ///< round-off in every step and how many are allowed
+  std::string precision;                 ///< the greatest in which errors entered the verdict
   std::string reference;                 ///< what errors are measured against
-  std::string reason;                    ///< of a verdict that is not "holds"
+  std::string reason;                    ///< of the verdict; of one that "holds", what proves it, if anything does
+  std::optional<Interval> interval{};    ///< looked at; none of coefficients
+  int coefficients_to = 0;               ///< digits to which the coefficients were seen to be right; 0: not looked at
+  double seconds = 0;                    ///< processor time of the runs that this claim shared with others
   std::vector<Ladder> evidence;          ///< precision after precision
 };
 
-/// Whether a measured rate bears a claim out. Rates are whole numbers: the interval value +- uncertainty must lie
-/// within 1/2 of the predicted rate, or above that for `at_least`; it fails if it lies outside altogether.
+/// Whether a measured rate bears a claim out. It fails as soon as the interval value +- uncertainty excludes the
+/// predicted rate (for `at_least`: lies below it), and holds if the interval lies above it or, as the exponents of an
+/// expansion in h are whole numbers, if the predicted rate is whole, in the interval, and that is less than a half
+/// wide.
 Verdict judge(const Claim& claim, const std::optional<Rate>& rate);
 
 }  // namespace hbvm

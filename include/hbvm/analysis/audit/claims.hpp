@@ -30,6 +30,7 @@ std::vector<Claim> tableau_claims(const std::shared_ptr<const Tableau>& tableau)
 ///     rate = "2*s"                an expression of k and s; or "round-off"
 ///     form = "exactly"            "at least" if absent
 ///     over = "step"               "interval" if absent
+///     degenerate = true           if it speaks of a motion that says nothing of the method, a relative equilibrium
 ///     perturb = { part = "node", i = 1, j = 1, hat = false, relative = "1e-25" }
 ///                                 optional: node, weight, integral, X or legendre, counted from 1
 ///

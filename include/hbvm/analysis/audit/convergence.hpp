@@ -14,17 +14,18 @@ struct Rung {
   bool is_clean() const { return error > floor; }
 };
 
-/// A slope d log(error) / d log(h) and what it can be trusted to: the truth lies within value +- uncertainty.
+/// The limit of the slopes d log(error) / d log(h) and what it can be trusted to: it lies within value +- uncertainty.
 struct Rate {
   double value = 0, uncertainty = 0;
   double halvings = 0;  ///< of the step, between the first and the last rung used
   double decades = 0;   ///< of the error, likewise
 };
 
-/// The slope over the five finest clean rungs by least squares. Its uncertainty is the half-width of the 95 %
-/// confidence interval (Student's t with three degrees of freedom) or, if that is greater, how far the slope between
-/// the two finest rungs is from it: before the asymptotic regime slopes vary smoothly. \param rungs from coarse to fine
-/// \return nothing if there are fewer than five clean rungs, or less than four halvings between them
+/// The rate that the slopes between five clean rungs in a row tend to, with what the higher terms may still change
+/// (from how the slopes change) and what lies under the floors may hide. Of all such five, the ones that know it best
+/// count, as long as every finer clean rung lies where they foretell it; where none does, the finest five: there
+/// another term takes over. If the changes grow from slope to slope, the uncertainty is infinite. \param rungs from
+/// coarse to fine \return nothing if there are no five clean rungs in a row with at least four halvings between them
 std::optional<Rate> convergence_rate(const std::vector<Rung>& rungs);
 
 }  // namespace hbvm

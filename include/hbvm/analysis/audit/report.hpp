@@ -14,11 +14,12 @@ namespace hbvm {
 Table audit_table(const std::vector<Finding>& findings);
 
 /// {"claims": [{"claim", "quantity", "problem", "method", "k", "s", "over", "form", "predicted", "measured",
-/// "uncertainty", "precision", "verdict", "reason", "reference", "evidence"}, …]}, after version, command and counts. k
-/// and s are null for a tableau, measured and uncertainty if there was nothing but round-off.
+/// "uncertainty", "precision", "coefficients_to", "interval", "seconds", "verdict", "reason", "reference", "evidence"},
+/// …]}, after version, command and counts. k and s are null for a tableau, measured and uncertainty if there was
+/// nothing but round-off, the interval of claims about coefficients.
 std::string to_json(const std::vector<Finding>& findings, const std::string& command);
 
-/// "523 claims: 523 hold, 0 fail, 0 are undecidable".
+/// "523 claims: 523 hold, 0 fail, 0 undecidable, 0 of degenerate motions, 0 not run".
 std::string summary(const std::vector<Finding>& findings);
 
 /// A finding as one line of text under its key, and the findings of such lines, of this version of the program alone: a

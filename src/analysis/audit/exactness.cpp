@@ -1,0 +1,91 @@
+#include "exactness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hbvm/analysis/choose_k.hpp"
+#include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "sensitivity.hpp"
+
+namespace hbvm {
+namespace {
+
+std::string proof_for_tableau(const Claim& claim, const CoefficientCheck& check, const std::optional<int>& degree) {
+  const bool symplectic = check.symplecticity() >= check.digits();
+  switch (claim.quantity) {
+    case Quantity::H:
+      if (degree && *degree <= 1 && check.order(2) >= check.digits()) return "U is linear";
+      return degree && *degree <= 2 && symplectic ? "H is quadratic and the method symplectic" : "";
+    case Quantity::angular_momentum:
+      return symplectic ? "the method is symplectic" : "";
+    case Quantity::reversal:
+      return check.symmetry() >= check.digits() ? "the method is symmetric" : "";
+    default:
+      return {};
+  }
+}
+
+/// log2 of the greatest force of an effect over that of the least one, near the start.
+double bits_of_the_weakest(const Claim& claim, int log2_scale) {
+  const PrecisionScope scope(30);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
+  Point<Mpfr> point(scene.problem);
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const EffectTerm<Mpfr>& term : scene.problem.potential.terms) {
+    Potential<Mpfr> alone = scene.problem.potential;
+    alone.terms = {term};
+    PotentialEvaluator<Mpfr> evaluator(alone, 1);
+    Mpfr force = 0;
+    for (unsigned pattern = 1; pattern <= 4; ++pattern) {
+      const Kick off = kick(scene.problem, point, log2_scale, scene.q0, scene.p0, pattern);
+      const Vector<Mpfr> near = scene.q0 + off.q / 64;
+      Matrix<Mpfr> varying = Matrix<Mpfr>::Zero(1, scene.problem.m());
+      if (evaluator.has_varying_force()) evaluator.varying_force(lanes(near), varying);
+      raise_to(force, max_norm(varying));
+    }
+    raise_to(force, max_norm(evaluator.constant_force()));
+    if (force == 0) continue;
+    least = std::min(least, log2_of(force));
+    greatest = std::max(greatest, log2_of(force));
+  }
+  return greatest > least ? greatest - least : 0;
+}
+
+}  // namespace
+
+std::string proof_of(const Claim& claim, const CoefficientCheck& check) {
+  std::optional<int> degree;
+  {
+    const PrecisionScope scope(30);
+    degree = degree_of_U(assemble<Mpfr>(load_scene(claim.problem)).problem);
+  }
+  if (claim.tableau) return proof_for_tableau(claim, check, degree);
+  const auto [k, s] = std::pair(claim.method.k, claim.method.s);
+  switch (claim.quantity) {
+    case Quantity::g:
+      return "g is quadratic";
+    case Quantity::reversal:
+      return "the method is symmetric";
+    case Quantity::H:
+      return degree && *degree * s <= 2 * k ? "the nodes integrate U of degree " + std::to_string(*degree) + " exactly"
+                                            : "";
+    case Quantity::angular_momentum:
+      if (k == s) return "k = s";
+      return degree && *degree <= 2 ? "further nodes change nothing for U of degree " + std::to_string(*degree) : "";
+    default:
+      return {};
+  }
+}
+
+int digits_to_show(const Claim& claim, int log2_scale) {
+  constexpr double margin = 64;
+  const int s = claim.tableau ? claim.tableau->stages() : claim.method.s;
+  const bool energy = claim.quantity == Quantity::H && !claim.tableau;
+  const double order = energy ? 2 * claim.method.k + 1 : 2 * s + 2;
+  const double bits = order * (3 + std::log2(order)) + margin + bits_of_the_weakest(claim, log2_scale);
+  return static_cast<int>(std::ceil(bits * std::numbers::ln2 / std::numbers::ln10));
+}
+
+}  // namespace hbvm

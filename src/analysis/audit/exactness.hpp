@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "coefficients.hpp"
+
+namespace hbvm {
+
+/// Why a method must conserve what it is claimed to, but for round-off, whatever the motion: empty if nothing here
+/// proves it. With k nodes and a potential of degree mu,
+///
+///     H: mu s <= 2k, (evaik); of a tableau mu <= 2 if it is symplectic, mu <= 1 from order 2 on
+///     angular momentum: k = s, or mu <= 2, where the further nodes change nothing; of a tableau if it is symplectic
+///     g, of degree 2: always;  forth and back: always; of a tableau if it is symmetric
+///
+/// \param check of the method's coefficients, on which all this rests \throws InputError
+std::string proof_of(const Claim& claim, const CoefficientCheck& check);
+
+/// In how many decimal digits an error of the method that is not 0 would be seen at half the time scale: an error of
+/// one step is of an order Q that s and k bound, (2k + 1 for H, 2s + 1 for the angular momentum); Gauss formulas of Q
+/// nodes gain at most some 3 + log2 Q bits of each where a step resolves the motion; and the weakest of the effects may
+/// be the one that is not integrated exactly. \param log2_scale of the motion's time scale \throws InputError
+int digits_to_show(const Claim& claim, int log2_scale);
+
+}  // namespace hbvm

@@ -1,0 +1,73 @@
+#include "analysis/audit/coefficients.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hbvm {
+namespace {
+
+Expression text(const std::string& expression) { return Expression::parse(expression); }
+
+/// The Gauss method of two stages with b_1 and A_12 off by so much.
+Claim gauss(const std::string& in_b = "", const std::string& in_A = "") {
+  Tableau tableau{"Gauss",
+                  {{text("1/4"), text("1/4-sqrt(3)/6" + in_A)}, {text("1/4+sqrt(3)/6"), text("1/4")}},
+                  {text("1/2" + in_b), text("1/2")},
+                  {text("1/2-sqrt(3)/6"), text("1/2+sqrt(3)/6")},
+                  {}};
+  Claim claim = make_claim("test", Quantity::q, "kepler", Span::interval, Form::at_least, 4);
+  claim.tableau = std::make_shared<const Tableau>(std::move(tableau));
+  return claim;
+}
+
+TEST(CoefficientCheck, SeesWhatIsRightToAllDigits) {
+  const CoefficientCheck check(gauss(), 200);
+  EXPECT_EQ(check.order_to(200), 4);
+  EXPECT_EQ(check.order(4), 200);
+  EXPECT_LT(check.order(5), 3);
+  EXPECT_EQ(check.symplecticity(), 200);
+  EXPECT_EQ(check.symmetry(), 200);
+  EXPECT_EQ(check.row_sums(), 200);
+  Claim hbvm;
+  for (const MethodName method : {MethodName{1, 1}, {5, 3}, {20, 20}}) {
+    hbvm.method = method;
+    EXPECT_EQ(CoefficientCheck(hbvm, 300).definition(), 300) << method.text();
+  }
+}
+
+TEST(CoefficientCheck, SeesHowManyDigitsAreRight) {
+  for (const int digits : {20, 60, 150}) {
+    const std::string off = "+10^(-" + std::to_string(digits) + ")";
+    const CoefficientCheck in_b(gauss(off), 200), in_A(gauss("", off), 200);
+    EXPECT_EQ(in_b.order_to(200), 0) << "b does not sum to 1";
+    EXPECT_NEAR(in_b.order(1), digits, 1);
+    EXPECT_EQ(in_b.row_sums(), 200);
+    EXPECT_EQ(in_A.order_to(200), 1);
+    EXPECT_EQ(in_A.order(1), 200);
+    EXPECT_NEAR(in_A.order(4), digits, 1);
+    EXPECT_EQ(in_A.order_to(digits - 2), 4);
+    EXPECT_NEAR(in_A.symplecticity(), digits, 1);
+    EXPECT_NEAR(in_A.row_sums(), digits, 1);
+  }
+}
+
+/// Beyond the trees, by B, C and D: the Gauss method of seven stages as HBVM(7, 7) has it, written out.
+TEST(CoefficientCheck, OrdersBeyondTheTreesAreSeen) {
+  const PrecisionScope scope(300);
+  const Hbvm<Mpfr> hbvm = make_hbvm<Mpfr>(7, 7);
+  const auto exact = [](const Mpfr& x) { return text(x.str(0, std::ios_base::scientific)); };
+  Tableau tableau{"Gauss", {}, {}, {}, {}};
+  for (Index i = 0; i < 7; ++i) {
+    tableau.A.emplace_back();
+    for (Index j = 0; j < 7; ++j) tableau.A.back().push_back(exact(hbvm.A(i, j)));
+    tableau.b.push_back(exact(hbvm.b[i]));
+    tableau.c.push_back(exact(hbvm.c[i]));
+  }
+  Claim claim = gauss();
+  claim.tableau = std::make_shared<const Tableau>(tableau);
+  const CoefficientCheck check(claim, 250);
+  EXPECT_EQ(check.order_to(250), 14);
+  EXPECT_LT(check.order(15), 20);
+}
+
+}  // namespace
+}  // namespace hbvm
