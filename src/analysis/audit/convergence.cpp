@@ -14,36 +14,44 @@ constexpr std::size_t needed = 5;
 /// By how much log2 of the error may be off: what lies under the floor is part of it, or missing.
 double noise(const Rung& rung) { return std::log2(1 + std::exp2(rung.floor - rung.error)); }
 
-/// A slope between two rungs, and how far off it may be.
+/// A slope between two rungs: how far off it may be, and by how much a term h^n in the error shifts it, but for a
+/// factor common to all, for n = 1 and n = 2.
 struct Slope {
-  double value, noise;
+  double value, noise, shift[2];
 };
 
-/// The rate that the slopes between five rungs tend to. An expansion C h^p (1 + a h^n + ...) has slopes that differ
-/// from p by terms in h^n, so that the next of them, and all after it, are off by the last difference over rho^n - 1,
-/// where the steps fall by rho: the rate lies between what n = 1 and n = 2 say.
+Slope slope_between(const Rung& coarse, const Rung& fine, double finest) {
+  const double width = coarse.step - fine.step;
+  Slope slope{(coarse.error - fine.error) / width, (noise(coarse) + noise(fine)) / width, {}};
+  for (const int n : {1, 2})
+    slope.shift[n - 1] = (std::exp2(n * (coarse.step - finest)) - std::exp2(n * (fine.step - finest))) / width;
+  return slope;
+}
+
+/// The rate that the slopes between five rungs tend to. If the error is C h^p (1 + a h^n), two slopes tell p and a: the
+/// rate lies between what n = 1 and n = 2 make of the last two.
 Rate rate_of(std::span<const Rung> rungs) {
   std::vector<Slope> slopes;
-  for (std::size_t i = 1; i < rungs.size(); ++i) {
-    const double width = rungs[i - 1].step - rungs[i].step;
-    slopes.push_back({(rungs[i - 1].error - rungs[i].error) / width, (noise(rungs[i - 1]) + noise(rungs[i])) / width});
-  }
-  const double last_width = rungs[needed - 2].step - rungs[needed - 1].step, rho = std::exp2(last_width);
-  const double first = 1 / (rho - 1), second = 1 / (rho * rho - 1), mean = (first + second) / 2;
+  for (std::size_t i = 1; i < rungs.size(); ++i)
+    slopes.push_back(slope_between(rungs[i - 1], rungs[i], rungs.back().step));
   const Slope &last = slopes[needed - 2], &before = slopes[needed - 3];
+  const auto left = [&](int n) { return last.shift[n - 1] / (before.shift[n - 1] - last.shift[n - 1]); };
+  const double first = left(1), mean = (first + left(2)) / 2;
   Rate rate;
   rate.value = last.value + mean * (last.value - before.value);
-  // Each difference foretells the last one: by chance that may be small.
+  // Each difference foretells the last one, of which chance may have made a small one.
   double difference = 0;
   bool grows = true;
   for (std::size_t i = 1; i < slopes.size(); ++i) {
     const double own = std::abs(slopes[i].value - slopes[i - 1].value);
-    difference = std::max(difference, own * std::exp2(rungs[needed - 1].step - rungs[i + 1].step));
+    difference =
+        std::max(difference, own * (before.shift[0] - last.shift[0]) / (slopes[i - 1].shift[0] - slopes[i].shift[0]));
     if (i == 1) continue;
     const double earlier = std::abs(slopes[i - 1].value - slopes[i - 2].value);
     grows = grows && own - slopes[i].noise - slopes[i - 1].noise > earlier;
   }
-  rate.uncertainty = first * difference + last.noise + mean * (last.noise + before.noise);
+  // Twice what the slower model leaves: the greatest of several errors is no smooth function.
+  rate.uncertainty = 2 * first * difference + last.noise + mean * (last.noise + before.noise);
   // Where another term takes over: the slope goes on changing, nobody knows how far.
   if (grows) rate.uncertainty = std::numeric_limits<double>::infinity();
   rate.halvings = rungs.front().step - rungs.back().step;
