@@ -136,7 +136,8 @@ void audit_command(const AuditArguments& o) {
     write_text(*folder / "audit.csv", to_csv(table));
     write_text(*folder / "audit.md", to_markdown(table));
     write_text(*folder / "audit.tex", to_latex(table));
-    draw(audit_figure(folder->string()), (*folder / "orders.svg").string());
+    // It explains the audit of the paper.
+    if (!o.claims && !o.method) draw(audit_figure(folder->string()), (*folder / "orders.svg").string());
   }
   if (o.json) {
     std::cout << to_json(findings, command) << std::endl;
@@ -169,7 +170,8 @@ void add_audit_command(CLI::App& app) {
   command->add_option("--method", o->method, "Audit the Runge-Kutta tableau in this TOML file: A, b, c as exact text");
   command->add_option(
       "--out", o->out,
-      "Folder for table (CSV, Markdown, LaTeX) and figure, audit-results if absent (with --json: none); "
+      "Folder for the table (CSV, Markdown, LaTeX) and, of all the paper's claims, a figure; audit-results if absent "
+      "(with --json: none); "
       "--full goes on from what it finds there");
   command->add_option(
       "--until", o->until,
