@@ -127,7 +127,8 @@ class Products {
           max_norm(Vector<Mpfr>(applied.segment(at, d))) + max_norm(Vector<Mpfr>(constraint.segment(at, d)));
       Vector<Mpfr> own = a.segment(at, d), change = jerk.segment(at, d);
       moves_ = moves_ || max_norm(Vector<Mpfr>(v.segment(at, d))) > 0;
-      const bool is_free = ldexp(max_norm(own), tolerance) <= size;
+      // All of it may be the round-off of forces that balance.
+      const bool is_free = ldexp(max_norm(own), balance) <= size;
       if (is_free) {
         own.setZero();
         change.setZero();
@@ -161,6 +162,7 @@ class Products {
   /// Less than a millionth is nothing: what deviates by so little from an equilibrium shows the orders of the
   /// deviation at steps too short to be looked at.
   static constexpr int tolerance = 20;
+  static constexpr int balance = 60;
   struct Range {
     Mpfr least, most, greatest;
   };

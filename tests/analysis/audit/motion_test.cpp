@@ -75,6 +75,18 @@ TEST_F(MotionTest, RestAndUniformMotionSayNothing) {
   EXPECT_TRUE(uniform.straight);
 }
 
+/// A spring along a rod, ten orders of magnitude stronger than what turns the rod.
+TEST_F(MotionTest, ForcesThatBalanceLeaveTheMotionThatThereIs) {
+  const std::string pair =
+      "body = [{ name = \"a\", mass = 1, position = [1, 0], velocity = [0, 1] }, { name = \"b\", mass = 2, position = "
+      "[1, \"1/2\"], velocity = [\"-1/3\", 1] }]\nconstraint = [{ kind = \"rod\", between = [\"a\", \"b\"], length = "
+      "\"1/2\" }, { kind = \"rod\", between = [\"o\", \"a\"], length = 1 }]\n[[effect]]\nkind = \"uniform_gravity\"\n"
+      "acceleration = [0, -1]\n[[effect]]\nkind = \"spring\"\nbetween = [\"a\", \"b\"]\nstiffness = "
+      "\"10^10\"\nrest_length = "
+      "3\n";
+  EXPECT_EQ(of(pair).degenerate, "");
+}
+
 /// On a circle all terms keep their sizes; on an ellipse not, and on a line there is no angular momentum to try.
 TEST_F(MotionTest, RelativeEquilibriaAreSeen) {
   const Motion circle = of(body("[1, 0]", "[0, 1]") + spring("1"));
