@@ -113,6 +113,7 @@ void Auditor::prepare() {
   cell_.starts.lead += options_.first_start * cell_.starts.stride;
   if (unit_.kind == Kind::tableau || unit_.kind == Kind::special) return;
   const std::string& problem = cell_.subject().problem;
+  const bool closed = has_closed_form(problem);
   motion_ = motions_.of(problem);
   cell_.log2_scale = motion_.log2_scale;
   cell_.log2_interval = options_.log2_interval;
@@ -121,13 +122,12 @@ void Auditor::prepare() {
     // The starts share the time between them, and each goes on to the next.
     const PrecisionScope scope(30);
     const double until = approximately(evaluate<Mpfr>(*options_.until));
-    if (has_closed_form(problem)) cell_.starts.count = 1;
+    if (closed) cell_.starts.count = 1;
     const double share = until / cell_.starts.count;
     cell_.windows = std::max(1L, std::lround(std::ceil(share / window)));
     cell_.starts.lead = 0;
     cell_.starts.stride = std::max(1L, std::lround(share / eighth));
   }
-  const bool closed = has_closed_form(problem);
   const auto at = [&](long n) { return closed ? 0 : static_cast<double>(n) * eighth; };
   const double last = at(cell_.starts.lead + (cell_.starts.count - 1) * cell_.starts.stride);
   for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
@@ -269,11 +269,6 @@ void Auditor::compare_with_one_step() {
   }
 }
 
-double Auditor::allowed_units() const {
-  const Claim& claim = cell_.subject();
-  return 4 * (claim.tableau ? claim.tableau->stages() : claim.method.k + claim.method.s);
-}
-
 void Auditor::conserve_in(const Precision& precision, int log2_step, long steps) {
   const auto measured = with_scalar(precision, [&]<Scalar S>() { return round_off<S>(cell_, {log2_step, steps}); });
   for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
@@ -286,7 +281,7 @@ void Auditor::conserve_in(const Precision& precision, int log2_step, long steps)
       continue;
     }
     f.evidence.push_back({precision.name(), {found->second.rung}});
-    f.uncertainty = allowed_units();
+    f.uncertainty = allowed_units(f.claim);
     f.measured = std::max(f.measured, found->second.ratio * f.uncertainty);
     if (found->second.ratio > 1) {
       fail(f, "it is more than round-off");

@@ -69,7 +69,6 @@ class Auditor {
   /// What was measured to be so may still be due to the motion, or not to the coefficients.
   void weigh(Finding& f);
   void weigh_coefficients(Finding& f);
-  double allowed_units() const;
 
   Cell cell_;
   const Unit& unit_;

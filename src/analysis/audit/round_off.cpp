@@ -7,12 +7,11 @@
 namespace hbvm {
 namespace {
 
-/// What round-off may do to conserved quantities along a run: in every step each coordinate may be off by as many units
-/// as numbers are summed for it, twice over, at k + s nodes and coefficients.
+/// What round-off may do to conserved quantities along a run.
 class Allowance {
  public:
   Allowance(const Cell& cell, double log2_epsilon)
-      : log2_unit_(log2_epsilon + std::log2(4 * summands(cell.subject()))) {}
+      : log2_unit_(log2_epsilon + std::log2(allowed_units(cell.subject()))) {}
 
   /// One more step, with the change that a unit makes there, as log2. \return log2 of all so far
   double step(double sensitivity) {
@@ -20,20 +19,21 @@ class Allowance {
     return log2_unit_ + steps_;
   }
 
+ private:
   /// log2(2^a + 2^b).
   static double sum(double a, double b) {
     const double greater = std::max(a, b);
     return std::isfinite(greater) ? greater + std::log2(std::exp2(a - greater) + std::exp2(b - greater)) : greater;
   }
 
- private:
-  static double summands(const Claim& claim) {
-    return claim.tableau ? claim.tableau->stages() : claim.method.k + claim.method.s;
-  }
   double log2_unit_, steps_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
+
+double allowed_units(const Claim& claim) {
+  return 4 * (claim.tableau ? claim.tableau->stages() : claim.method.k + claim.method.s);
+}
 
 template <Scalar S>
 std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& run) {
