@@ -37,9 +37,27 @@ S dot(const Vector<S>& a, const Vector<S>& b) {
   return sum;
 }
 
+template <Scalar S>
+void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index n) {
+  if constexpr (std::same_as<S, Mpfr>)
+    if (dot(raw(r), x, x_stride, y, y_stride, n)) return;
+  S sum = 0, lost = 0, term, rest, next, t;
+  for (Index i = 0; i < n; ++i) {
+    const S& a = x[i * x_stride];
+    if (a == 0) continue;
+    set_exact_product(term, rest, a, y[i * y_stride]);
+    set_sum(lost, lost, rest);
+    set_exact_sum(next, rest, sum, term, t);
+    set_sum(lost, lost, rest);
+    std::swap(sum, next);
+  }
+  set_sum(r, sum, lost);
+}
+
 #define HBVM_DEFINE(S)                                                      \
   template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
-  template S dot<S>(const Vector<S>&, const Vector<S>&);
+  template S dot<S>(const Vector<S>&, const Vector<S>&);                    \
+  template void set_dot<S>(S&, const S*, Index, const S*, Index, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

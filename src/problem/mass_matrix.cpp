@@ -1,6 +1,7 @@
 #include "hbvm/problem/mass_matrix.hpp"
 
 #include "hbvm/error.hpp"
+#include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -64,23 +65,17 @@ void MassMatrix<S>::add_full(const Matrix<S>& M) {
 
 template <Scalar S>
 void MassMatrix<S>::velocity(Lanes<const S> p, Lanes<S> v) const {
-  S& t = scratch<S>();
   for (const Block& block : blocks_) {
     for (Index j = 0; j < block.size; ++j) {
       S* const out = v[block.offset + j];
-      if (!block.full) {
-        const S* const in = p[block.offset + j];
-        if (block.mass == 1)
-          for (Index i = 0; i < p.count; ++i) set(out[i], in[i]);
-        else
-          for (Index i = 0; i < p.count; ++i) set_product(out[i], block.inverse_mass, in[i]);
-        continue;
-      }
-      for (Index i = 0; i < p.count; ++i) set_zero(out[i]);
-      for (Index l = 0; l < block.size; ++l) {
-        const S* const in = p[block.offset + l];
-        for (Index i = 0; i < p.count; ++i) add_product(out[i], block.W(j, l), in[i], t);
-      }
+      const S* const in = p[block.offset + j];
+      if (block.full)
+        for (Index i = 0; i < p.count; ++i)
+          set_dot(out[i], &block.W(0, j), 1, p[block.offset] + i, p.count, block.size);  // W is symmetric
+      else if (block.mass == 1)
+        for (Index i = 0; i < p.count; ++i) set(out[i], in[i]);
+      else
+        for (Index i = 0; i < p.count; ++i) set_product(out[i], block.inverse_mass, in[i]);
     }
   }
 }

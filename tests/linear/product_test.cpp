@@ -1,5 +1,6 @@
 #include "hbvm/linear/product.hpp"
 
+#include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
@@ -76,6 +77,54 @@ TYPED_TEST(Product, DotSumsTheProducts) {
   TypeParam sum = 0;
   for (int i = 19; i >= 0; --i) sum += x[i] * y[i];
   EXPECT_LE(magnitude(TypeParam(dot(x, y) - sum)), 2 * 20 * 20 * epsilon<TypeParam>());
+}
+
+/// sum_i x_i y_i, not rounded.
+template <Scalar S>
+Mpfr exact_dot(const Vector<S>& x, const Vector<S>& y) {
+  Mpfr sum, product;
+  for (auto* const z : {&sum, &product}) mpfr_set_prec(raw(*z), 5000);
+  mpfr_set_zero(raw(sum), 1);
+  for (Index i = 0; i < x.size(); ++i) {
+    const BigFloat a = exactly(x[i]), b = exactly(y[i]);
+    mpfr_mul(raw(product), raw(a), raw(b), MPFR_RNDN);
+    mpfr_add(raw(sum), raw(sum), raw(product), MPFR_RNDN);
+  }
+  return sum;
+}
+
+TYPED_TEST(Product, ADotIsRoundedOnceHoweverMuchCancels) {
+  using S = TypeParam;
+  for (const unsigned length : {50u, 600u}) {
+    const PrecisionScope scope(length);
+    for (int i = 0; i < 30; ++i) {
+      // Of the first eleven products some ten bits less than all cancel with the last.
+      Vector<S> x(12), y(12);
+      for (Index l = 0; l < 11; ++l) x[l] = this->random.value(), y[l] = this->random.value();
+      x[i % 11] = 0;
+      x[11] = dot(Vector<S>(x.head(11)), Vector<S>(y.head(11))) * (1 + power_of_two<S>(-12 - i));
+      y[11] = -1;
+      S r;
+      set_dot(r, x.data(), 1, y.data(), 1, 12);
+      Mpfr error = exact_dot(x, y), bound = error;
+      const BigFloat rounded = exactly(r);
+      mpfr_sub(raw(error), raw(error), raw(rounded), MPFR_RNDN);
+      mpfr_mul_2si(raw(bound), raw(bound), 1 - significand_bits<S>(), MPFR_RNDN);
+      EXPECT_LE(mpfr_cmpabs(raw(error), raw(bound)), 0) << i << ", " << length << " digits";
+    }
+  }
+}
+
+TYPED_TEST(Product, ADotOfEntriesThatStandApart) {
+  const auto x = this->random.matrix(3, 5), y = this->random.matrix(4, 5);
+  TypeParam strided, packed;
+  set_dot(strided, x.data() + 2, 3, y.data() + 1, 4, 5);
+  const Vector<TypeParam> a = x.row(2), b = y.row(1);
+  set_dot(packed, a.data(), 1, b.data(), 1, 5);
+  EXPECT_EQ(strided, packed);
+  EXPECT_LE(magnitude(TypeParam(strided - dot(a, b))), 2 * 5 * 5 * epsilon<TypeParam>());
+  set_dot(packed, a.data(), 1, b.data(), 1, 0);
+  EXPECT_EQ(packed, 0);
 }
 
 }  // namespace

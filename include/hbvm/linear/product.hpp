@@ -13,9 +13,15 @@ void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
 template <Scalar S>
 S dot(const Vector<S>& a, const Vector<S>& b);
 
+/// r = sum_i x_i y_i for i < n, where x_i stands at x[i * x_stride], rounded about once: what is lost of products and
+/// sums is summed, too, and added at the end (Ogita, Rump and Oishi 2005, Dot2). r is none of them.
+template <Scalar S>
+void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index n);
+
 #define HBVM_DECLARE(S)                                                            \
   extern template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
-  extern template S dot<S>(const Vector<S>&, const Vector<S>&);
+  extern template S dot<S>(const Vector<S>&, const Vector<S>&);                    \
+  extern template void set_dot<S>(S&, const S*, Index, const S*, Index, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "hbvm/scalar/scalar.hpp"
 
 namespace hbvm {
@@ -63,8 +65,8 @@ void set_quotient(S& r, const S& a, const S& b) {
     r = a / b;
 }
 
-/// a + b without any rounding, as r + rest with r = fl(a + b) (Moller and Knuth, TwoSum); r and rest are neither a nor b,
-/// and t is scratch.
+/// a + b without any rounding, as r + rest with r = fl(a + b) (Moller and Knuth, TwoSum); r and rest are neither a nor
+/// b, and t is scratch.
 template <Scalar S>
 void set_exact_sum(S& r, S& rest, const S& a, const S& b, S& t) {
   set_sum(r, a, b);
@@ -73,6 +75,18 @@ void set_exact_sum(S& r, S& rest, const S& a, const S& b, S& t) {
   set_difference(rest, a, rest);
   set_difference(t, b, t);
   set_sum(rest, rest, t);
+}
+
+/// a b without any rounding, as r + rest with r = fl(a b); r and rest are neither a nor b.
+template <Scalar S>
+void set_exact_product(S& r, S& rest, const S& a, const S& b) {
+  set_product(r, a, b);
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_fms(raw(rest), raw(a), raw(b), raw(r), MPFR_RNDN);
+  else if constexpr (std::same_as<S, double>)
+    rest = std::fma(a, b, -r);
+  else
+    rest = boost::multiprecision::fma(a, b, S(-r));
 }
 
 /// A number of the working precision for use within one kernel, whose value nobody keeps: creating one would allocate.

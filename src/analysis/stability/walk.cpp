@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "hbvm/analysis/line_fit.hpp"
@@ -17,20 +18,25 @@
 namespace hbvm {
 
 void Straying::add(double value) {
-  constexpr std::size_t most = 40;
-  if (n_ == 0) windows_.assign(most, {value, 0, 0, 0});
-  for (std::size_t j = 0; j < most && n_ > 0; ++j) {
-    Windows& w = windows_[j];
-    w.greatest = std::max(w.greatest, std::abs(value - w.start));
-    if (n_ % (1L << j) == 0) w = {value, 0, w.sum + w.greatest, w.count + 1};
+  if (n_ == 0) {
+    start_.fill(value);
+  } else {
+    for (std::size_t j = 0; j < most; ++j) greatest_[j] = std::max(greatest_[j], std::abs(value - start_[j]));
+    const auto ends = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned long>(n_)));
+    for (std::size_t j = 0; j <= std::min(ends, most - 1); ++j) {
+      sum_[j] += greatest_[j];
+      ++count_[j];
+      start_[j] = value;
+      greatest_[j] = 0;
+    }
   }
   ++n_;
 }
 
 std::vector<Straying::Point> Straying::points() const {
   std::vector<Point> result;
-  for (std::size_t j = 0; j < windows_.size() && windows_[j].count > 0; ++j)
-    result.push_back({1L << j, windows_[j].sum / static_cast<double>(windows_[j].count)});
+  for (std::size_t j = 0; j < most && count_[j] > 0; ++j)
+    result.push_back({1L << j, sum_[j] / static_cast<double>(count_[j])});
   return result;
 }
 

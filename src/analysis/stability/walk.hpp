@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "hbvm/analysis/run.hpp"
@@ -22,12 +23,11 @@ class Straying {
   std::vector<Point> points() const;
 
  private:
-  struct Windows {
-    double start = 0, greatest = 0, sum = 0;
-    long count = 0;
-  };
+  static constexpr std::size_t most = 40;
+  // Of the windows of 2^j steps: where the present one starts and how far it strayed; the sum of those completed.
+  std::array<double, most> start_{}, greatest_{}, sum_{};
+  std::array<long, most> count_{};
   long n_ = 0;
-  std::vector<Windows> windows_;
 };
 
 /// What round-off did to energy and constraints over a long run, in units of epsilon times the size of their terms.
