@@ -37,10 +37,10 @@ void EnergyBalance<S>::observe(const Vector<S>& v, const Snapshot<S>& snapshot) 
 template <Scalar S>
 S EnergyBalance<S>::rounding() {
   PotentialEvaluator<S> potential(problem_.potential, 1);
-  Matrix<S> force = Matrix<S>::Zero(1, problem_.m());
-  if (potential.has_varying_force()) potential.varying_force(lanes(q_), force);
+  Matrix<S> force;
+  potential.force(lanes(q_), force);
   S sum = 0;
-  for (Index j = 0; j < problem_.m(); ++j) sum += magnitude(S(q_[j] * (force(0, j) + potential.constant_force()[j])));
+  for (Index j = 0; j < problem_.m(); ++j) sum += magnitude(S(q_[j] * force(0, j)));
   return sum > size_ ? sum : size_;
 }
 

@@ -77,20 +77,10 @@ const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
 }
 
 template <Scalar S>
-void Point<S>::set_force(const Vector<S>& q) {
-  if (potential_.has_varying_force()) {
-    potential_.varying_force(lanes(q), force_);
-  } else {
-    force_.setZero();
-  }
-  force_ += potential_.constant_force().transpose();
-}
-
-template <Scalar S>
 const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
   if (problem_.nu() == 0) return multiplier_;
   gradient_.update(lanes(q));
-  set_force(q);
+  potential_.force(lanes(q), force_);
   Vector<S> acceleration(problem_.m());
   problem_.mass.velocity(lanes(force_), lanes(acceleration));
   problem_.mass.velocity(lanes(p), lanes(v_));
@@ -104,7 +94,7 @@ const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
 
 template <Scalar S>
 const typename Point<S>::Forces& Point<S>::forces(const Vector<S>& q, const Vector<S>& p) {
-  set_force(q);
+  potential_.force(lanes(q), force_);
   forces_.applied = force_.transpose();
   forces_.constraint = Vector<S>::Zero(problem_.m());
   if (problem_.nu() == 0) return forces_;

@@ -109,6 +109,13 @@ void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
 }
 
 template <Scalar S>
+void PotentialEvaluator<S>::force(Lanes<const S> q, Matrix<S>& force) {
+  varying_force(q, force);
+  for (Index j = 0; j < force.cols(); ++j)
+    for (Index i = 0; i < force.rows(); ++i) set_sum(force(i, j), force(i, j), constant_force_[j]);
+}
+
+template <Scalar S>
 void PotentialEvaluator<S>::add_force(std::size_t t, Lanes<const S> q, Matrix<S>& force) {
   const EffectTerm<S>& term = potential_.terms[t];
   Work& work = work_[t];

@@ -380,14 +380,14 @@ class MomentaBySampling : public ::testing::Test {
     const auto axes = coordinate_momenta(problem);
     Matrix<double> rows(points * (nu + 2), static_cast<Index>(axes.size()));
     PotentialEvaluator<double> potential(problem.potential, 1);
-    Matrix<double> force = Matrix<double>::Zero(1, m);
+    Matrix<double> force;
     Index row = 0;
     for (Index point = 0; point < points; ++point) {
       const Vector<double> q = random.vector(m) * 3, p = random.vector(m);
       Vector<double> v(m);
       problem.mass.velocity(lanes(p), lanes(v));
-      if (potential.has_varying_force()) potential.varying_force(lanes(q), force);
-      const Vector<double> f = force.row(0).transpose() + potential.constant_force();
+      potential.force(lanes(q), force);
+      const Vector<double> f = force.row(0).transpose();
       const Matrix<double> G = dense_gradient(problem, q);
       for (Index j = 0; j < rows.cols(); ++j) {
         const auto& axis = axes[static_cast<std::size_t>(j)];

@@ -302,10 +302,9 @@ void expect_formula(const EffectCase& effect, Index d) {
   PotentialEvaluator<S> evaluator(potential, count);
   const Matrix<S> q = positions(random, count, d);
   Vector<S> U;
-  Matrix<S> force = Matrix<S>::Zero(count, 3 * d);
+  Matrix<S> force;
   evaluator.values(lanes(q), U);
-  if (evaluator.has_varying_force()) evaluator.varying_force(lanes(q), force);
-  force.rowwise() += evaluator.constant_force().transpose();
+  evaluator.force(lanes(q), force);
   ASSERT_EQ(U.size(), count);
 
   const int working = digits10<S>();

@@ -26,19 +26,20 @@ struct Health {
 /// Watches a run and says in the end what it is worth. It looks at every mesh point, and at the solution of every step
 /// through decay(). The warnings, all of them invariant under powers of two of the units:
 ///
-///   energy_lost                the error of H exceeds 64 sqrt(N) epsilon R for N steps, where R is the greatest term
-///   of H,
-///                              or what rounding q changes H by, plus what the constraint forces could do in a step: a
-///                              few roundings a step, of either sign, add up by the square root (Brouwer's law); 64
-///                              leaves room for the sums within a step
-///   hidden_constraint_large    worst_hidden exceeds 1/100: the output state is no small correction of the propagated
-///   one near_singular_constraints  ConstraintAngles saw a passage that the steps do not resolve, or the condition
-///   exceeds
-///                              1/sqrt(epsilon), which leaves fewer than half of the digits of lambda
-///   even_s_drift               s is even, and some hidden constraint grew over the quarters of the run, twofold from
-///   the first
-///                              to the last or more, above 64 sqrt(N) epsilon times the condition
-///   step_too_large             CoefficientDecay exceeds its limit
+/// energy_lost: the error of H exceeds 64 sqrt(N) epsilon R for N steps, where R is the greatest term of H, or what
+/// rounding q changes H by, plus what the constraint forces could do in a step. A few roundings a step, of either sign,
+/// add up by the square root (Brouwer's law); 64 leaves room for the sums within a step.
+///
+/// hidden_constraint_large: worst_hidden exceeds 1/100, and the output state is no small correction of the propagated
+/// one.
+///
+/// near_singular_constraints: ConstraintAngles saw a passage that the steps do not resolve, or the condition exceeds
+/// 1/sqrt(epsilon), which leaves fewer than half of the digits of lambda.
+///
+/// even_s_drift: s is even, and some hidden constraint grew over the quarters of the run, twofold from the first to the
+/// last or more, above 64 sqrt(N) epsilon times the condition.
+///
+/// step_too_large: CoefficientDecay exceeds its limit.
 template <Scalar S>
 class HealthWatch final : public Observer<S> {
  public:

@@ -16,7 +16,7 @@ namespace hbvm {
 struct RunRequest {
   Scene scene;
   MethodName method;
-  SolverKind solver = SolverKind::fixed_point;
+  SolverKind solver = SolverKind::automatic;
   Expression step, until;
   Precision precision;
   bool account = false;  ///< measure where the time goes

@@ -7,10 +7,16 @@
 
 namespace hbvm {
 
-/// The operations a formula is made of; the first three take two operands.
+/// The operations a formula is made of.
 enum class Op : std::uint8_t { add, subtract, multiply, negate, abs, sign, reciprocal, sqrt, sin, cos, exp, log };
 inline constexpr std::size_t op_count = 12;
-const char* name_of(Op op);
+constexpr const char* name_of(Op op) {
+  constexpr std::array<const char*, op_count> names{"add",    "subtract", "multiply", "negate", "abs", "sign",
+                                                    "divide", "sqrt",     "sin",      "cos",    "exp", "log"};
+  return names[static_cast<std::size_t>(op)];
+}
+/// Whether it takes two operands.
+constexpr bool is_binary(Op op) { return op == Op::add || op == Op::subtract || op == Op::multiply; }
 
 /// How often each operation of the working precision is done, indexed by Op. (Op::reciprocal counts all divisions.)
 class OperationCounts {

@@ -42,7 +42,6 @@ class Point {
 
  private:
   /// force_ = grad U(q).
-  void set_force(const Vector<S>& q);
   /// x = (grad g^T M^-1 grad g)^-1 x at the q of the last gradient.
   void solve_gram(Vector<S>& x);
 

@@ -64,6 +64,8 @@ class PotentialEvaluator {
   bool has_varying_force() const { return varying_; }
   /// force = the part of grad U that varies with q: lanes x m, overwritten.
   void varying_force(Lanes<const S> q, Matrix<S>& force);
+  /// force = grad U: lanes x m, overwritten.
+  void force(Lanes<const S> q, Matrix<S>& force);
 
   /// How often the force of each term was evaluated.
   const std::vector<EffectCount>& counts() const { return counts_; }

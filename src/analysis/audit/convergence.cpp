@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
 namespace hbvm {
@@ -55,7 +54,6 @@ Rate rate_of(std::span<const Rung> rungs) {
   // Where another term takes over: the slope goes on changing, nobody knows how far.
   if (grows) rate.uncertainty = std::numeric_limits<double>::infinity();
   rate.halvings = rungs.front().step - rungs.back().step;
-  rate.decades = (rungs.front().error - rungs.back().error) * std::numbers::ln2 / std::numbers::ln10;
   return rate;
 }
 

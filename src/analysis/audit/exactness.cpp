@@ -37,18 +37,17 @@ double bits_of_the_weakest(const Claim& claim, int log2_scale) {
     Potential<Mpfr> alone = scene.problem.potential;
     alone.terms = {term};
     PotentialEvaluator<Mpfr> evaluator(alone, 1);
-    Mpfr force = 0;
+    Mpfr size = 0;
+    Matrix<Mpfr> force;
     for (unsigned pattern = 1; pattern <= 4; ++pattern) {
       const Kick off = kick(scene.problem, point, log2_scale, scene.q0, scene.p0, pattern);
       const Vector<Mpfr> near = scene.q0 + off.q / 64;
-      Matrix<Mpfr> varying = Matrix<Mpfr>::Zero(1, scene.problem.m());
-      if (evaluator.has_varying_force()) evaluator.varying_force(lanes(near), varying);
-      raise_to(force, max_norm(varying));
+      evaluator.force(lanes(near), force);
+      raise_to(size, max_norm(force));
     }
-    raise_to(force, max_norm(evaluator.constant_force()));
-    if (force == 0) continue;
-    least = std::min(least, log2_of(force));
-    greatest = std::max(greatest, log2_of(force));
+    if (size == 0) continue;
+    least = std::min(least, log2_of(size));
+    greatest = std::max(greatest, log2_of(size));
   }
   return greatest > least ? greatest - least : 0;
 }

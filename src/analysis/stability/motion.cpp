@@ -39,10 +39,7 @@ class Recorder final : public Observer<S> {
 
   void observe(const Snapshot<S>& snapshot) override {
     problem_.mass.velocity(lanes(snapshot.p), lanes(v_));
-    if (potential_.has_varying_force())
-      potential_.varying_force(lanes(snapshot.q), force_);
-    else
-      force_.setZero();
+    potential_.force(lanes(snapshot.q), force_);
     reaction_.setZero();
     gradient_.update(lanes(snapshot.q));
     gradient_.add_times(snapshot.lambda.transpose(), lanes(reaction_));
@@ -50,7 +47,7 @@ class Recorder final : public Observer<S> {
       raise_magnitude(q_size_[i], snapshot.q[i]);
       raise_magnitude(q_size_[i], S(h_ * v_[i]));
       raise_magnitude(p_size_[i], snapshot.p[i]);
-      raise_magnitude(p_size_[i], S(h_ * (force_(0, i) + potential_.constant_force()[i])));
+      raise_magnitude(p_size_[i], S(h_ * force_(0, i)));
       raise_magnitude(p_size_[i], S(h_ * reaction_[i]));
     }
     const long n = snapshot.n, before = std::max(0L, n - 1);

@@ -6,12 +6,6 @@
 
 namespace hbvm {
 
-const char* name_of(Op op) {
-  constexpr std::array<const char*, op_count> names{"add",    "subtract", "multiply", "negate", "abs", "sign",
-                                                    "divide", "sqrt",     "sin",      "cos",    "exp", "log"};
-  return names[static_cast<std::size_t>(op)];
-}
-
 namespace {
 
 template <Scalar S>
@@ -121,7 +115,7 @@ void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs) 
   for (const Instruction& i : instructions_) {
     S* const r = registers.data() + lanes * i.result;
     const S* const a = address(i.a);
-    if (i.op > Op::multiply) {
+    if (!is_binary(i.op)) {
       if (i.op == Op::reciprocal) {
         for (Index lane = 0; lane < lanes; ++lane) apply(Op::reciprocal, r[lane], a[lane]);
       } else if (i.op == Op::sqrt) {

@@ -28,7 +28,7 @@ template <Scalar S>
 typename Trace<S>::Id Trace<S>::operation(Op op, Id a, Id b, int degree) {
   const auto key = std::tuple(static_cast<int>(Kind::operation), static_cast<int>(op), a, b);
   if (const auto found = known_.find(key); found != known_.end()) return found->second;
-  const bool varies = nodes_[a].varies || (op <= Op::multiply && nodes_[b].varies);
+  const bool varies = nodes_[a].varies || (is_binary(op) && nodes_[b].varies);
   nodes_.push_back({Kind::operation, op, a, b, S(0), degree, varies});
   return known_[key] = nodes_.size() - 1;
 }
@@ -188,7 +188,7 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
   for (Id i = nodes_.size(); i-- > 0;) {
     if (!needed[i] || nodes_[i].kind != Kind::operation || !nodes_[i].varies) continue;
     need(nodes_[i].a);
-    if (nodes_[i].op <= Op::multiply) need(nodes_[i].b);
+    if (is_binary(nodes_[i].op)) need(nodes_[i].b);
   }
 
   Compiled result;
@@ -200,7 +200,7 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
   for (Id i = 0; i < nodes_.size(); ++i) {
     if (nodes_[i].kind != Kind::operation) continue;
     calls[i] = calls[nodes_[i].a] + (nodes_[i].op > Op::sqrt ? 1 : 0);
-    if (nodes_[i].op <= Op::multiply) calls[i] = std::max(calls[i], calls[nodes_[i].b]);
+    if (is_binary(nodes_[i].op)) calls[i] = std::max(calls[i], calls[nodes_[i].b]);
   }
   std::vector<Id> order(nodes_.size());
   std::iota(order.begin(), order.end(), Id{0});
@@ -211,7 +211,7 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
   for (Id i = nodes_.size(); i-- > 0;) {
     if (!inside[i] || nodes_[i].kind != Kind::operation) continue;
     inside[nodes_[i].a] = true;
-    if (nodes_[i].op <= Op::multiply) inside[nodes_[i].b] = true;
+    if (is_binary(nodes_[i].op)) inside[nodes_[i].b] = true;
   }
   const auto emit = [&](const std::vector<bool>& wanted, bool varying, const std::vector<Id>& exits) {
     std::vector<S> constants;
@@ -222,7 +222,7 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
     for (const Id i : order) {
       if (!wanted[i] || nodes_[i].kind != Kind::operation || nodes_[i].varies != varying) continue;
       last_use[nodes_[i].a] = i;
-      if (nodes_[i].op <= Op::multiply) last_use[nodes_[i].b] = i;
+      if (is_binary(nodes_[i].op)) last_use[nodes_[i].b] = i;
     }
     for (const Id x : exits) last_use[x] = nodes_.size();
     std::vector<std::uint32_t> free_registers;
@@ -237,7 +237,7 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
     for (const Id i : order) {
       const Node& node = nodes_[i];
       if (!wanted[i] || node.kind != Kind::operation || node.varies != varying) continue;
-      const bool two = node.op <= Op::multiply;
+      const bool two = is_binary(node.op);
       const bool negation = node.op == Op::multiply && is_constant(node.a, -1);
       const Operand a = operand(negation ? node.b : node.a);
       const Operand b = two && !negation ? operand(node.b) : Operand{};

@@ -17,7 +17,7 @@ Verdict judged(Form form, double predicted, double measured, double uncertainty)
   Claim claim;
   claim.form = form;
   claim.predicted = predicted;
-  return judge(claim, Rate{measured, uncertainty, 4, 4});
+  return judge(claim, Rate{measured, uncertainty, 4});
 }
 
 TEST(Judge, IntervalsThatHoldTheWholeRateHold) {

@@ -45,12 +45,11 @@ TEST(ConvergenceRate, StepsNeedNotBeHalved) {
   EXPECT_EQ(found->halvings, 7);
 }
 
-TEST(ConvergenceRate, TellsHalvingsAndDecadesOfTheRungsUsed) {
+TEST(ConvergenceRate, TellsHalvingsOfTheRungsUsed) {
   // Five of nine rungs are used.
   const auto found = convergence_rate(ladder(9, power_law(6)));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->halvings, 4);
-  EXPECT_NEAR(found->decades, 24 * std::log10(2), 64 * ulp);
 }
 
 TEST(ConvergenceRate, NeedsFiveCleanRungs) {
@@ -210,7 +209,6 @@ TEST(ConvergenceRate, GrowingErrorsHaveNegativeRates) {
   const auto found = convergence_rate(ladder(5, power_law(-1)));
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->value, -1, 64 * ulp);
-  EXPECT_LT(found->decades, 0);
 }
 
 }  // namespace

@@ -18,7 +18,6 @@ struct Rung {
 struct Rate {
   double value = 0, uncertainty = 0;
   double halvings = 0;  ///< of the step, between the first and the last rung used
-  double decades = 0;   ///< of the error, likewise
 };
 
 /// The rate that the slopes between five clean rungs in a row tend to, with what the higher terms may still change
