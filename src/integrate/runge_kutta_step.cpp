@@ -55,21 +55,50 @@ RungeKuttaStep<S>::RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>
   if (problem.nu() > 0) throw InputError("a Runge-Kutta method takes no constraints, and the problem has some");
   const Index s = method.b.size();
   if (s < 1 || A_.rows() != s || A_.cols() != s) throw InputError("A must have as many rows and columns as b entries");
+  describe_parts();
 }
 
 template <Scalar S>
-void RungeKuttaStep<S>::force(Lanes<const S> q, Matrix<S>& force) {
-  if (potential_.has_varying_force())
-    potential_.varying_force(q, force);
+void RungeKuttaStep<S>::describe_parts() {
+  const Index s = b_.cols(), m = problem_.m(), used = (A_.array() != 0).count();
+  parts_ = {{"stages"}, {"sums over stages"}};
+  OperationCounts& stage = parts_[stages].per_call;
+  stage = static_cast<std::uint64_t>(s) * problem_.mass.operations();
+  stage.add(Op::multiply, 2 * m * s);
+  stage.add(Op::add, 3 * m * s);  // the constant force is one
+  if (explicit_)
+    stage.add_products(2 * m * used);
   else
-    for (Index n = 0; n < force.size(); ++n) set_zero(force.data()[n]);
-  const Vector<S>& constant = potential_.constant_force();
-  for (Index j = 0; j < force.cols(); ++j)
-    for (Index i = 0; i < force.rows(); ++i) set_sum(force(i, j), force(i, j), constant[j]);
+    stage.add_dots(2 * m * s, s);
+  parts_[sums].per_call.add_dots(2 * m, s);
+  parts_[sums].per_call.add(Op::multiply, 2 * m);
+  parts_[sums].per_call.add(Op::add, 2 * m);
+}
+
+template <Scalar S>
+SolverCounts RungeKuttaStep<S>::counts() const {
+  SolverCounts sum = earlier_;
+  add_counts(sum, {potential_.counts(), parts_}, problem_);
+  return sum;
+}
+
+template <Scalar S>
+void RungeKuttaStep<S>::measure_time() {
+  timed_ = true;
+  potential_.measure_time();
+}
+
+template <Scalar S>
+void RungeKuttaStep<S>::remember(Archive& archive) {
+  archive(extrapolation_);
+  SolverCounts sum = counts();
+  archive(sum);
+  if (archive.reading()) earlier_ = std::move(sum);
 }
 
 template <Scalar S>
 void RungeKuttaStep<S>::stages_in_turn(const State<S>& state) {
+  const PartCall counted = call(stages);
   const Index s = A_.rows(), m = problem_.m();
   const auto stage = [&](Index i, const Vector<S>& base, const Matrix<S>& slopes, Vector<S>& x) {
     for (Index j = 0; j < m; ++j) {
@@ -84,7 +113,7 @@ void RungeKuttaStep<S>::stages_in_turn(const State<S>& state) {
     stage(i, state.q, V_, q_);
     stage(i, state.p, F_, p_);
     problem_.mass.velocity(lanes(std::as_const(p_)), lanes(v_));
-    force(lanes(std::as_const(q_)), force_);
+    potential_.force(lanes(std::as_const(q_)), force_);
     for (Index j = 0; j < m; ++j) {
       set(V_(i, j), v_[j]);
       set(F_(i, j), force_(0, j));
@@ -117,10 +146,11 @@ long RungeKuttaStep<S>::solve(const State<S>& state) {
 
 template <Scalar S>
 void RungeKuttaStep<S>::sweep(const State<S>& state) {
+  const PartCall counted = call(stages);
   problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
   product(Q_, A_, V_);
   scale_and_shift(Q_, h_, state.q);
-  force(lanes(std::as_const(Q_)), F_);
+  potential_.force(lanes(std::as_const(Q_)), F_);
   P_.swap(P_before_);
   product(P_, A_, F_);
   scale_and_shift(P_, h_, state.p);
@@ -150,6 +180,7 @@ long RungeKuttaStep<S>::iterate(const State<S>& state) {
 
 template <Scalar S>
 void RungeKuttaStep<S>::update(State<S>& state, long sweeps) {
+  const PartCall counted = call(sums);
   product(position_change_, b_, V_);
   product(momentum_change_, b_, F_);
   for (Matrix<S>* change : {&position_change_, &momentum_change_}) {

@@ -1,6 +1,5 @@
 #include "hbvm/solver/stage_equations.hpp"
 
-#include "hbvm/clock.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
@@ -54,25 +53,6 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
     if (potential_.constant_force()[j] != 0) pulled_.push_back(j);
   describe_parts();
 }
-
-template <Scalar S>
-class StageEquations<S>::Call {
- public:
-  Call(StageEquations& equations, Part part)
-      : part_(equations.parts_[part]), timed_(equations.timed_), before_(timed_ ? elapsed_seconds() : 0) {
-    ++part_.calls;
-  }
-  ~Call() {
-    if (timed_) part_.seconds += elapsed_seconds() - before_;
-  }
-  Call(const Call&) = delete;
-  Call& operator=(const Call&) = delete;
-
- private:
-  PartCount& part_;
-  bool timed_;
-  double before_;
-};
 
 template <Scalar S>
 void StageEquations<S>::measure_time() {
@@ -146,7 +126,7 @@ void StageEquations<S>::start(const StepStart<S>& start) {
 
 template <Scalar S>
 void StageEquations<S>::move(const Matrix<S>& gamma) {
-  const Call call(*this, velocities);
+  const PartCall counted = call(velocities);
   problem_.mass.velocity(lanes(gamma), lanes(velocity_));
   for (Index i = 0; i < velocity_.size(); ++i) set_product(h_velocity_.data()[i], h_, velocity_.data()[i]);
   for (Index j = 0; j < middle_.size(); ++j) {
@@ -168,12 +148,12 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
   if (potential_.has_varying_force()) {
     Matrix<S>& u = method_.k == method_.s ? u_ : u_hat_;
     {
-      const Call call(*this, quadrature_nodes);
+      const PartCall counted = call(quadrature_nodes);
       positions(I_hat_centred_, u);
     }
     potential_.varying_force(lanes(u), force_);
   }
-  const Call call(*this, projection);
+  const PartCall counted = call(projection);
   if (potential_.has_varying_force())
     product(psi, method_.projection_hat, force_);
   else
@@ -190,10 +170,10 @@ template <Scalar S>
 void StageEquations<S>::move_constraints() {
   // For k = s the nodes of the forces, just computed, are the constraints'.
   if (method_.k != method_.s || !potential_.has_varying_force()) {
-    const Call call(*this, constraint_nodes);
+    const PartCall counted = call(constraint_nodes);
     positions(I_centred_, u_);
   }
-  const Call call(*this, gradients);
+  const PartCall counted = call(gradients);
   gradient_.update(lanes(u_));
 }
 
@@ -206,14 +186,14 @@ bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Mat
   project_multipliers(lambda, zeta);
   const auto first = [&](Index a) { return order_.position[static_cast<std::size_t>(a)] * s; };
   {
-    const Call call(*this, right_hand_side);
+    const PartCall counted = call(right_hand_side);
     set_momenta(psi, zeta, stage_);
     problem_.mass.velocity(lanes(std::as_const(stage_)), lanes(velocity_));
     hidden_constraints(velocity_, [&](Index a) { return &rhs_[first(a)]; });
     for (Index i = 0; i < rhs_.size(); ++i) set_quotient(rhs_[i], rhs_[i], h_);
   }
   {
-    const Call call(*this, solution);
+    const PartCall counted = call(solution);
     system_.solve(rhs_);
     for (Index a = 0; a < nu; ++a)
       for (Index i = 0; i < s; ++i) set_sum(lambda(i, a), lambda(i, a), rhs_[first(a) + i]);
@@ -224,7 +204,7 @@ bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Mat
 
 template <Scalar S>
 void StageEquations<S>::project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta) {
-  const Call call(*this, zetas);
+  const PartCall counted = call(zetas);
   for (Index i = 0; i < w_.size(); ++i) set_zero(w_.data()[i]);
   gradient_.add_times(lambda, lanes(w_));
   product(zeta, method_.projection, w_);
@@ -236,7 +216,7 @@ bool StageEquations<S>::factor_matrix() {
   const Index s = method_.s;
   const auto first = [&](Index a) { return order_.position[static_cast<std::size_t>(a)] * s; };
   {
-    const Call call(*this, matrix);
+    const PartCall counted = call(matrix);
     system_.set_zero();
     for (const auto& pair : gradient_.couplings()) {
       gradient_.coupling(pair, gradient_, coupling_.data());
@@ -245,7 +225,7 @@ bool StageEquations<S>::factor_matrix() {
           set_product(system_.entry(first(pair.a) + i, first(pair.b) + j), coupling_(i, j), method_.A(i, j));
     }
   }
-  const Call call(*this, factors);
+  const PartCall counted = call(factors);
   return system_.factor();
 }
 
@@ -283,7 +263,7 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& r) {
     project_multipliers(x.lambda, x.zeta);
   }
   momenta(x.psi, x.zeta, r.momentum);
-  const Call call(*this, constraint_residual);
+  const PartCall counted = call(constraint_residual);
   for (Index i = 0; i < r.momentum.size(); ++i)
     set_difference(r.momentum.data()[i], x.gamma.data()[i], r.momentum.data()[i]);
   if (!constrained) return;
@@ -292,7 +272,7 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& r) {
 
 template <Scalar S>
 void StageEquations<S>::momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
-  const Call call(*this, gammas);
+  const PartCall counted = call(gammas);
   set_momenta(psi, zeta, gamma);
 }
 

@@ -101,6 +101,89 @@ TYPED_TEST(RattleTest, WithoutConstraintsIsLeapfrog) {
   EXPECT_LE(max_norm(Vector<S>(state.p - p)), 16 * epsilon<S>());
 }
 
+/// mu of the end of a step is the multiplier there to first order.
+TYPED_TEST(RattleTest, MultiplierIsThatOfTheEnd) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  Point<S> point(scene.problem);
+  S last = 0;
+  for (const long steps : {64L, 128L, 256L}) {
+    Rattle<S> rattle(scene.problem, S(S(1) / S(steps)));
+    State<S> state(scene.q0, scene.p0);
+    for (long n = 0; n < steps; ++n) rattle.step(state);
+    const S error = max_norm(Vector<S>(rattle.multiplier() - point.multiplier(state.q, state.p)));
+    if (last != 0) {
+      EXPECT_GE(approximately(S(last / error)), 1.9);
+      EXPECT_LE(approximately(S(last / error)), 2.1);
+    }
+    last = error;
+  }
+}
+
+TYPED_TEST(RattleTest, GoesOnFromWhatItRemembers) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("tethered_satellites"));
+  const S h = S(1) / 8;
+  Rattle<S> rattle(scene.problem, h), later(scene.problem, h);
+  State<S> state(scene.q0, scene.p0);
+  for (int n = 0; n < 5; ++n) rattle.step(state);
+  Archive archive;
+  rattle.remember(archive);
+  Archive read(archive.text());
+  later.remember(read);
+  EXPECT_EQ(later.multiplier(), rattle.multiplier());
+  State<S> resumed = state;
+  for (int n = 0; n < 5; ++n) {
+    rattle.step(state);
+    later.step(resumed);
+  }
+  EXPECT_EQ(resumed.q, state.q);
+  EXPECT_EQ(resumed.p, state.p);
+  EXPECT_EQ(later.multiplier(), rattle.multiplier());
+}
+
+/// What serves the next step is that of the state it starts from, whoever put it there.
+TYPED_TEST(RattleTest, TakesAStateThatItDidNotMake) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("kepler"));
+  const S h = S(1) / 64;
+  Rattle<S> used(scene.problem, h);
+  State<S> elsewhere(Vector<S>(scene.q0 + scene.p0), scene.p0), state(scene.q0, scene.p0);
+  used.step(elsewhere);
+  used.step(state);
+  const State<S> expected = this->after(scene, h, 1);
+  EXPECT_EQ(state.q, expected.q);
+  EXPECT_EQ(state.p, expected.p);
+}
+
+TEST(Rattle, CountsWhatItDid) {
+  const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
+  Rattle<double> rattle(scene.problem, 0.01);
+  State<double> state(scene.q0, scene.p0);
+  long iterations = 0;
+  for (int n = 0; n < 10; ++n) iterations += rattle.step(state);
+  const auto calls = [&](const std::string& name) {
+    for (const PartCount& part : rattle.counts().parts)
+      if (part.name == name) return static_cast<long>(part.calls);
+    return -1L;
+  };
+  EXPECT_EQ(calls("half kicks and drift"), 10);
+  EXPECT_EQ(calls("positions"), iterations + 10);
+  EXPECT_EQ(calls("constraint gradients"), iterations + 10 + 1);
+  EXPECT_EQ(calls("matrix of multipliers"), iterations + 10);
+  EXPECT_EQ(calls("tangential momenta"), 10);
+}
+
+TEST(Rattle, FailsWhereAForceIsNotFiniteAndThenGoesOn) {
+  const Assembled<double> scene = assemble<double>(load_scene("kepler"));
+  Rattle<double> rattle(scene.problem, 0.1);
+  State<double> centre(Vector<double>::Zero(2), Vector<double>::Zero(2)), state(scene.q0, scene.p0);
+  EXPECT_THROW(rattle.step(centre), StageFailure);
+  EXPECT_EQ(centre.q, (Vector<double>(Vector<double>::Zero(2))));
+  rattle.step(state);
+  EXPECT_TRUE(state.q.allFinite());
+}
+
 TEST(Rattle, SaysSoWhereItFindsNoPositions) {
   const Assembled<double> scene = assemble<double>(load_scene("swinging_pendulum"));
   Rattle<double> rattle(scene.problem, 5.0);

@@ -198,6 +198,26 @@ TEST_F(RungeKuttaSum, OfPositionsLosesNothingOverManySmallSteps) {
   }
 }
 
+TYPED_TEST(RungeKuttaStepTest, GoesOnFromWhatItRemembers) {
+  using S = TypeParam;
+  const S h = S(1) / 16;
+  const RungeKutta<S> method = gauss<S>(2);
+  RungeKuttaStep<S> step(this->kepler.problem, method, h), later(this->kepler.problem, method, h);
+  State<S> state(this->kepler.q0, this->kepler.p0);
+  for (int n = 0; n < 9; ++n) step.step(state);
+  Archive archive;
+  step.remember(archive);
+  Archive read(archive.text());
+  later.remember(read);
+  State<S> resumed = state;
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(later.step(resumed), step.step(state));
+  EXPECT_EQ(resumed.q, state.q);
+  EXPECT_EQ(resumed.p_carry, state.p_carry);
+  ASSERT_EQ(later.counts().parts.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(later.counts().parts[i].calls, step.counts().parts[i].calls);
+  EXPECT_EQ(step.counts().parts[1].calls, 12u);
+}
+
 TYPED_TEST(RungeKuttaStepTest, RefusesConstraintsAndShapes) {
   using S = TypeParam;
   const Assembled<S> pendulum = assemble<S>(load_scene("double_pendulum"));

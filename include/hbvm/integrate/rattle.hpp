@@ -5,7 +5,7 @@
 
 namespace hbvm {
 
-/// RATTLE (Andersen 1983), the symplectic method of order 2 for constrained systems, as the yardstick of cost:
+/// RATTLE (Andersen 1983), the symplectic method of order 2 for constrained systems:
 ///
 ///     p_1/2 = p_0 + h/2 (grad U(q_0) - grad g(q_0) lambda),   q_1 = q_0 + h M^-1 p_1/2,   g(q_1) = 0,
 ///     p_1   = p_1/2 + h/2 (grad U(q_1) - grad g(q_1) mu),     grad g(q_1)^T M^-1 p_1 = 0.
@@ -13,18 +13,43 @@ namespace hbvm {
 /// lambda is found by Newton's iteration to round-off from that of the last step, mu by a linear solve. The force at
 /// the end of a step serves the next one.
 template <Scalar S>
-class Rattle {
+class Rattle final : public Stepper<S> {
  public:
+  /// The problem must outlive it.
   Rattle(const Problem<S>& problem, const S& step);
+
+  const Problem<S>& problem() const override { return problem_; }
 
   /// \return Newton iterations for the positions
   /// \throws StageFailure if they do not converge; the state is then as it was
-  long step(State<S>& state);
+  long step(State<S>& state) override;
+
+  /// mu of the last step.
+  const Vector<S>& multiplier() const override { return multiplier_; }
+  SolverCounts counts() const override;
+  void measure_time() override;
+  void remember(Archive& archive) override;
 
  private:
+  enum Part { kicks, shifts, gradients, matrix, factors, solution, tangential };
+  PartCall call(Part part) { return {parts_[part], timed_}; }
+  void describe_parts();
+
+  /// Force and gradients at the state, unless they are there.
+  void arrive(const Vector<S>& q);
+  /// p_ = p_0 + h/2 grad U(q_0) and free_ = q_0 + h M^-1 p_, where q_1 were without constraints.
+  void kick_and_drift(const State<S>& state);
+  /// lambda_ and q_ = q_1, and the gradients there. \return iterations
+  long find_positions();
+  /// p_ += h/2 (grad U(q_1) - grad g(q_0) lambda).
+  void kick_back();
+  /// p_ -= grad g(q_1) h/2 mu, which is found so that the velocity is tangential.
+  void project(long iterations);
+
   /// x = (left^T M^-1 right)^-1 x. \return false if that is singular
   bool solve(ConstraintGradient<S>& left, const ConstraintGradient<S>& right, Matrix<S>& x);
-  void force(const Vector<S>& q);
+  ConstraintGradient<S>& before() { return gradients_[now_]; }
+  ConstraintGradient<S>& after() { return gradients_[1 - now_]; }
 
   const Problem<S>& problem_;
   S h_, half_;
@@ -34,8 +59,11 @@ class Rattle {
   Ordering order_;
   Lu<S> system_;
   Matrix<S> force_, lambda_, mu_, g_;  // 1 x m and 1 x nu
-  Vector<S> free_, q_, p_, v_, x_;
-  bool started_ = false;
+  Vector<S> free_, q_, p_, v_, x_, multiplier_;
+  Vector<S> arrived_;  ///< where force_ and before() are
+  bool started_ = false, timed_ = false;
+  std::vector<PartCount> parts_;
+  SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
 #define HBVM_DECLARE(S) extern template class Rattle<S>;

@@ -19,20 +19,30 @@ namespace hbvm {
 ///
 /// StoppingRule says when the iteration ends, from the change of P; it fails as FixedPoint does.
 template <Scalar S>
-class RungeKuttaStep {
+class RungeKuttaStep final : public Stepper<S> {
  public:
   /// The problem must outlive it.
   /// \throws InputError if the problem has constraints, or A is not s x s
   RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>& method, const S& step);
 
+  const Problem<S>& problem() const override { return problem_; }
   bool is_explicit() const { return explicit_; }
 
   /// \return sweeps over the stages: 1 if the method is explicit
   /// \throws StageFailure if the iteration fails or anything is not finite; the state is then as it was
-  long step(State<S>& state);
+  long step(State<S>& state) override;
+
+  /// Of no constraint.
+  const Vector<S>& multiplier() const override { return multiplier_; }
+  SolverCounts counts() const override;
+  void measure_time() override;
+  void remember(Archive& archive) override;
 
  private:
-  void force(Lanes<const S> q, Matrix<S>& force);
+  enum Part { stages, sums };
+  PartCall call(Part part) { return {parts_[part], timed_}; }
+  void describe_parts();
+
   void stages_in_turn(const State<S>& state);
   long solve(const State<S>& state);
   long iterate(const State<S>& state);
@@ -53,6 +63,10 @@ class RungeKuttaStep {
   Vector<S> positions_;
   StoppingRule<S> rule_;
   S size_ = 0, s_ = 0, t_ = 0;  // kept: creating them allocates
+  Vector<S> multiplier_;        // empty
+  std::vector<PartCount> parts_;
+  bool timed_ = false;
+  SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
 #define HBVM_DECLARE(S) extern template class RungeKuttaStep<S>;

@@ -6,6 +6,7 @@
 #include "hbvm/linear/ordering.hpp"
 #include "hbvm/method/hbvm.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"
+#include "hbvm/solver/part_count.hpp"
 
 namespace hbvm {
 
@@ -28,23 +29,13 @@ struct StageResidual {
 };
 
 /// What a step adds, by (q1p1new): q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), which is p + p_rest. The
-/// rest is what rounding of the sum takes from a constant force: the same bits wherever the constraints' force beside it
-/// is of one binade. Without it that would be a small force of its own, under which H drifts. Newton's last correction,
-/// too small for p, is in it as well.
+/// rest is what rounding of the sum takes from a constant force: the same bits wherever the constraints' force beside
+/// it is of one binade. Without it that would be a small force of its own, under which H drifts. Newton's last
+/// correction, too small for p, is in it as well.
 template <Scalar S>
 struct StepChange {
   Vector<S> q, p, p_rest;
   explicit StepChange(Index m) : q(m), p(m), p_rest(Vector<S>::Zero(m)) {}
-};
-
-/// One part of the stage equations: how often it ran, what one call costs, and, if measured, the time it took.
-struct PartCount {
-  std::string name{};
-  std::uint64_t calls = 0;
-  OperationCounts per_call{};
-  double seconds = 0;
-
-  void remember(Archive& archive) { archive(name, calls, per_call, seconds); }
 };
 
 /// Where a step starts: q0 and p0, and what rounding took from them in the steps before, if it is known. Then the step
@@ -123,8 +114,7 @@ class StageEquations {
     gammas,
     constraint_residual
   };
-  /// Counts a call of a part for as long as it lives.
-  class Call;
+  PartCall call(Part part) { return {parts_[part], timed_}; }
   void describe_parts();
 
   void positions(const Matrix<S>& integrals, Matrix<S>& u);
@@ -161,7 +151,7 @@ class StageEquations {
   Matrix<S> u_, w_, stage_;              // s x m
   Matrix<S> coupling_;                   // s x s
   Vector<S> rhs_;                        // s nu
-  S half_, h_half_, rest_, t_, x_, y_;  // the last three are scratch
+  S half_, h_half_, rest_, t_, x_, y_;   // the last three are scratch
   std::vector<PartCount> parts_;
   bool timed_ = false;
 };

@@ -63,15 +63,15 @@ void Trial<S>::begin(const Laboratory::Start& start, const Mpfr& h) {
   const S step = rounded_to<S>(raw(h));
   state_.emplace(rounded<S>(start.q), rounded<S>(start.p));
   if (method_)
-    stepper_.emplace(assembled_.problem, *method_, step, solver_);
+    stepper_ = std::make_unique<HbvmStepper<S>>(assembled_.problem, *method_, step, solver_);
   else
-    runge_kutta_step_.emplace(assembled_.problem, *runge_kutta_, step);
+    stepper_ = std::make_unique<RungeKuttaStep<S>>(assembled_.problem, *runge_kutta_, step);
 }
 
 template <Scalar S>
 long Trial<S>::step() {
   const PrecisionScope working(digits_);
-  return stepper_ ? stepper_->step(*state_) : runge_kutta_step_->step(*state_);
+  return stepper_->step(*state_);
 }
 
 template <Scalar S>
@@ -91,12 +91,12 @@ void Trial<S>::state(Vector<Mpfr>& q, Vector<Mpfr>& p) const {
 
 template <Scalar S>
 void Trial<S>::multiplier(Vector<Mpfr>& lambda) const {
-  if (stepper_) copy_exactly(lambda, stepper_->multiplier());
+  copy_exactly(lambda, stepper_->multiplier());
 }
 
 template <Scalar S>
 void Trial<S>::unknowns(Matrix<Mpfr>* gamma, Matrix<Mpfr>* lambda) {
-  const StageUnknowns<S>& x = stepper_->solver().unknowns();
+  const StageUnknowns<S>& x = *stepper_->unknowns();
   if (gamma) copy_exactly(*gamma, x.gamma);
   if (lambda) copy_exactly(*lambda, x.lambda);
 }

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -76,8 +77,7 @@ class Trial {
   Assembled<S> assembled_;
   std::optional<Hbvm<S>> method_;
   std::optional<RungeKutta<S>> runge_kutta_;
-  std::optional<HbvmStepper<S>> stepper_;
-  std::optional<RungeKuttaStep<S>> runge_kutta_step_;
+  std::unique_ptr<Stepper<S>> stepper_;
   std::optional<State<S>> state_;
 };
 

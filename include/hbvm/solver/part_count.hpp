@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "hbvm/clock.hpp"
+#include "hbvm/linear/operation_counts.hpp"
+#include "hbvm/scalar/archive.hpp"
+
+namespace hbvm {
+
+/// One part of what a step consists of: how often it ran, what one call costs, and, if measured, the time it took.
+struct PartCount {
+  std::string name{};
+  std::uint64_t calls = 0;
+  OperationCounts per_call{};
+  double seconds = 0;
+
+  void remember(Archive& archive) { archive(name, calls, per_call, seconds); }
+};
+
+/// Counts a call of a part, and measures it if asked to, for as long as it lives.
+class PartCall {
+ public:
+  PartCall(PartCount& part, bool timed) : part_(part), timed_(timed), before_(timed ? elapsed_seconds() : 0) {
+    ++part_.calls;
+  }
+  ~PartCall() {
+    if (timed_) part_.seconds += elapsed_seconds() - before_;
+  }
+  PartCall(const PartCall&) = delete;
+  PartCall& operator=(const PartCall&) = delete;
+
+ private:
+  PartCount& part_;
+  bool timed_;
+  double before_;
+};
+
+}  // namespace hbvm
