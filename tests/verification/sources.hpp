@@ -23,8 +23,8 @@ inline std::vector<Source> sources() {
   for (const char* root : {"include/hbvm", "src"}) {
     const fs::path base = fs::path(HBVM_SOURCE_DIR) / root;
     for (const auto& entry : fs::recursive_directory_iterator(base)) {
-      const std::string extension = entry.path().extension().string();
-      if (extension != ".hpp" && extension != ".cpp" && extension != ".in") continue;
+      const std::string name = entry.path().filename().string();
+      if (!name.ends_with(".hpp") && !name.ends_with(".cpp") && !name.ends_with(".cpp.in")) continue;
       const fs::path relative = fs::relative(entry.path(), base);
       std::ifstream file(entry.path());
       std::ostringstream text;

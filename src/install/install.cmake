@@ -1,0 +1,37 @@
+# Headers, library, package files for CMake and pkg-config, and the program with its manual pages.
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hbvm)
+set(made ${CMAKE_CURRENT_BINARY_DIR}/install)
+
+install(TARGETS hbvm EXPORT hbvmTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/hbvm DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT hbvmTargets NAMESPACE hbvm:: DESTINATION ${package_folder})
+configure_package_config_file(src/install/hbvmConfig.cmake.in ${made}/hbvmConfig.cmake
+                              INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${made}/hbvmConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${made}/hbvmConfig.cmake ${made}/hbvmConfigVersion.cmake DESTINATION ${package_folder})
+configure_file(src/install/hbvm.pc.in ${made}/hbvm.pc @ONLY)
+install(FILES ${made}/hbvm.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+if(HBVM_PROGRAM)
+  install(TARGETS hbvm_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  find_program(HELP2MAN help2man)
+  if(HELP2MAN)
+    # A page of the program and one of each command, from what --help says.
+    set(pages "")
+    foreach(command "" run nodes scenes scene study audit stability)
+      string(JOIN "-" page hbvm ${command})
+      set(about "energy-conserving integration of constrained mechanics")
+      if(command)
+        set(about "the command ${command} of hbvm")
+      endif()
+      add_custom_command(OUTPUT ${made}/${page}.1
+                         COMMAND ${HELP2MAN} --no-info --no-discard-stderr --version-string=${PROJECT_VERSION}
+                                 --name=${about} --output=${made}/${page}.1 "./$<TARGET_FILE_NAME:hbvm_program> ${command}"
+                         WORKING_DIRECTORY $<TARGET_FILE_DIR:hbvm_program> DEPENDS hbvm_program VERBATIM)
+      list(APPEND pages ${made}/${page}.1)
+    endforeach()
+    add_custom_target(hbvm_manual ALL DEPENDS ${pages})
+    install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  endif()
+endif()

@@ -1,0 +1,44 @@
+# Builds the README's example in a folder of its own (WORK) by one ROUTE to the library:
+#   find_package      installed from BUILD, found by CMake
+#   pkg_config        installed from BUILD, found by pkg-config
+#   add_subdirectory  the SOURCE as a part of the project: the example is compiled against it; the library itself would
+#                     be compiled once more, unless WHOLE is set
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+file(COPY ${SOURCE}/tests/install/CMakeLists.txt DESTINATION ${WORK}/project)
+configure_file(${SOURCE}/tests/verification/readme_example.cpp ${WORK}/project/example.cpp COPYONLY)
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output COMMAND_ECHO STDOUT)
+  message("${output}")
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+if(ROUTE STREQUAL add_subdirectory)
+  run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/project -B ${WORK}/build -DHBVM_SOURCE=${SOURCE} -DCMAKE_CXX_COMPILER=${CXX})
+  if(NOT WHOLE)
+    run(${CMAKE_COMMAND} --build ${WORK}/build --target CMakeFiles/example.dir/example.cpp.o)
+    return()
+  endif()
+else()
+  run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+  file(GLOB_RECURSE package ${WORK}/installed/*.pc)
+  cmake_path(GET package PARENT_PATH package_folder)
+endif()
+if(ROUTE STREQUAL pkg_config)
+  run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${package_folder} pkg-config --define-prefix --cflags --libs hbvm)
+  separate_arguments(flags UNIX_COMMAND "${output}")
+  file(MAKE_DIRECTORY ${WORK}/build)
+  run(${CXX} ${WORK}/project/example.cpp -o ${WORK}/build/example ${flags})
+else()
+  if(ROUTE STREQUAL find_package)
+    run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/project -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/installed
+        -DCMAKE_CXX_COMPILER=${CXX})
+  endif()
+  run(${CMAKE_COMMAND} --build ${WORK}/build --target example)
+endif()
+
+run(${WORK}/build/example)
+if(NOT output MATCHES "energy error [0-9.]+e-1[0-9]\n")
+  message(FATAL_ERROR "the example printed '${output}'")
+endif()
