@@ -1,5 +1,6 @@
 #include "hbvm/integrate/rattle.hpp"
 
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "hbvm/scalar/text.hpp"
 
@@ -132,8 +133,8 @@ long Rattle<S>::find_positions() {
   for (bool found = nu == 0;;) {
     {
       const PartCall counted = call(shifts);
-      for (Index a = 0; a < nu; ++a) set_product(mu_.data()[a], factor, lambda_.data()[a]);
-      for (Index j = 0; j < m; ++j) set(q_[j], free_[j]);
+      set_product(mu_, factor, lambda_);
+      set(q_, free_);
       before().add_weighted_times(mu_, lanes(q_));
     }
     {
@@ -141,7 +142,7 @@ long Rattle<S>::find_positions() {
       after().update(lanes(std::as_const(q_)), g_);
     }
     if (found) return iterations;
-    for (Index a = 0; a < nu; ++a) set(mu_.data()[a], g_.data()[a]);
+    set(mu_, g_);
     if (!solve(after(), before(), mu_) || ++iterations > max_iterations)
       throw StageFailure(FailureCause::stage_equations_diverge, "the positions of a RATTLE step were not found",
                          to_scientific(increment, 3), iterations);
@@ -212,7 +213,7 @@ long Rattle<S>::step(State<S>& state) {
     lambda_.setZero();
     throw;
   }
-  for (Index j = 0; j < q_.size(); ++j) set(arrived_[j], q_[j]);
+  set(arrived_, q_);
   state.q.swap(q_);
   state.p.swap(p_);
   now_ = 1 - now_;

@@ -1,6 +1,7 @@
 #include "hbvm/integrate/runge_kutta_step.hpp"
 
 #include "add_compensated.hpp"
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -184,7 +185,7 @@ void RungeKuttaStep<S>::update(State<S>& state, long sweeps) {
   product(position_change_, b_, V_);
   product(momentum_change_, b_, F_);
   for (Matrix<S>* change : {&position_change_, &momentum_change_}) {
-    for (Index j = 0; j < change->size(); ++j) set_product(change->data()[j], h_, change->data()[j]);
+    set_product(*change, h_, *change);
     set_max_norm(size_, *change);
     if (!is_finite(size_))
       throw StageFailure(FailureCause::stage_equations_diverge, "a stage is not finite", to_scientific(size_, 3),

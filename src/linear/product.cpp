@@ -1,5 +1,6 @@
 #include "hbvm/linear/product.hpp"
 
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "linear/mpfr_dot.hpp"
 
@@ -10,7 +11,7 @@ void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
   const Index rows = a.rows(), inner = a.cols(), columns = b.cols();
   if (c.rows() != rows || c.cols() != columns) c.resize(rows, columns);
   if (inner == 0) {
-    for (Index i = 0; i < c.size(); ++i) set_zero(c.data()[i]);
+    set_zero(c);
     return;
   }
   S& t = scratch<S>();
@@ -44,12 +45,17 @@ void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index
   S sum = 0, lost = 0, term, rest, next, t;
   for (Index i = 0; i < n; ++i) {
     const S& a = x[i * x_stride];
+    const S& b = y[i * y_stride];
     if (a == 0) continue;
-    set_exact_product(term, rest, a, y[i * y_stride]);
-    set_sum(lost, lost, rest);
-    set_exact_sum(next, rest, sum, term, t);
-    set_sum(lost, lost, rest);
-    std::swap(sum, next);
+    if constexpr (std::same_as<S, Quad>) {
+      add_product(sum, a, b, t);
+    } else {
+      set_exact_product(term, rest, a, b);
+      set_sum(lost, lost, rest);
+      set_exact_sum(next, rest, sum, term, t);
+      set_sum(lost, lost, rest);
+      std::swap(sum, next);
+    }
   }
   set_sum(r, sum, lost);
 }

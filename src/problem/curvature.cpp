@@ -1,5 +1,6 @@
 #include "hbvm/problem/curvature.hpp"
 
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -68,7 +69,7 @@ Curvature<S>::Curvature(const Problem<S>& problem, Index nodes) : dimension_(pro
 
 template <Scalar S>
 const Matrix<S>& Curvature<S>::potential(Lanes<const S> q) {
-  for (Index i = 0; i < values_.size(); ++i) set_zero(values_.data()[i]);
+  set_zero(values_);
   for (Term& term : terms_) {
     S* out = term.displacement.data();
     for (const auto& x : term.effect->displacements) {

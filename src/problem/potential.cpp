@@ -1,6 +1,7 @@
 #include "hbvm/problem/potential.hpp"
 
 #include "hbvm/clock.hpp"
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -96,7 +97,7 @@ void PotentialEvaluator<S>::values(Lanes<const S> q, Vector<S>& U) {
 template <Scalar S>
 void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
   if (force.rows() != lanes_ || force.cols() != potential_.m) force.resize(lanes_, potential_.m);
-  for (Index i = 0; i < force.size(); ++i) set_zero(force.data()[i]);
+  set_zero(force);
   for (std::size_t t = 0; t < potential_.terms.size(); ++t) {
     const EffectTerm<S>& term = potential_.terms[t];
     if (term.constant_force) continue;

@@ -1,5 +1,6 @@
 #include "hbvm/solver/fixed_point.hpp"
 
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -54,8 +55,7 @@ long FixedPoint<S>::solve(const StepStart<S>& start) {
 
 template <Scalar S>
 void FixedPoint<S>::prepare(Start start, const Vector<S>& p0) {
-  for (Matrix<S>* unknown : {&x_.gamma, &x_.psi, &x_.zeta, &x_.lambda})
-    for (Index i = 0; i < unknown->size(); ++i) set_zero(unknown->data()[i]);
+  for (Matrix<S>* unknown : {&x_.gamma, &x_.psi, &x_.zeta, &x_.lambda}) set_zero(*unknown);
   if (start == Start::constant)
     for (Index j = 0; j < x_.gamma.cols(); ++j) set(x_.gamma(0, j), p0[j]);
 }

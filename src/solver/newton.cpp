@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/solver/roundings.hpp"
@@ -136,10 +137,10 @@ template <Scalar S>
 long Newton<S>::solve_in_full(const StepStart<S>& start) {
   if (!full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_, h_);
   const long sweeps = full_->solve(start);
-  for (Index i = 0; i < x_.gamma.size(); ++i) set(x_.gamma.data()[i], full_->unknowns().gamma.data()[i]);
-  for (Index i = 0; i < x_.lambda.size(); ++i) set(x_.lambda.data()[i], full_->unknowns().lambda.data()[i]);
-  for (Index i = 0; i < x_.psi.size(); ++i) set(x_.psi.data()[i], full_->unknowns().psi.data()[i]);
-  for (Index i = 0; i < x_.zeta.size(); ++i) set(x_.zeta.data()[i], full_->unknowns().zeta.data()[i]);
+  set(x_.gamma, full_->unknowns().gamma);
+  set(x_.lambda, full_->unknowns().lambda);
+  set(x_.psi, full_->unknowns().psi);
+  set(x_.zeta, full_->unknowns().zeta);
   change_ = full_->change();
   return sweeps;
 }
@@ -173,13 +174,11 @@ bool Newton<S>::residual(long bits, long& exponent) {
     if (rung.bits < bits) continue;
     const PrecisionScope scope(rung.digits);
     Level& level = *rung.level;
-    for (Index j = 0; j < level.q0.size(); ++j) {
-      set(level.q0[j], equations_->q0()[j]);
-      set(level.p0[j], equations_->p0()[j]);
-    }
+    set(level.q0, equations_->q0());
+    set(level.p0, equations_->p0());
     level.equations.start(level.q0, level.p0);
-    for (Index i = 0; i < x_.gamma.size(); ++i) set(level.x.gamma.data()[i], x_.gamma.data()[i]);
-    for (Index i = 0; i < x_.lambda.size(); ++i) set(level.x.lambda.data()[i], x_.lambda.data()[i]);
+    set(level.x.gamma, x_.gamma);
+    set(level.x.lambda, x_.lambda);
     level.equations.residual(level.x, level.r);
     take_residual(level.r, exponent);
     return false;

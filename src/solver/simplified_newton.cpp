@@ -1,5 +1,6 @@
 #include "hbvm/solver/simplified_newton.hpp"
 
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -20,16 +21,6 @@ Vector<S> first_row_of_inverse(const Matrix<S>& X) {
   if (!lu.factor()) throw InputError("X_s is singular");
   lu.solve(row);
   return row;
-}
-
-template <class A, class B>
-void copy(A& to, const B& from) {
-  for (Index i = 0; i < from.size(); ++i) set(to.data()[i], from.data()[i]);
-}
-
-template <class A>
-void clear(A& a) {
-  for (Index i = 0; i < a.size(); ++i) set_zero(a.data()[i]);
 }
 
 }  // namespace
@@ -76,7 +67,7 @@ long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
       } else {
         prepare(start, from.p);
       }
-      copy(start_.gamma, x_.gamma);
+      set(start_.gamma, x_.gamma);
       sweeps += iterate(equations_, jacobian_, positions_);
       if (start == Start::shorter || start == Start::shortest) return true;
       keep_start_size(equations_);
@@ -90,7 +81,7 @@ long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
   };
   if (extrapolation_.empty() || !attempt(Start::previous))
     if (!attempt(Start::constant) && !attempt(Start::shorter)) attempt(Start::shortest);
-  copy(sequence_, x_.gamma);
+  set(sequence_, x_.gamma);
   for (Index i = 0; i < x_.lambda.size(); ++i) set(sequence_[x_.gamma.size() + i], x_.lambda.data()[i]);
   extrapolation_.add(sequence_.data());
   return sweeps;
@@ -172,13 +163,13 @@ void SimplifiedNewton<S>::prepare(Start start, const Vector<S>& p0) {
     for (Index i = 0; i < x_.lambda.size(); ++i) set(x_.lambda.data()[i], sequence_[x_.gamma.size() + i]);
     return;
   }
-  clear(x_.gamma);
-  clear(x_.lambda);
+  set_zero(x_.gamma);
+  set_zero(x_.lambda);
   for (Index j = 0; j < p0.size(); ++j) set(x_.gamma(0, j), p0[j]);
   // The multipliers of these positions, as a sweep of the fixed-point iteration has them.
   equations_.move(x_.gamma);
   equations_.forces(x_.psi);
-  if (!equations_.multipliers(x_.psi, x_.lambda, x_.zeta)) clear(x_.lambda);
+  if (!equations_.multipliers(x_.psi, x_.lambda, x_.zeta)) set_zero(x_.lambda);
 }
 
 template <Scalar S>
@@ -198,7 +189,7 @@ long SimplifiedNewton<S>::grow(const StepStart<S>& from, int halvings) {
       PositionScale<S>(problem_, h).evaluate(from.q, positions);
       shorter.start(from);
       usable_ = false;
-      copy(start_.gamma, x_.gamma);
+      set(start_.gamma, x_.gamma);
       sweeps += iterate(shorter, jacobian, positions);
       if (first) keep_start_size(shorter);
       if (first && is_far_from_start(shorter))
@@ -291,11 +282,11 @@ long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jac
       throw StageFailure(cause, what, to_scientific(rule_.relative_change(), 3), sweeps);
     };
     equations.residual(x_, residual_);
-    copy(momentum_, residual_.momentum);
+    set(momentum_, residual_.momentum);
     if (sweeps == 1) {
-      copy(start_.lambda, x_.lambda);
-      copy(start_.psi, x_.psi);
-      copy(start_.zeta, x_.zeta);
+      set(start_.lambda, x_.lambda);
+      set(start_.psi, x_.psi);
+      set(start_.zeta, x_.zeta);
     }
     if (evaluate) {
       if (!jacobian.factor(equations, x_.lambda))
@@ -333,10 +324,10 @@ long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jac
       keep_base_scale();
       measure_change();
     }
-    copy(base_.momentum, x_.gamma);
-    copy(base_.constraint, x_.lambda);
-    copy(correction_.momentum, residual_.momentum);
-    copy(correction_.constraint, residual_.constraint);
+    set(base_.momentum, x_.gamma);
+    set(base_.constraint, x_.lambda);
+    set(correction_.momentum, residual_.momentum);
+    set(correction_.constraint, residual_.constraint);
     move_from_base(h, S(1));
 
     // With the Jacobian of the iterate itself, increments that do not fall are rounding, however much an

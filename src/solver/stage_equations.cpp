@@ -1,5 +1,6 @@
 #include "hbvm/solver/stage_equations.hpp"
 
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
@@ -128,7 +129,7 @@ template <Scalar S>
 void StageEquations<S>::move(const Matrix<S>& gamma) {
   const PartCall counted = call(velocities);
   problem_.mass.velocity(lanes(gamma), lanes(velocity_));
-  for (Index i = 0; i < velocity_.size(); ++i) set_product(h_velocity_.data()[i], h_, velocity_.data()[i]);
+  set_product(h_velocity_, h_, velocity_);
   for (Index j = 0; j < middle_.size(); ++j) {
     set_product(middle_[j], half_, h_velocity_(0, j));
     set_sum(middle_[j], middle_[j], (*q_carry_)[j]);
@@ -157,7 +158,7 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
   if (potential_.has_varying_force())
     product(psi, method_.projection_hat, force_);
   else
-    for (Index i = 0; i < psi.size(); ++i) set_zero(psi.data()[i]);
+    set_zero(psi);
   // A constant force has the one coefficient psi_0 = force.
   const Vector<S>& constant = potential_.constant_force();
   for (const Index j : pulled_) {
@@ -205,7 +206,7 @@ bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Mat
 template <Scalar S>
 void StageEquations<S>::project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta) {
   const PartCall counted = call(zetas);
-  for (Index i = 0; i < w_.size(); ++i) set_zero(w_.data()[i]);
+  set_zero(w_);
   gradient_.add_times(lambda, lanes(w_));
   product(zeta, method_.projection, w_);
 }
@@ -264,8 +265,7 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& r) {
   }
   momenta(x.psi, x.zeta, r.momentum);
   const PartCall counted = call(constraint_residual);
-  for (Index i = 0; i < r.momentum.size(); ++i)
-    set_difference(r.momentum.data()[i], x.gamma.data()[i], r.momentum.data()[i]);
+  set_difference(r.momentum, x.gamma, r.momentum);
   if (!constrained) return;
   hidden_constraints(velocity_, [&](Index b) { return &r.constraint(0, b); });
 }
@@ -281,7 +281,7 @@ void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta,
   const Index s = method_.s;
   const Matrix<S>& X = method_.X_s;
   auto pulled = pulled_.begin();
-  for (Index i = 0; i < w_.size(); ++i) set_difference(w_.data()[i], psi.data()[i], zeta.data()[i]);
+  set_difference(w_, psi, zeta);
   for (Index j = 0; j < gamma.cols(); ++j) {
     for (Index i = 0; i < s; ++i) {
       S& sum = gamma(i, j);

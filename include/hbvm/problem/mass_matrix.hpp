@@ -26,8 +26,8 @@ class MassMatrix {
   Index m() const { return m_; }
   const std::vector<Block>& blocks() const { return blocks_; }
 
-  /// v = M^-1 p in every lane, with about one rounding; v must not be p. The roundings of a sum of rounded products are
-  /// not of either sign alike along the motion of a rigid body: H of a heavy top had a drift by them.
+  /// v = M^-1 p in every lane, in double and MPFR with about one rounding; v must not be p. The roundings of a sum of
+  /// rounded products are not of either sign alike along the motion of a rigid body: H of a heavy top drifts by them.
   void velocity(Lanes<const S> p, Lanes<S> v) const;
   /// The operations of velocity() in one lane, as of dots that are rounded as usual.
   OperationCounts operations() const {

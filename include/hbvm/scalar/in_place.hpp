@@ -77,16 +77,15 @@ void set_exact_sum(S& r, S& rest, const S& a, const S& b, S& t) {
   set_sum(rest, rest, t);
 }
 
-/// a b without any rounding, as r + rest with r = fl(a b); r and rest are neither a nor b.
+/// a b without any rounding, as r + rest with r = fl(a b); r and rest are neither a nor b. Not in quad, whose fma takes
+/// as long as some twenty products.
 template <Scalar S>
-void set_exact_product(S& r, S& rest, const S& a, const S& b) {
+requires(!std::same_as<S, Quad>) void set_exact_product(S& r, S& rest, const S& a, const S& b) {
   set_product(r, a, b);
   if constexpr (std::same_as<S, Mpfr>)
     mpfr_fms(raw(rest), raw(a), raw(b), raw(r), MPFR_RNDN);
-  else if constexpr (std::same_as<S, double>)
-    rest = std::fma(a, b, -r);
   else
-    rest = boost::multiprecision::fma(a, b, S(-r));
+    rest = std::fma(a, b, -r);
 }
 
 /// A number of the working precision for use within one kernel, whose value nobody keeps: creating one would allocate.
