@@ -94,11 +94,14 @@ const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
 
 template <Scalar S>
 const typename Point<S>::Forces& Point<S>::forces(const Vector<S>& q, const Vector<S>& p) {
-  potential_.force(lanes(q), force_);
-  forces_.applied = force_.transpose();
   forces_.constraint = Vector<S>::Zero(problem_.m());
-  if (problem_.nu() == 0) return forces_;
-  multiplier(q, p);
+  if (problem_.nu() == 0) {
+    potential_.force(lanes(q), force_);
+    forces_.applied = force_.transpose();
+    return forces_;
+  }
+  multiplier(q, p);  // evaluates the force, too
+  forces_.applied = force_.transpose();
   for (Index a = 0; a < problem_.nu(); ++a) row_(0, a) = -multiplier_[a];
   gradient_.add_times(row_, lanes(forces_.constraint));
   return forces_;

@@ -118,7 +118,7 @@ class Products {
     const auto& forces = field_.forces(y);
     const Vector<Mpfr> applied = field_.velocity(forces.applied), constraint = field_.velocity(forces.constraint),
                        a = applied + constraint, v = field_.velocity(y.p);
-    const PhasePoint flow{v, field_.force(y)};
+    const PhasePoint flow{v, forces.applied + forces.constraint};
     const Vector<Mpfr> jerk = field_.velocity(field_.derivative(y, flow, ldexp(scale_, -40)).p) * scale_;
     const Index d = problem_.dimension;
     std::vector<Vector<Mpfr>> vectors;
