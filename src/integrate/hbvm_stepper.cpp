@@ -31,17 +31,13 @@ long HbvmStepper<S>::step(State<S>& state) {
 
 template <Scalar S>
 SolverCounts HbvmStepper<S>::counts() const {
-  SolverCounts sum = earlier_;
-  add_counts(sum, solver_->counts(), problem_);
-  return sum;
+  return sum_of(earlier_, solver_->counts(), problem_);
 }
 
 template <Scalar S>
 void HbvmStepper<S>::remember(Archive& archive) {
   archive(multiplier_, *solver_);
-  SolverCounts sum = counts();
-  archive(sum);
-  if (archive.reading()) earlier_ = std::move(sum);
+  this->remember_counts(archive, earlier_);
 }
 
 #define HBVM_DEFINE(S) template class HbvmStepper<S>;

@@ -219,9 +219,7 @@ void RaisingStepper<S>::wait() {
 
 template <Scalar S>
 SolverCounts RaisingStepper<S>::counts() const {
-  SolverCounts sum = past_;
-  add_counts(sum, nodes_->stepper.counts(), problem_);
-  return sum;
+  return sum_of(past_, nodes_->stepper.counts(), problem_);
 }
 
 template <Scalar S>

@@ -59,9 +59,7 @@ void Rattle<S>::describe_parts() {
 
 template <Scalar S>
 SolverCounts Rattle<S>::counts() const {
-  SolverCounts sum = earlier_;
-  add_counts(sum, {potential_.counts(), parts_}, problem_);
-  return sum;
+  return sum_of(earlier_, {potential_.counts(), parts_}, problem_);
 }
 
 template <Scalar S>
@@ -73,11 +71,8 @@ void Rattle<S>::measure_time() {
 template <Scalar S>
 void Rattle<S>::remember(Archive& archive) {
   archive(lambda_, multiplier_);
-  SolverCounts sum = counts();
-  archive(sum);
-  if (!archive.reading()) return;
-  earlier_ = std::move(sum);
-  started_ = false;
+  this->remember_counts(archive, earlier_);
+  if (archive.reading()) started_ = false;
 }
 
 template <Scalar S>

@@ -78,9 +78,7 @@ void RungeKuttaStep<S>::describe_parts() {
 
 template <Scalar S>
 SolverCounts RungeKuttaStep<S>::counts() const {
-  SolverCounts sum = earlier_;
-  add_counts(sum, {potential_.counts(), parts_}, problem_);
-  return sum;
+  return sum_of(earlier_, {potential_.counts(), parts_}, problem_);
 }
 
 template <Scalar S>
@@ -92,9 +90,7 @@ void RungeKuttaStep<S>::measure_time() {
 template <Scalar S>
 void RungeKuttaStep<S>::remember(Archive& archive) {
   archive(extrapolation_);
-  SolverCounts sum = counts();
-  archive(sum);
-  if (archive.reading()) earlier_ = std::move(sum);
+  this->remember_counts(archive, earlier_);
 }
 
 template <Scalar S>

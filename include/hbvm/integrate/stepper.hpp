@@ -33,6 +33,14 @@ class Stepper {
 
   /// All that the next steps and counts() depend on to the last bit, beside problem, method, step and state.
   virtual void remember(Archive& archive) = 0;
+
+ protected:
+  /// Remembers counts(), which become the `earlier` ones of a run that goes on.
+  void remember_counts(Archive& archive, SolverCounts& earlier) const {
+    SolverCounts sum = counts();
+    archive(sum);
+    if (archive.reading()) earlier = std::move(sum);
+  }
 };
 
 }  // namespace hbvm

@@ -44,6 +44,13 @@ void add_counts(SolverCounts& sum, const SolverCounts& other, const Problem<S>& 
   }
 }
 
+/// The same as a new value.
+template <Scalar S>
+SolverCounts sum_of(SolverCounts counts, const SolverCounts& other, const Problem<S>& problem) {
+  add_counts(counts, other, problem);
+  return counts;
+}
+
 /// Solves the stage equations of one step after the other.
 template <Scalar S>
 class StageSolver {
