@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "hbvm/integrate/integrate.hpp"
-#include "hbvm/integrate/quadrature_defect.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "hbvm/step/quadrature_defect.hpp"
 
 namespace hbvm {
 
@@ -40,14 +40,14 @@ Trial<S> try_nodes(const Assembled<S>& scene, int k, int s, const S& step, Solve
   Trial<S> trial;
   trial.k = k;
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  HbvmStepper<S> stepper(scene.problem, method, step, solver);
-  QuadratureDefect<S> defect(scene.problem, k, s, step);
+  HbvmStepper<S> stepper(scene.problem, method, solver);
+  QuadratureDefect<S> defect(scene.problem, k, s);
   State<S> state(scene.q0, scene.p0);
   try {
     for (; trial.made < first_steps && trial.may_be_round_off; ++trial.made) {
       const Vector<S> q = state.q, p = state.p;
-      stepper.step(state);
-      raise_to(trial.defect, defect.measure(q, p, stepper.solver().unknowns()));
+      stepper.step(state, step);
+      raise_to(trial.defect, defect.measure({q, p, step}, stepper.solver().unknowns()));
       raise_to(trial.relative, defect.relative());
       trial.may_be_round_off = defect.may_be_round_off();
     }
@@ -63,10 +63,10 @@ template <Scalar S>
 S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, const Vector<S>& q,
                     const Vector<S>& p) {
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  HbvmStepper<S> stepper(problem, method, step, solver);
+  HbvmStepper<S> stepper(problem, method, solver);
   State<S> state(q, p);
-  stepper.step(state);
-  return QuadratureDefect<S>(problem, k, s, step).measure(q, p, stepper.solver().unknowns());
+  stepper.step(state, step);
+  return QuadratureDefect<S>(problem, k, s).measure({q, p, step}, stepper.solver().unknowns());
 }
 
 template <Scalar S>

@@ -39,26 +39,26 @@ RunStepper<S>::RunStepper(const Assembled<S>& scene, MethodName name, const S& s
   }
   const bool raise = chosen_ && !chosen_->exact;
   if (!raise) method_ = make_hbvm<S>(name_.k, name_.s);
-  // The smallest parts of a step are kept as they are.
-  const S least = step / S(1L << HalvingStepper<S>::deepest);
-  const auto make = [=, this, &problem = scene.problem](const S& h) -> std::unique_ptr<Stepper<S>> {
+  const auto make = [=, this, &problem = scene.problem](int depth) -> std::unique_ptr<Stepper<S>> {
+    // The smallest parts of a step are kept as they are.
+    const bool divisible = halve && depth < HalvingStepper<S>::deepest;
     if (raise)
-      return std::make_unique<RaisingStepper<S>>(problem, name_.k, name_.s, h, solver, nodes_,
-                                                 halve && h > least ? OnShortage::fail : OnShortage::keep);
-    return std::make_unique<HbvmStepper<S>>(problem, *method_, h, solver);
+      return std::make_unique<RaisingStepper<S>>(problem, name_.k, name_.s, solver, nodes_,
+                                                 divisible ? OnShortage::fail : OnShortage::keep);
+    return std::make_unique<HbvmStepper<S>>(problem, *method_, solver);
   };
   if (halve) {
-    auto halving = std::make_unique<HalvingStepper<S>>(step, make);
+    auto halving = std::make_unique<HalvingStepper<S>>(make);
     halving_ = halving.get();
     outer_ = std::move(halving);
   } else {
-    outer_ = make(step);
+    outer_ = make(0);
   }
 }
 
 template <Scalar S>
-long RunStepper<S>::step(State<S>& state) {
-  const long sweeps = outer_->step(state);
+long RunStepper<S>::step(State<S>& state, const S& h) {
+  const long sweeps = outer_->step(state, h);
   ++nodes_.step;
   return sweeps;
 }

@@ -117,7 +117,7 @@ Shadow ShadowedRun<S>::compare(const RunRequest& request, const MethodName& meth
     const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
     const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
     const Hbvm<Mpfr> hbvm = make_hbvm<Mpfr>(method.k, method.s);
-    HbvmStepper<Mpfr> stepper(scene.problem, hbvm, grid.step(), request.solver);
+    HbvmStepper<Mpfr> stepper(scene.problem, hbvm, request.solver);
     Course<Mpfr> course;
     if (start) course.start = exact_state(*start);
     simulate<Mpfr>(scene, stepper, grid, {&comparison}, nullptr, nullptr, course);

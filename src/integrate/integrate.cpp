@@ -54,7 +54,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     const double before = thread_seconds();
     try {
       for (; made < block && n < grid.steps() && interruption == 0; ++made) {
-        result.sweeps += stepper.step(state);
+        result.sweeps += stepper.step(state, grid.step());
         Snapshot<S>& snapshot = snapshots[made];
         snapshot.n = ++n;
         snapshot.q = state.q;

@@ -98,20 +98,25 @@ Problem<double> in_double(const Problem<S>& problem) {
 }
 
 template <Scalar S>
-bool fits_double(const Problem<S>& problem, const S& step) {
+bool fits_double(const S& x) {
   constexpr long range = 500;
-  const auto fits = [](const S& x) { return x == 0 || std::abs(binary_exponent(x)) < range; };
-  bool all = fits(step);
+  return x == 0 || std::abs(binary_exponent(x)) < range;
+}
+
+template <Scalar S>
+bool fits_double(const Problem<S>& problem) {
+  bool all = true;
   for (const auto& block : problem.mass.blocks()) {
-    if (!block.full) all = all && fits(block.mass);
-    for (Index i = 0; i < block.M.size(); ++i) all = all && fits(block.M.data()[i]);
+    if (!block.full) all = all && fits_double(block.mass);
+    for (Index i = 0; i < block.M.size(); ++i) all = all && fits_double(block.M.data()[i]);
   }
   return all;
 }
 
 #define HBVM_DEFINE(S)                                      \
   template Problem<double> in_double<S>(const Problem<S>&); \
-  template bool fits_double<S>(const Problem<S>&, const S&);
+  template bool fits_double<S>(const S&);                   \
+  template bool fits_double<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

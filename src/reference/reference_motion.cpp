@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "hbvm/basis/legendre.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
 
@@ -55,11 +55,11 @@ ReferenceMotion::ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr
 void ReferenceMotion::run(SolverKind solver) {
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(stages_, stages_);
   const Mpfr h = duration_ / steps_;
-  HbvmStepper<Mpfr> stepper(problem_, method, h, solver);
+  HbvmStepper<Mpfr> stepper(problem_, method, solver);
   State<Mpfr> state(q0_, p0_);
   for (long n = 0; n < steps_; ++n) {
     if (n + 1 == steps_) polynomials_.q0 = state.q;
-    stepper.step(state);
+    stepper.step(state, h);
     if (after_step_) after_step_();
   }
   q_ = state.q;

@@ -3,8 +3,8 @@
 namespace hbvm {
 
 template <Scalar S>
-Automatic<S>::Automatic(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
-    : problem_(problem), method_(method), h_(step), used_(std::same_as<S, double> ? 0 : 1) {
+Automatic<S>::Automatic(const Problem<S>& problem, const Hbvm<S>& method)
+    : problem_(problem), method_(method), used_(std::same_as<S, double> ? 0 : 1) {
   make(used_);
 }
 
@@ -12,7 +12,7 @@ template <Scalar S>
 StageSolver<S>& Automatic<S>::make(int which) {
   std::unique_ptr<StageSolver<S>>& solver = solvers_[static_cast<std::size_t>(which)];
   if (!solver) {
-    solver = make_solver(which == 0 ? SolverKind::fixed_point : SolverKind::newton, problem_, method_, h_);
+    solver = make_solver(which == 0 ? SolverKind::fixed_point : SolverKind::newton, problem_, method_);
     if (timed_) solver->measure_time();
   }
   return *solver;

@@ -9,23 +9,27 @@
 namespace hbvm {
 
 template <Scalar S>
-FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, const S& step, Order order)
-    : equations_(problem, method, step),
+FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, Order order)
+    : equations_(problem, method),
       order_(order),
       x_(equations_.make_unknowns()),
       gamma_before_(x_.gamma),
       psi_before_(x_.psi),
       extrapolation_(x_.gamma.rows(), x_.gamma.cols()),
-      position_scale_(problem, step),
+      position_scale_(problem),
       rule_(problem.m(), roundings_of_a_sweep(problem, method)),
-      root_check_(problem, method, step),
+      root_check_(problem, method),
       positions_(problem.m()),
       change_(problem.m()) {}
 
 template <Scalar S>
 long FixedPoint<S>::solve(const StepStart<S>& start) {
+  if (start.h != h_) {
+    set(h_, start.h);
+    extrapolation_.clear();
+  }
   equations_.start(start);
-  position_scale_.evaluate(start.q, positions_);
+  position_scale_.evaluate(start.q, h_, positions_);
   long sweeps = 0;
   bool doubtful = false;
   if (order_ == Order::paper) {
@@ -84,7 +88,7 @@ bool FixedPoint<S>::conditioned() {
 template <Scalar S>
 long FixedPoint<S>::check_root(long sweeps) {
   using Verdict = typename RootCheck<S>::Verdict;
-  const Verdict verdict = root_check_.judge(equations_.q0(), equations_.p0(), x_.gamma);
+  const Verdict verdict = root_check_.judge({equations_.q0(), equations_.p0(), h_}, x_.gamma);
   if (verdict == Verdict::other || verdict == Verdict::lost) {
     extrapolation_.clear();
     throw StageFailure(FailureCause::stage_equations_diverge,
@@ -98,7 +102,6 @@ long FixedPoint<S>::check_root(long sweeps) {
 template <Scalar S>
 long FixedPoint<S>::iterate() {
   const bool papers = order_ == Order::paper;
-  const S& h = equations_.step();
   rule_.start(equations_.p0(), positions_);
   for (;;) {
     // The matrix of (lam) at nodes near the solution serves all sweeps: it multiplies a change that goes to 0.
@@ -106,10 +109,10 @@ long FixedPoint<S>::iterate() {
       throw StageFailure(FailureCause::near_singular_constraints,
                          "the linear system (lam) for the multipliers is singular", "0", rule_.sweeps() + 1);
     rule_.show_change(x_.gamma, gamma_before_);
-    if (papers) rule_.show_change(x_.psi, psi_before_, &h);
+    if (papers) rule_.show_change(x_.psi, psi_before_, &h_);
     if (rule_.is_coarse()) {
       rule_.show_terms(x_.gamma);
-      rule_.show_terms(x_.psi, &h);
+      rule_.show_terms(x_.psi, &h_);
     }
     const auto fail = [&](const char* what) {
       const FailureCause cause = FailureCause::stage_equations_diverge;

@@ -23,10 +23,9 @@ std::vector<std::vector<std::pair<Index, S>>> inverse_mass_rows(const MassMatrix
 }  // namespace
 
 template <Scalar S>
-Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
+Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method)
     : problem_(problem),
       method_(method),
-      h_(step),
       curvature_(problem, method.k),
       W_(inverse_mass_rows(problem.mass)),
       X_hat_(method.X_s.lazyProduct(method.projection_hat)),
@@ -68,6 +67,7 @@ bool Jacobian<S>::factor(const StageEquations<S>& at, const Matrix<S>& lambda) {
 template <Scalar S>
 void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda) {
   const Index m = problem_.m(), nu = problem_.nu(), s = method_.s, k = method_.k;
+  const S& h = at.step();
   matrix_.set_zero();
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) matrix_.entry(of_coordinate(j) + i, of_coordinate(j) + i) = 1;
@@ -85,7 +85,7 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
       for (Index n = 0; n < k; ++n) block_.col(j) -= hessian(n, second) * method_.I_hat(n, j) * X_hat_.col(n);
       for (Index n = 0; n < s; ++n) block_.col(j) += curved_(n, second) * method_.I_s(n, j) * X_projection_.col(n);
     }
-    block_ *= h_ * h_;
+    block_ *= h * h;
     for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)])
       for (Index j = 0; j < s; ++j)
         for (Index i = 0; i < s; ++i)
@@ -113,7 +113,7 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
       for (Index j = 0; j < s; ++j)
         for (Index n = 0; n < s; ++n)
           matrix_.entry(of_multiplier(second.constraint) + n, of_coordinate(column) + j) +=
-              h_ * method_.I_s(n, j) * second.value * at.node_velocities()(n, pair.row) * w;
+              h * method_.I_s(n, j) * second.value * at.node_velocities()(n, pair.row) * w;
   }
 }
 

@@ -50,35 +50,33 @@ constexpr long bits_per_sweep = 50;
 }  // namespace
 
 template <Scalar S>
-Newton<S>::Level::Level(const Problem<S>& full_problem, const Hbvm<S>& full_method, const S& step)
+Newton<S>::Level::Level(const Problem<S>& full_problem, const Hbvm<S>& full_method)
     : problem(full_problem),
       method(full_method),
-      equations(problem, method, step),
+      equations(problem, method),
       x(equations.make_unknowns()),
       r{x.gamma, x.lambda},
       q0(problem.m()),
       p0(problem.m()) {}
 
 template <Scalar S>
-Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
+Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method)
     : problem_(problem),
       method_(method),
-      h_(step),
       change_(problem.m()),
-      position_scale_(problem, step),
+      position_scale_(problem),
       positions_(problem.m()),
       rule_(problem.m(), roundings_of_a_sweep(problem, method), static_cast<int>(bits_per_sweep - 10)) {
   if constexpr (std::same_as<S, double>) {
-    rounded_.emplace(problem, method, step);
+    rounded_.emplace(problem, method);
     return;
   }
-  equations_.emplace(problem_, method_, h_);
+  equations_.emplace(problem_, method_);
   x_ = equations_->make_unknowns();
-  failed_in_double_ = !fits_double(problem, step);
-  if (failed_in_double_) return;
+  if (!fits_double(problem)) return;
   rounded_problem_.emplace(in_double(problem));
   rounded_method_.emplace(make_hbvm<double>(method.k, method.s));
-  rounded_.emplace(*rounded_problem_, *rounded_method_, approximately(step));
+  rounded_.emplace(*rounded_problem_, *rounded_method_);
   rounded_q0_.resize(problem.m());
   rounded_p0_.resize(problem.m());
   r_ = {x_.gamma, x_.lambda};
@@ -98,9 +96,16 @@ void Newton<S>::make_rungs() {
       const auto digits =
           static_cast<unsigned>(static_cast<double>(limb * limbs - 4) * std::numbers::ln2 / std::numbers::ln10);
       const PrecisionScope scope(digits);
-      rungs_.push_back({digits, mpfr_working_bits(), std::make_unique<Level>(problem_, method_, S(h_))});
+      rungs_.push_back({digits, mpfr_working_bits(), std::make_unique<Level>(problem_, method_)});
     }
   }
+}
+
+template <Scalar S>
+void Newton<S>::take_step(const S& h) {
+  set(h_, h);
+  set(rate_, S(1));
+  failed_in_double_ = !rounded_ || !fits_double(h_);
 }
 
 template <Scalar S>
@@ -111,6 +116,7 @@ long Newton<S>::solve(const StepStart<S>& start) {
     change_ = rounded_->change();
     return sweeps;
   } else {
+    if (start.h != h_) take_step(start.h);
     long sweeps = 0;
     if (!failed_in_double_) {
       for (Index j = 0; j < rounded_q0_.size(); ++j) {
@@ -118,7 +124,7 @@ long Newton<S>::solve(const StepStart<S>& start) {
         rounded_p0_[j] = approximately(start.p[j]);
       }
       try {
-        sweeps = rounded_->solve({rounded_q0_, rounded_p0_});
+        sweeps = rounded_->solve({rounded_q0_, rounded_p0_, approximately(h_)});
         if (rounded_->refresh()) {
           const auto [corrections, fell] = refine(start);
           sweeps += corrections;
@@ -135,7 +141,7 @@ long Newton<S>::solve(const StepStart<S>& start) {
 
 template <Scalar S>
 long Newton<S>::solve_in_full(const StepStart<S>& start) {
-  if (!full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_, h_);
+  if (!full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_);
   const long sweeps = full_->solve(start);
   set(x_.gamma, full_->unknowns().gamma);
   set(x_.lambda, full_->unknowns().lambda);
@@ -176,7 +182,8 @@ bool Newton<S>::residual(long bits, long& exponent) {
     Level& level = *rung.level;
     set(level.q0, equations_->q0());
     set(level.p0, equations_->p0());
-    level.equations.start(level.q0, level.p0);
+    set(level.h, equations_->step());
+    level.equations.start({level.q0, level.p0, level.h});
     set(level.x.gamma, x_.gamma);
     set(level.x.lambda, x_.lambda);
     level.equations.residual(level.x, level.r);
@@ -198,7 +205,7 @@ std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
   for (Index i = 0; i < x_.psi.size(); ++i) set_exactly(x_.psi.data()[i], start.psi.data()[i]);
   for (Index i = 0; i < x_.zeta.size(); ++i) set_exactly(x_.zeta.data()[i], start.zeta.data()[i]);
   const double h = rounded_->equations().step();
-  position_scale_.evaluate(from.q, positions_);
+  position_scale_.evaluate(from.q, h_, positions_);
   rule_.start(from.p, positions_);
   rule_.expect_rate(rate_);
   rule_.show_terms(x_.psi, &h_);
@@ -279,9 +286,9 @@ void Newton<S>::measure_time() {
 template <Scalar S>
 void Newton<S>::remember(Archive& archive) {
   bool full = full_ != nullptr;
-  archive(rate_, failed_in_double_, full);
+  archive(h_, rate_, failed_in_double_, full);
   if (rounded_) archive(*rounded_);
-  if (full && !full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_, h_);
+  if (full && !full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_);
   if (full) archive(*full_);
 }
 

@@ -1,17 +1,27 @@
 #include "hbvm/solver/position_scale.hpp"
 
+#include "hbvm/linear/arrays.hpp"
+
 namespace hbvm {
 
 template <Scalar S>
-PositionScale<S>::PositionScale(const Problem<S>& problem, const S& step)
-    : turns_(static_cast<std::size_t>(problem.m()), false),
+PositionScale<S>::PositionScale(const Problem<S>& problem)
+    : problem_(problem),
+      turns_(static_cast<std::size_t>(problem.m()), false),
       of_space_(Vector<S>::Zero(problem.m())),
       of_turns_(of_space_) {
   for (const SpaceBlock& block : problem.blocks)
     for (Index i = 0; i < problem.dimension && !block.translates; ++i)
       turns_[static_cast<std::size_t>(block.offset + i)] = true;
-  const S inverse_step = magnitude(S(1 / step));
-  for (const auto& block : problem.mass.blocks())
+}
+
+template <Scalar S>
+void PositionScale<S>::take_step(const S& h) {
+  set(h_, h);
+  set_zero(of_space_);
+  set_zero(of_turns_);
+  const S inverse_step = magnitude(S(1 / h));
+  for (const auto& block : problem_.mass.blocks())
     for (Index i = 0; i < block.size; ++i)
       for (Index l = 0; l < block.size; ++l) {
         if (!block.full && l != i) continue;
@@ -22,7 +32,8 @@ PositionScale<S>::PositionScale(const Problem<S>& problem, const S& step)
 }
 
 template <Scalar S>
-void PositionScale<S>::evaluate(const Vector<S>& q, Vector<S>& scale) {
+void PositionScale<S>::evaluate(const Vector<S>& q, const S& h, Vector<S>& scale) {
+  if (h != h_) take_step(h);
   set_zero(space_);
   set_zero(directors_);
   for (Index j = 0; j < q.size(); ++j) raise_magnitude(turns_[static_cast<std::size_t>(j)] ? directors_ : space_, q[j]);

@@ -8,26 +8,21 @@
 namespace hbvm {
 
 template <Scalar S>
-RootCheck<S>::Rounded::Rounded(const Problem<S>& full, const Hbvm<S>& full_method, const S& step)
-    : problem(in_double(full)),
-      method(make_hbvm<double>(full_method.k, full_method.s)),
-      newton(problem, method, approximately(step)) {}
+RootCheck<S>::Rounded::Rounded(const Problem<S>& full, const Hbvm<S>& full_method)
+    : problem(in_double(full)), method(make_hbvm<double>(full_method.k, full_method.s)), newton(problem, method) {}
 
 template <Scalar S>
-RootCheck<S>::RootCheck(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
-    : problem_(problem), method_(method), h_(step) {}
-
-template <Scalar S>
-auto RootCheck<S>::judge(const Vector<S>& q0, const Vector<S>& p0, const Matrix<S>& gamma) -> Verdict {
+auto RootCheck<S>::judge(const StepStart<S>& start, const Matrix<S>& gamma) -> Verdict {
   // Other solutions are other motions: they differ in the first digits.
   const double apart = power_of_two<double>(-10);
   sweeps_ = 0;
-  if (!fits_double(problem_, h_)) return Verdict::unknown;
+  if (!fits_double(problem_) || !fits_double(start.h)) return Verdict::unknown;
   const auto rounded = [](const auto& x) { return x.unaryExpr([](const S& entry) { return approximately(entry); }); };
-  const Vector<double> q = rounded(q0), p = rounded(p0);
+  const Vector<double> q = rounded(start.q), p = rounded(start.p);
+  const double h = approximately(start.h);
   try {
-    if (!rounded_) rounded_ = std::make_unique<Rounded>(problem_, method_, h_);
-    sweeps_ = rounded_->newton.follow({q, p});
+    if (!rounded_) rounded_ = std::make_unique<Rounded>(problem_, method_);
+    sweeps_ = rounded_->newton.follow({q, p, h});
   } catch (const StageFailure& failure) {
     sweeps_ = failure.sweeps();
     return Verdict::lost;

@@ -26,11 +26,11 @@ Vector<S> first_row_of_inverse(const Matrix<S>& X) {
 }  // namespace
 
 template <Scalar S>
-SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
+SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method)
     : problem_(problem),
       method_(method),
-      equations_(problem, method, step),
-      jacobian_(problem, method, step),
+      equations_(problem, method),
+      jacobian_(problem, method),
       x_(equations_.make_unknowns()),
       residual_{x_.gamma, x_.lambda},
       momentum_(x_.gamma),
@@ -43,7 +43,7 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
       sequence_(x_.gamma.size() + x_.lambda.size()),
       step_change_(problem.m()),
       extrapolation_(method.s, problem.m() + problem.nu()),
-      position_scale_(problem, step),
+      position_scale_(problem),
       positions_(problem.m()),
       rule_(problem.m(), roundings_of_a_sweep(problem, method)),
       // Some to come near, then three bits a sweep: less is `slow`.
@@ -55,9 +55,19 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
 }
 
 template <Scalar S>
+void SimplifiedNewton<S>::begin(const StepStart<S>& from, const S& h) {
+  equations_.start({from.q, from.p, h, from.q_carry, from.p_carry});
+  position_scale_.evaluate(from.q, h, positions_);
+}
+
+template <Scalar S>
 long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
-  equations_.start(from);
-  position_scale_.evaluate(from.q, positions_);
+  if (from.h != h_) {
+    set(h_, from.h);
+    extrapolation_.clear();
+    usable_ = false;
+  }
+  begin(from, h_);
   long sweeps = 0;
   const auto attempt = [&](Start start) {
     try {
@@ -68,10 +78,10 @@ long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
         prepare(start, from.p);
       }
       set(start_.gamma, x_.gamma);
-      sweeps += iterate(equations_, jacobian_, positions_);
+      sweeps += iterate();
       if (start == Start::shorter || start == Start::shortest) return true;
-      keep_start_size(equations_);
-      return !is_far_from_start(equations_) && !multipliers_run_wild();
+      keep_start_size();
+      return !is_far_from_start() && !multipliers_run_wild();
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       usable_ = false;
@@ -89,8 +99,7 @@ long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
 
 template <Scalar S>
 long SimplifiedNewton<S>::follow(const StepStart<S>& from) {
-  equations_.start(from);
-  position_scale_.evaluate(from.q, positions_);
+  set(h_, from.h);
   usable_ = false;
   long sweeps = 0;
   for (const int halvings : {12, 30}) {
@@ -106,12 +115,12 @@ long SimplifiedNewton<S>::follow(const StepStart<S>& from) {
 }
 
 template <Scalar S>
-void SimplifiedNewton<S>::keep_start_size(const StageEquations<S>& equations) {
-  const S& h = equations.step();
+void SimplifiedNewton<S>::keep_start_size() {
+  const S& h = equations_.step();
   for (const auto& block : problem_.mass.blocks()) {
     S size = 0;
     for (Index j = block.offset; j < block.offset + block.size; ++j) {
-      raise_magnitude(size, equations.p0()[j]);
+      raise_magnitude(size, equations_.p0()[j]);
       for (Index i = 0; i < start_.psi.rows(); ++i) {
         raise_magnitude(size, S(h * start_.psi(i, j)));
         raise_magnitude(size, S(h * start_.zeta(i, j)));
@@ -122,14 +131,14 @@ void SimplifiedNewton<S>::keep_start_size(const StageEquations<S>& equations) {
 }
 
 template <Scalar S>
-bool SimplifiedNewton<S>::is_far_from_start(const StageEquations<S>& equations) const {
+bool SimplifiedNewton<S>::is_far_from_start() const {
   // Body by body: a coordinate may be small for a moment.
   for (const auto& block : problem_.mass.blocks()) {
     S moved = 0, forces_changed = 0;
     for (Index j = block.offset; j < block.offset + block.size; ++j)
       for (Index i = 0; i < start_.gamma.rows(); ++i) {
         raise_magnitude(moved, S(x_.gamma(i, j) - start_.gamma(i, j)));
-        raise_magnitude(forces_changed, S(equations.step() * (x_.psi(i, j) - start_.psi(i, j))));
+        raise_magnitude(forces_changed, S(equations_.step() * (x_.psi(i, j) - start_.psi(i, j))));
       }
     const S& size = start_size_[block.offset];
     if (moved > size || 2 * forces_changed > size) return true;
@@ -176,26 +185,22 @@ template <Scalar S>
 long SimplifiedNewton<S>::grow(const StepStart<S>& from, int halvings) {
   // Steps grow by factors of 1 + growth.
   constexpr int least_growth_bits = 6;
-  const S& full = equations_.step();
-  S h = full * power_of_two<S>(-halvings), growth = 1;
+  S h = h_ * power_of_two<S>(-halvings), growth = 1;
   long sweeps = 0;
-  Vector<S> positions(problem_.m());
   Matrix<S> gamma, lambda;  // of the last step that was solved
+  begin(from, h_);
   prepare(Start::constant, from.p);
   for (bool first = true;; first = false) {
     try {
-      StageEquations<S> shorter(problem_, method_, h);
-      Jacobian<S> jacobian(problem_, method_, h);
-      PositionScale<S>(problem_, h).evaluate(from.q, positions);
-      shorter.start(from);
+      begin(from, h);
       usable_ = false;
       set(start_.gamma, x_.gamma);
-      sweeps += iterate(shorter, jacobian, positions);
-      if (first) keep_start_size(shorter);
-      if (first && is_far_from_start(shorter))
+      sweeps += iterate();
+      if (first) keep_start_size();
+      if (first && is_far_from_start())
         throw StageFailure(FailureCause::stage_equations_diverge,
                            "even much shorter steps have no solution near their start", "1", sweeps);
-      if (!(h < full)) return sweeps;
+      if (!(h < h_)) return sweeps;
       gamma = x_.gamma;
       lambda = x_.lambda;
       if (growth < 1) growth = 2 * growth;
@@ -208,7 +213,7 @@ long SimplifiedNewton<S>::grow(const StepStart<S>& from, int halvings) {
     }
     solved_ = h;
     h = h * (1 + growth);
-    if (!(h < full)) h = full;
+    if (!(h < h_)) h = h_;
     x_.lambda = lambda;
     // The degree j of v grows with the step to the power j.
     S power = 1;
@@ -268,20 +273,20 @@ bool SimplifiedNewton<S>::residual_is_small() {
 }
 
 template <Scalar S>
-long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jacobian, const Vector<S>& positions) {
+long SimplifiedNewton<S>::iterate() {
   using Verdict = typename StoppingRule<S>::Verdict;
   constexpr int most_halvings = 12;
-  const S& h = equations.step();
+  const S& h = equations_.step();
   // Whether the Jacobian is to be evaluated at x_; whether it was at base_; how often the step from there was halved.
   bool evaluate = !usable_, exact = false;
   int halvings = 0, waiting = 0;
   set_zero(last_);
-  rule_.start(equations.p0(), positions);
+  rule_.start(equations_.p0(), positions_);
   for (long sweeps = 1; sweeps <= max_sweeps_; ++sweeps) {
     const auto fail = [&](FailureCause cause, const char* what) {
       throw StageFailure(cause, what, to_scientific(rule_.relative_change(), 3), sweeps);
     };
-    equations.residual(x_, residual_);
+    equations_.residual(x_, residual_);
     set(momentum_, residual_.momentum);
     if (sweeps == 1) {
       set(start_.lambda, x_.lambda);
@@ -289,11 +294,11 @@ long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jac
       set(start_.zeta, x_.zeta);
     }
     if (evaluate) {
-      if (!jacobian.factor(equations, x_.lambda))
+      if (!jacobian_.factor(equations_, x_.lambda))
         fail(FailureCause::near_singular_constraints, "the Jacobian of the stage equations is singular");
       usable_ = true;
     }
-    jacobian.solve(residual_);
+    jacobian_.solve(residual_);
     rule_.show_change(residual_.momentum);
     rule_.show_terms(x_.gamma);
     rule_.show_terms(x_.psi, &h);
@@ -313,7 +318,7 @@ long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jac
       if (too_far) {
         // The Jacobian is an old one.
         move_from_base(h, S(0));
-        rule_.start(equations.p0(), positions);
+        rule_.start(equations_.p0(), positions_);
         set_zero(last_);
         evaluate = true;
         continue;
@@ -336,7 +341,7 @@ long SimplifiedNewton<S>::iterate(StageEquations<S>& equations, Jacobian<S>& jac
     waiting = last_ > 0 && !falls && evaluate ? waiting + 1 : 0;
     const bool floor = waiting >= 3 && change_ <= root_epsilon_;
     if ((verdict == Verdict::converged || floor) && residual_is_small()) {
-      equations.changes(x_, step_change_);
+      equations_.changes(x_, step_change_);
       add_change_of_momentum(momentum_, residual_.momentum, step_change_.p_rest);
       return sweeps;
     }

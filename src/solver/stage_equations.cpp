@@ -25,10 +25,9 @@ Matrix<S> centred(const Matrix<S>& I) {
 }  // namespace
 
 template <Scalar S>
-StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& method, const S& step)
+StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& method)
     : problem_(problem),
       method_(method),
-      h_(step),
       potential_(problem.potential, method.k),
       gradient_(problem, method.s),
       no_carry_(Vector<S>::Zero(problem.m())),
@@ -49,7 +48,6 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
   order_ = order_for_band(nu, entries);
   system_.resize(s * nu, s * (order_.half_bandwidth + 1) - 1);
   rhs_.resize(s * nu);
-  set_product(h_half_, h_, half_);
   for (Index j = 0; j < m; ++j)
     if (potential_.constant_force()[j] != 0) pulled_.push_back(j);
   describe_parts();
@@ -121,6 +119,8 @@ template <Scalar S>
 void StageEquations<S>::start(const StepStart<S>& start) {
   q0_ = &start.q;
   p0_ = &start.p;
+  set(h_, start.h);
+  set_product(h_half_, h_, half_);
   q_carry_ = start.q_carry ? start.q_carry : &no_carry_;
   p_carry_ = start.p_carry ? start.p_carry : &no_carry_;
 }

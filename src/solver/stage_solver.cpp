@@ -30,24 +30,23 @@ std::string_view name_of(SolverKind kind) {
 }
 
 template <Scalar S>
-std::unique_ptr<StageSolver<S>> make_solver(SolverKind kind, const Problem<S>& problem, const Hbvm<S>& method,
-                                            const S& step) {
+std::unique_ptr<StageSolver<S>> make_solver(SolverKind kind, const Problem<S>& problem, const Hbvm<S>& method) {
   using Order = typename FixedPoint<S>::Order;
   switch (kind) {
     case SolverKind::automatic:
-      return std::make_unique<Automatic<S>>(problem, method, step);
+      return std::make_unique<Automatic<S>>(problem, method);
     case SolverKind::newton:
-      return std::make_unique<Newton<S>>(problem, method, step);
+      return std::make_unique<Newton<S>>(problem, method);
     case SolverKind::fixed_point:
-      return std::make_unique<FixedPoint<S>>(problem, method, step, Order::newest);
+      return std::make_unique<FixedPoint<S>>(problem, method, Order::newest);
     case SolverKind::paper:
       break;
   }
-  return std::make_unique<FixedPoint<S>>(problem, method, step, Order::paper);
+  return std::make_unique<FixedPoint<S>>(problem, method, Order::paper);
 }
 
 #define HBVM_DEFINE(S) \
-  template std::unique_ptr<StageSolver<S>> make_solver<S>(SolverKind, const Problem<S>&, const Hbvm<S>&, const S&);
+  template std::unique_ptr<StageSolver<S>> make_solver<S>(SolverKind, const Problem<S>&, const Hbvm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -71,9 +71,9 @@ template <Scalar S>
 std::pair<Vector<S>, Vector<S>> output_at(const Scene& text, int k, int s, const S& h, long steps) {
   const Assembled<S> scene = assemble<S>(text);
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  HbvmStepper<S> stepper(scene.problem, method, h, SolverKind::automatic);
+  HbvmStepper<S> stepper(scene.problem, method, SolverKind::automatic);
   State<S> state(scene.q0, scene.p0);
-  for (long i = 0; i < steps; ++i) stepper.step(state);
+  for (long i = 0; i < steps; ++i) stepper.step(state, h);
   Point<S> point(scene.problem);
   return {state.q, point.tangential(state.q, state.p)};
 }
@@ -149,7 +149,7 @@ std::vector<Row> raw_rows() {
     for (const auto& [k, s] : {std::pair(6, 4), {16, 12}}) {
       const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
       for (const bool residual : {true, false}) {
-        StageEquations<Mpfr> equations(scene.problem, method, Mpfr(1) / 10);
+        StageEquations<Mpfr> equations(scene.problem, method);
         StageUnknowns<Mpfr> x = equations.make_unknowns();
         StageResidual<Mpfr> r{x.gamma, x.lambda};
         // Numbers with all their digits, so that no operation is cheaper than it will be.
@@ -161,7 +161,7 @@ std::vector<Row> raw_rows() {
           p0[j] += sqrt(Mpfr(j + 5)) / 1000;
         }
         Matrix<Mpfr> gamma = x.gamma;
-        equations.start(q0, p0);
+        equations.start({q0, p0, Mpfr(1) / 10});
         const double seconds = seconds_of([&] {
           if (residual) {
             equations.residual(x, r);

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "hbvm/clock.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
-#include "hbvm/integrate/rattle.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
+#include "hbvm/step/rattle.hpp"
 
 namespace hbvm::speed {
 
@@ -49,15 +49,15 @@ struct StepCost {
 /// The cost of one step, after the first two, without observers: the best of five runs of so many steps, each with a
 /// new stepper.
 template <Scalar S, class Make>
-StepCost cost_of_steps(const Assembled<S>& scene, long steps, Make&& make) {
+StepCost cost_of_steps(const Assembled<S>& scene, const S& h, long steps, Make&& make) {
   StepCost best;
   for (int run = 0; run < 5; ++run) {
     auto stepper = make();
     State<S> state(scene.q0, scene.p0);
-    for (int i = 0; i < 2; ++i) stepper.step(state);
+    for (int i = 0; i < 2; ++i) stepper.step(state, h);
     long sweeps = 0;
     const double before = thread_seconds();
-    for (long i = 0; i < steps; ++i) sweeps += stepper.step(state);
+    for (long i = 0; i < steps; ++i) sweeps += stepper.step(state, h);
     const double time = (thread_seconds() - before) / static_cast<double>(steps);
     if (run == 0 || time < best.seconds) best = {time, static_cast<double>(sweeps) / static_cast<double>(steps)};
   }
@@ -67,12 +67,12 @@ StepCost cost_of_steps(const Assembled<S>& scene, long steps, Make&& make) {
 template <Scalar S>
 StepCost step_cost(const Assembled<S>& scene, int k, int s, const S& h, SolverKind solver, long steps) {
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  return cost_of_steps<S>(scene, steps, [&] { return HbvmStepper<S>(scene.problem, method, h, solver); });
+  return cost_of_steps<S>(scene, h, steps, [&] { return HbvmStepper<S>(scene.problem, method, solver); });
 }
 
 template <Scalar S>
 StepCost rattle_cost(const Assembled<S>& scene, const S& h, long steps) {
-  return cost_of_steps<S>(scene, steps, [&] { return Rattle<S>(scene.problem, h); });
+  return cost_of_steps<S>(scene, h, steps, [&] { return Rattle<S>(scene.problem); });
 }
 
 }  // namespace hbvm::speed

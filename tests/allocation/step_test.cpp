@@ -2,14 +2,14 @@
 
 #include <cstdlib>
 
-#include "hbvm/integrate/halving_stepper.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
-#include "hbvm/integrate/raising_stepper.hpp"
-#include "hbvm/integrate/rattle.hpp"
-#include "hbvm/integrate/runge_kutta_step.hpp"
 #include "hbvm/integrate/watched_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
+#include "hbvm/step/halving_stepper.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
+#include "hbvm/step/raising_stepper.hpp"
+#include "hbvm/step/rattle.hpp"
+#include "hbvm/step/runge_kutta_stepper.hpp"
 
 // Counts every allocation of the program: Eigen, MPFR and the standard library come down to malloc.
 #ifndef __SANITIZE_ADDRESS__
@@ -56,9 +56,10 @@ TEST(Allocations, AreCounted) {
 template <Scalar S, class Stepping>
 long allocations_of(Stepping& stepping, const Assembled<S>& scene) {
   State<S> state(scene.q0, scene.p0);
-  for (int i = 0; i < 2; ++i) stepping.step(state);
+  const S h = S(1) / 100;
+  for (int i = 0; i < 2; ++i) stepping.step(state, h);
   const long before = allocations;
-  for (int i = 0; i < 10; ++i) stepping.step(state);
+  for (int i = 0; i < 10; ++i) stepping.step(state, h);
   return allocations - before;
 }
 
@@ -67,7 +68,7 @@ void expect_none(const char* name, SolverKind kind) {
   const Assembled<S> scene = assemble<S>(load_scene(name));
   for (const auto& [k, s] : {std::pair(1, 1), {4, 2}, {3, 3}}) {
     const Hbvm<S> method = make_hbvm<S>(k, s);
-    HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 100), kind);
+    HbvmStepper<S> stepper(scene.problem, method, kind);
     EXPECT_EQ(allocations_of<S>(stepper, scene), 0) << name << ", " << name_of(kind) << ", " << k << "," << s;
   }
 }
@@ -78,7 +79,7 @@ TEST(AWatchedStep, AllocatesNothing) {
       for (const int s : {1, 3}) {
         const Assembled<S> scene = assemble<S>(load_scene(name));
         const Hbvm<S> method = make_hbvm<S>(s, s);
-        HbvmStepper<S> stepper(scene.problem, method, step, SolverKind::fixed_point);
+        HbvmStepper<S> stepper(scene.problem, method, SolverKind::fixed_point);
         CoefficientDecay<S> decay(scene.problem, s, step);
         WatchedStepper<S> watched(stepper, decay);
         EXPECT_EQ(allocations_of<S>(watched, scene), 0) << name << s;
@@ -116,14 +117,15 @@ template <Scalar S>
 void expect_none_where_nodes_may_be_raised_and_steps_divided(const char* name) {
   const Assembled<S> scene = assemble<S>(load_scene(name));
   NodeLog log;
-  HalvingStepper<S> stepper(S(S(1) / 100), [&](const S& step) {
-    return std::make_unique<RaisingStepper<S>>(scene.problem, std::same_as<S, double> ? 16 : 40, 2, step,
+  const S h = S(1) / 100;
+  HalvingStepper<S> stepper([&](int) {
+    return std::make_unique<RaisingStepper<S>>(scene.problem, std::same_as<S, double> ? 16 : 40, 2,
                                                SolverKind::fixed_point, log);
   });
   State<S> state(scene.q0, scene.p0);
-  for (int i = 0; i < 2; ++i) stepper.step(state);
+  for (int i = 0; i < 2; ++i) stepper.step(state, h);
   const long before = allocations;
-  for (int i = 0; i < 2 * RaisingStepper<S>::interval; ++i) stepper.step(state);
+  for (int i = 0; i < 2 * RaisingStepper<S>::interval; ++i) stepper.step(state, h);
   EXPECT_EQ(allocations - before, 0) << name;
   EXPECT_TRUE(log.raised.empty());
 }
@@ -138,7 +140,7 @@ TEST(AStep, ThatWatchesItsNodesAllocatesNothing) {
 
 TEST(AStep, OfRattleAllocatesNothing) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
-  Rattle<double> rattle(scene.problem, 0.1);
+  Rattle<double> rattle(scene.problem);
   EXPECT_EQ(allocations_of<double>(rattle, scene), 0);
 }
 
@@ -150,7 +152,7 @@ TEST(AStep, OfARungeKuttaMethodAllocatesNothing) {
   RungeKutta<Mpfr> strictly_lower = implicit;
   strictly_lower.A(0, 0) = strictly_lower.A(0, 1) = strictly_lower.A(1, 1) = 0;
   for (const RungeKutta<Mpfr>& method : {implicit, strictly_lower}) {
-    RungeKuttaStep<Mpfr> step(scene.problem, method, Mpfr(1) / 100);
+    RungeKuttaStepper<Mpfr> step(scene.problem, method);
     EXPECT_EQ(allocations_of<Mpfr>(step, scene), 0);
   }
 }

@@ -83,9 +83,9 @@ TEST(AccountText, OfNothingHasSumsOfZero) {
 TEST(AccountOf, TheEquationsHasEffectsThenParts) {
   const auto scene = assemble<double>(load_scene("satellites_with_oblateness"));
   const auto method = make_hbvm<double>(3, 2);
-  StageEquations<double> equations(scene.problem, method, 0.125);
+  StageEquations<double> equations(scene.problem, method);
   auto x = equations.make_unknowns();
-  equations.start(scene.q0, scene.p0);
+  equations.start({scene.q0, scene.p0, 0.125});
   for (int sweep = 0; sweep < 4; ++sweep) {
     equations.move(x.gamma);
     equations.forces(x.psi);

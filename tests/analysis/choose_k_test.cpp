@@ -131,12 +131,12 @@ TYPED_TEST(ChooseK, OtherwiseIsTheLeastThatReachesRoundOff) {
   ASSERT_GT(chosen.k, s);
   for (const int k : {chosen.k, chosen.k - 1}) {
     const Hbvm<S> method = make_hbvm<S>(k, s);
-    HbvmStepper<S> stepper(scene.problem, method, step, SolverKind::fixed_point);
+    HbvmStepper<S> stepper(scene.problem, method, SolverKind::fixed_point);
     State<S> state(scene.q0, scene.p0);
     bool enough = true;
     for (int n = 0; n < 16; ++n) {
       enough = enough && quadrature_defect(scene.problem, k, s, step, SolverKind::fixed_point, state.q, state.p) <= 1;
-      stepper.step(state);
+      stepper.step(state, step);
     }
     EXPECT_EQ(enough, k == chosen.k) << "k = " << k;
   }
@@ -198,9 +198,9 @@ TYPED_TEST(ChooseK, OfALaterStepThatCannotBeMadeIsThatOfTheStepsBefore) {
   const ChosenK chosen = this->chosen(scene, 2, "1/8");
   EXPECT_NE(chosen.reason.find("no k makes more than the first"), std::string::npos) << chosen.reason;
   const Hbvm<S> method = make_hbvm<S>(chosen.k, 2);
-  HbvmStepper<S> stepper(scene.problem, method, literal<S>("1/8"), SolverKind::fixed_point);
+  HbvmStepper<S> stepper(scene.problem, method, SolverKind::fixed_point);
   State<S> state(scene.q0, scene.p0);
-  stepper.step(state);
+  stepper.step(state, literal<S>("1/8"));
 }
 
 /// A stiff spring amplifies the round-off of positions; that no k agrees with k + s to the round-off of its force

@@ -7,11 +7,11 @@
 
 #include "hbvm/checksum.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/integrate/backward_stepper.hpp"
 #include "hbvm/integrate/drift.hpp"
 #include "hbvm/integrate/momentum_drift.hpp"
 #include "hbvm/integrate/trajectory.hpp"
 #include "hbvm/interruption.hpp"
+#include "hbvm/step/backward_stepper.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 #include "verification/models.hpp"
@@ -64,7 +64,7 @@ void expect_same_steps(const Scene& scene, int k, int s, const char* step, Solve
   std::vector<std::string> expected;
   std::vector<long> sweeps;
   for (long n = 0; n < steps; ++n) {
-    sweeps.push_back(whole.stepper.step(whole.state));
+    sweeps.push_back(whole.step());
     expected.push_back(bits_of(whole.state, whole.stepper));
   }
   std::string kept;
@@ -78,7 +78,7 @@ void expect_same_steps(const Scene& scene, int k, int s, const char* step, Solve
       again(part.state, part.stepper);
       EXPECT_EQ(again.text(), kept) << "what is read is not what was written";
     }
-    EXPECT_EQ(part.stepper.step(part.state), sweeps[static_cast<std::size_t>(n)]) << "step " << n + 1;
+    EXPECT_EQ(part.step(), sweeps[static_cast<std::size_t>(n)]) << "step " << n + 1;
     ASSERT_EQ(bits_of(part.state, part.stepper), expected[static_cast<std::size_t>(n)]) << "step " << n + 1;
     Archive writing;
     writing(part.state, part.stepper);
@@ -123,9 +123,9 @@ TEST(Memory, OfTheAutomaticChoiceIsTestedWhereItSwitches) {
   for (const auto& [scene, step] : switching) {
     SceneRun<double> run(load_scene(scene), 3, 3, step, (std::string(step) + "*12").c_str(), SolverKind::automatic);
     const auto has_newton = [&] { return run.stepper.counts().parts.back().name == std::string("corrections"); };
-    run.stepper.step(run.state);
+    run.step();
     const bool at_once = has_newton();
-    for (int n = 1; n < 12; ++n) run.stepper.step(run.state);
+    for (int n = 1; n < 12; ++n) run.step();
     switched += !at_once && has_newton();
   }
   EXPECT_GE(switched, 2);

@@ -32,7 +32,7 @@ TEST(Integrate, ShowsTheStatesThatSingleStepsGive) {
   long sweeps = 0;
   for (std::size_t n = 0; n < recorder.seen.size(); ++n) {
     if (n > 0) {
-      sweeps += again.stepper.step(again.state);
+      sweeps += again.step();
       EXPECT_EQ(recorder.seen[n].lambda, again.stepper.multiplier());
     }
     EXPECT_EQ(recorder.seen[n].q, again.state.q);

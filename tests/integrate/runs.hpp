@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
 
@@ -29,10 +29,11 @@ struct SceneRun {
       : scene(assemble<S>(text)),
         method(make_hbvm<S>(k, s)),
         grid(Expression::parse(step), Expression::parse(until)),
-        stepper(scene.problem, method, grid.step(), kind),
+        stepper(scene.problem, method, kind),
         state(scene.q0, scene.p0) {}
   SceneRun(const SceneRun&) = delete;
 
+  long step() { return stepper.step(state, grid.step()); }
   Integration<S> operator()(const std::vector<Observer<S>*>& observers) {
     return integrate<S>(stepper, state, grid, observers);
   }

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/reference/closed_form.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -56,9 +56,9 @@ TEST_F(ReferenceMotionTest, ErrorsAreThoseOfTheRunBefore) {
   const Vector<Mpfr> exact_lambda = point.multiplier(exact.q, exact.p);
   for (const auto& [steps, stages] : {std::pair(1, 2), {2, 3}, {4, 4}}) {
     const Hbvm<Mpfr> method = make_hbvm<Mpfr>(stages, stages);
-    HbvmStepper<Mpfr> stepper(pendulum.problem, method, Mpfr(duration / steps), SolverKind::fixed_point);
+    HbvmStepper<Mpfr> stepper(pendulum.problem, method, SolverKind::fixed_point);
     State<Mpfr> state(pendulum.q0, pendulum.p0);
-    for (int n = 0; n < steps; ++n) stepper.step(state);
+    for (int n = 0; n < steps; ++n) stepper.step(state, Mpfr(duration / steps));
     const Vector<Mpfr> p = point.tangential(state.q, state.p), lambda = point.multiplier(state.q, p);
     const ReferenceMotion::Errors errors = motion(steps, stages).errors();
     constexpr double bits = 0.1;  // the run of two stages more is not exact either

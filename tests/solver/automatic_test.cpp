@@ -1,7 +1,7 @@
 #include "hbvm/solver/automatic.hpp"
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -25,9 +25,10 @@ struct Motion {
   Hbvm<S> method = make_hbvm<S>(1, 1);
   HbvmStepper<S> stepper;
   State<S> state{scene.q0, scene.p0};
+  S h;
 
-  Motion(SolverKind kind, const S& step) : stepper(scene.problem, method, step, kind) {}
-  long step() { return stepper.step(state); }
+  Motion(SolverKind kind, const S& step) : stepper(scene.problem, method, kind), h(step) {}
+  long step() { return stepper.step(state, h); }
 };
 
 /// q^2 + p^2, which the midpoint rule keeps.

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -28,7 +28,7 @@ TEST(BeyondBreakdown, IsATypedErrorThatNamesStepTimeAndIncrement) {
     for (const SolverKind kind : kinds) {
       const Hbvm<double> method = make_hbvm<double>(s, s);
       const TimeGrid<double> grid(Expression::parse("3/2"), Expression::parse("15"));
-      HbvmStepper<double> stepper(scene.problem, method, grid.step(), kind);
+      HbvmStepper<double> stepper(scene.problem, method, kind);
       State<double> state(scene.q0, scene.p0);
       try {
         integrate<double>(stepper, state, grid, {});
@@ -53,9 +53,9 @@ TEST(BeyondBreakdown, TheStateStaysAsItWas) {
   const Assembled<double> scene = assemble<double>(read_scene(swinging("3"), "swinging"));
   const Hbvm<double> method = make_hbvm<double>(1, 1);
   for (const SolverKind kind : kinds) {
-    HbvmStepper<double> stepper(scene.problem, method, 1.5, kind);
+    HbvmStepper<double> stepper(scene.problem, method, kind);
     State<double> state(scene.q0, scene.p0);
-    EXPECT_THROW(stepper.step(state), StageFailure);
+    EXPECT_THROW(stepper.step(state, 1.5), StageFailure);
     EXPECT_EQ(state.q, scene.q0);
     EXPECT_EQ(state.p, scene.p0);
     EXPECT_EQ(max_norm(state.q_carry), 0);
@@ -67,10 +67,10 @@ TEST(BeyondBreakdown, AStepFromThereWithAnotherSizeSucceeds) {
   const Assembled<double> scene = assemble<double>(read_scene(swinging("3"), "swinging"));
   const Hbvm<double> method = make_hbvm<double>(2, 2);
   State<double> state(scene.q0, scene.p0);
-  HbvmStepper<double> large(scene.problem, method, 1.5, SolverKind::fixed_point);
-  EXPECT_THROW(large.step(state), StageFailure);
-  HbvmStepper<double> small(scene.problem, method, 0.1, SolverKind::fixed_point);
-  EXPECT_NO_THROW(small.step(state));
+  HbvmStepper<double> large(scene.problem, method, SolverKind::fixed_point);
+  EXPECT_THROW(large.step(state, 1.5), StageFailure);
+  HbvmStepper<double> small(scene.problem, method, SolverKind::fixed_point);
+  EXPECT_NO_THROW(small.step(state, 0.1));
 }
 
 /// Whatever the step: a finite state that fulfils the constraint and keeps H, or a StageFailure.
@@ -82,12 +82,12 @@ TEST(AnyStep, SucceedsOrFailsButNeverLies) {
       const Hbvm<double> method = make_hbvm<double>(k, s);
       for (const SolverKind kind : kinds)
         for (int eighths = 1; eighths <= 40; ++eighths) {
-          HbvmStepper<double> stepper(scene.problem, method, eighths / 8.0, kind);
+          HbvmStepper<double> stepper(scene.problem, method, kind);
           State<double> state(scene.q0, scene.p0);
           const double H0 = scene.p0.squaredNorm() / 2 + scene.q0[1];
           try {
             for (int step = 0; step < 4; ++step) {
-              stepper.step(state);
+              stepper.step(state, eighths / 8.0);
               ++solved;
               ASSERT_TRUE(state.q.allFinite() && state.p.allFinite() && stepper.multiplier().allFinite());
               EXPECT_NEAR(state.q.squaredNorm(), 1, 1e-9)
@@ -141,9 +141,9 @@ c = -1
   for (const std::string& bodies : {fast, fast + light, light + fast}) {
     const Assembled<double> scene = assemble<double>(read_scene("dimension = 2\n" + bodies + gravity, "bodies"));
     for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::paper}) {
-      HbvmStepper<double> stepper(scene.problem, method, 1.5, kind);
+      HbvmStepper<double> stepper(scene.problem, method, kind);
       State<double> state(scene.q0, scene.p0);
-      EXPECT_THROW(stepper.step(state), StageFailure) << scene.problem.nu() << " constraints";
+      EXPECT_THROW(stepper.step(state, 1.5), StageFailure) << scene.problem.nu() << " constraints";
     }
   }
 }
@@ -162,13 +162,13 @@ TEST(NearBreakdown, AStepIsSolvedCompletely) {
       const Assembled<Mpfr> exact_scene = assemble<Mpfr>(read_scene(swinging("3"), "swinging"));
       const Hbvm<double> method = make_hbvm<double>(c.s, c.s);
       const Hbvm<Mpfr> exact_method = make_hbvm<Mpfr>(c.s, c.s);
-      HbvmStepper<double> stepper(scene.problem, method, literal<double>(c.h), kind);
+      HbvmStepper<double> stepper(scene.problem, method, kind);
       State<double> state(scene.q0, scene.p0);
       const Mpfr step(literal<double>(c.h));
       for (int n = 0; n < 5; ++n) {
         State<Mpfr> exact(state.q.cast<Mpfr>(), state.p.cast<Mpfr>());
-        HbvmStepper<Mpfr>(exact_scene.problem, exact_method, step, SolverKind::fixed_point).step(exact);
-        stepper.step(state);
+        HbvmStepper<Mpfr>(exact_scene.problem, exact_method, SolverKind::fixed_point).step(exact, step);
+        stepper.step(state, literal<double>(c.h));
         const Mpfr miss = max_norm(Vector<Mpfr>(state.q.cast<Mpfr>() - exact.q)),
                    miss_p = max_norm(Vector<Mpfr>(state.p.cast<Mpfr>() - exact.p));
         EXPECT_LE(miss, literal<Mpfr>("1e-12")) << "s = " << c.s << ", step " << n + 1;
@@ -181,9 +181,8 @@ TEST(FixedPoint, ReturnsTheNumberOfSweeps) {
   const Assembled<double> scene = assemble<double>(read_scene(swinging("1"), "swinging"));
   const Hbvm<double> method = make_hbvm<double>(2, 2);
   for (const SolverKind kind : kinds) {
-    const auto coarse = make_solver(kind, scene.problem, method, 0.5),
-               fine = make_solver(kind, scene.problem, method, 0.01);
-    const long many = coarse->solve(scene.q0, scene.p0), few = fine->solve(scene.q0, scene.p0);
+    const auto coarse = make_solver(kind, scene.problem, method), fine = make_solver(kind, scene.problem, method);
+    const long many = coarse->solve({scene.q0, scene.p0, 0.5}), few = fine->solve({scene.q0, scene.p0, 0.01});
     EXPECT_GE(few, 3);
     EXPECT_LT(few, many);
     EXPECT_LT(many, 200);
@@ -197,7 +196,7 @@ TEST(FixedPoint, SweepsGrowLinearlyWithTheDigits) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(swinging("1"), "swinging"));
     const Hbvm<Mpfr> method = make_hbvm<Mpfr>(2, 2);
     sweeps.push_back(
-        make_solver(SolverKind::paper, scene.problem, method, Mpfr(Mpfr(1) / 10))->solve(scene.q0, scene.p0));
+        make_solver(SolverKind::paper, scene.problem, method)->solve({scene.q0, scene.p0, Mpfr(Mpfr(1) / 10)}));
   }
   EXPECT_GT(sweeps[1], sweeps[0]);
   EXPECT_NEAR(static_cast<double>(sweeps[2] - sweeps[1]), 2.0 * static_cast<double>(sweeps[1] - sweeps[0]), 6);
@@ -207,9 +206,9 @@ TEST(FixedPoint, AtRestNothingMoves) {
   const Assembled<double> scene = assemble<double>(read_scene(swinging("0"), "at rest"));
   const Hbvm<double> method = make_hbvm<double>(3, 3);
   for (const SolverKind kind : kinds) {
-    HbvmStepper<double> stepper(scene.problem, method, 0.1, kind);
+    HbvmStepper<double> stepper(scene.problem, method, kind);
     State<double> state(scene.q0, scene.p0);
-    for (int n = 0; n < 10; ++n) stepper.step(state);
+    for (int n = 0; n < 10; ++n) stepper.step(state, 0.1);
     EXPECT_EQ(state.q, scene.q0);
     EXPECT_NEAR(max_norm(state.p), 0, 1e-16);
     EXPECT_NEAR(stepper.multiplier()[0], 0.5, 1e-14);
@@ -224,7 +223,7 @@ TEST(FixedPoint, ThePapersOrderWaitsForTheForceOfABodyAtRest) {
       "fall"));
   const Hbvm<double> method = make_hbvm<double>(4, 2);
   State<double> states[2] = {{scene.q0, scene.p0}, {scene.q0, scene.p0}};
-  for (std::size_t i = 0; i < 2; ++i) HbvmStepper<double>(scene.problem, method, 0.1, kinds[i]).step(states[i]);
+  for (std::size_t i = 0; i < 2; ++i) HbvmStepper<double>(scene.problem, method, kinds[i]).step(states[i], 0.1);
   EXPECT_LT(states[1].p[0], -0.1);
   EXPECT_LE(std::abs(states[0].p[0] - states[1].p[0]), 4 * epsilon<double>() * std::abs(states[0].p[0]));
 }
@@ -243,10 +242,10 @@ TEST(FixedPoint, ALightBodysDigitsDoNotDependOnAHeavyOne) {
       const auto alone = assemble<double>(read_scene(kepler(mass, ""), "alone")),
                  both = assemble<double>(read_scene(kepler(mass, heavy), "both"));
       State<double> one(alone.q0, alone.p0), two(both.q0, both.p0);
-      HbvmStepper<double> first(alone.problem, method, 0.1, kind), second(both.problem, method, 0.1, kind);
+      HbvmStepper<double> first(alone.problem, method, kind), second(both.problem, method, kind);
       for (int n = 0; n < 100; ++n) {
-        first.step(one);
-        second.step(two);
+        first.step(one, 0.1);
+        second.step(two, 0.1);
       }
       for (Index j = 0; j < 2; ++j) {
         // A hundred steps' rounding, and what the orbit makes of it.

@@ -52,7 +52,7 @@ void expect_derivative(const Scene& text, int k, int s, bool banded) {
   const Index m = scene.problem.m(), nu = scene.problem.nu();
   std::mt19937 random(17);
   const auto number = [&] { return Mpfr(static_cast<int>(random() % 201) - 100) / 128; };
-  StageEquations<Mpfr> equations(scene.problem, method, h);
+  StageEquations<Mpfr> equations(scene.problem, method);
   StageUnknowns<Mpfr> x = equations.make_unknowns(), moved = x;
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) x.gamma(i, j) = (i == 0 ? scene.p0[j] : Mpfr(0)) + number();
@@ -61,7 +61,7 @@ void expect_derivative(const Scene& text, int k, int s, bool banded) {
   for (Index i = 0; i < gamma_way.size(); ++i) gamma_way.data()[i] = number();
   for (Index i = 0; i < lambda_way.size(); ++i) lambda_way.data()[i] = number();
 
-  equations.start(scene.q0, scene.p0);
+  equations.start({scene.q0, scene.p0, h});
   StageResidual<Mpfr> r[2] = {{x.gamma, x.lambda}, {x.gamma, x.lambda}};
   const Mpfr small = ldexp(Mpfr(1), -60);
   for (const int side : {0, 1}) {
@@ -76,7 +76,7 @@ void expect_derivative(const Scene& text, int k, int s, bool banded) {
 
   const Problem<double> problem = in_double(scene.problem);
   const Hbvm<double> rounded = make_hbvm<double>(k, s);
-  StageEquations<double> at(problem, rounded, approximately(h));
+  StageEquations<double> at(problem, rounded);
   StageUnknowns<double> at_x = at.make_unknowns();
   round_to_double(x.gamma, at_x.gamma);
   round_to_double(x.lambda, at_x.lambda);
@@ -86,9 +86,9 @@ void expect_derivative(const Scene& text, int k, int s, bool banded) {
     p0[j] = approximately(scene.p0[j]);
   }
   StageResidual<double> there{at_x.gamma, at_x.lambda};
-  at.start(q0, p0);
+  at.start({q0, p0, approximately(h)});
   at.residual(at_x, there);
-  Jacobian jacobian(problem, rounded, approximately(h));
+  Jacobian jacobian(problem, rounded);
   EXPECT_EQ(jacobian.unknowns(), s * (m + nu));
   EXPECT_EQ(8 * jacobian.half_bandwidth() < jacobian.unknowns(), banded);
   ASSERT_TRUE(jacobian.factor(at, at_x.lambda));

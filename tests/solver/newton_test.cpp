@@ -1,10 +1,10 @@
 #include "hbvm/solver/newton.hpp"
 
 #include "hbvm/integrate/drift.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -28,7 +28,7 @@ TYPED_TEST(NewtonTest, ConvergesWhereTheFixedPointBreaksDown) {
       const Hbvm<S> method = make_hbvm<S>(k, s);
       for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
         Drift<S> drift(scene.problem);
-        HbvmStepper<S> stepper(scene.problem, method, grid.step(), kind);
+        HbvmStepper<S> stepper(scene.problem, method, kind);
         State<S> state(scene.q0, scene.p0);
         ASSERT_NO_THROW(integrate<S>(stepper, state, grid, {&drift})) << method.s << " " << name_of(kind);
         // H is 3.5, and 30 to 40 steps add their round-off.
@@ -45,7 +45,7 @@ TYPED_TEST(NewtonTest, EndsWithATypedErrorWhereNoSolutionIsFound) {
   const Hbvm<S> method = make_hbvm<S>(1, 1);
   for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
     const TimeGrid<S> grid(Expression::parse("3"), Expression::parse("30"));
-    HbvmStepper<S> stepper(scene.problem, method, grid.step(), kind);
+    HbvmStepper<S> stepper(scene.problem, method, kind);
     State<S> state(scene.q0, scene.p0);
     EXPECT_THROW(integrate<S>(stepper, state, grid, {}), StepError);
   }
@@ -60,8 +60,8 @@ TEST(Newton, TakesNoSmallIncrementForASolution) {
       "fall"));
   const Hbvm<double> method = make_hbvm<double>(2, 2);
   for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
-    const auto solver = make_solver(kind, scene.problem, method, 1.0);
-    EXPECT_THROW(solver->solve(scene.q0, scene.p0), StageFailure) << name_of(kind);
+    const auto solver = make_solver(kind, scene.problem, method);
+    EXPECT_THROW(solver->solve({scene.q0, scene.p0, 1.0}), StageFailure) << name_of(kind);
   }
 }
 
@@ -74,12 +74,12 @@ TEST(Newton, WinsFourteenDigitsASweep) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("tethered_satellites"));
     const Hbvm<Mpfr> method = make_hbvm<Mpfr>(6, 4);
     const Mpfr h = Mpfr(1) / 10;
-    HbvmStepper<Mpfr> newton(scene.problem, method, h, SolverKind::newton),
-        papers(scene.problem, method, h, SolverKind::paper);
+    HbvmStepper<Mpfr> newton(scene.problem, method, SolverKind::newton),
+        papers(scene.problem, method, SolverKind::paper);
     State<Mpfr> state(scene.q0, scene.p0), other = state;
-    newton.step(state);
-    papers.step(other);
-    const long sweeps = newton.step(state), papers_sweeps = papers.step(other);
+    newton.step(state, h);
+    papers.step(other, h);
+    const long sweeps = newton.step(state, h), papers_sweeps = papers.step(other, h);
     if (digits == 100) {
       EXPECT_LE(sweeps, 16);
       EXPECT_GE(papers_sweeps, 50);
@@ -96,9 +96,9 @@ TEST(Newton, CountsWhatItDid) {
   const PrecisionScope digits(50);
   const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("kepler"));
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(5, 2);
-  const auto solver = make_solver(SolverKind::newton, scene.problem, method, Mpfr(Mpfr(1) / 50));
+  const auto solver = make_solver(SolverKind::newton, scene.problem, method);
   // The start of the first step evaluates the forces once more.
-  const auto sweeps = static_cast<std::uint64_t>(solver->solve(scene.q0, scene.p0));
+  const auto sweeps = static_cast<std::uint64_t>(solver->solve({scene.q0, scene.p0, Mpfr(Mpfr(1) / 50)}));
   const SolverCounts counts = solver->counts();
   EXPECT_EQ(counts.effects.at(0).evaluations, 5 * (sweeps + 1));
   const auto part = [&](const std::string& name) {
@@ -118,11 +118,11 @@ TEST(Newton, CountsWhatItDid) {
 TEST(Newton, IsNotMisledByOneFastFall) {
   const Assembled<double> scene = assemble<double>(load_scene("conical_pendulum"));
   const Hbvm<double> method = make_hbvm<double>(3, 3);
-  HbvmStepper<double> stepper(scene.problem, method, 1.0 / 16, SolverKind::newton);
+  HbvmStepper<double> stepper(scene.problem, method, SolverKind::newton);
   State<double> state(scene.q0, scene.p0);
   const auto momentum = [&] { return state.q[0] * state.p[1] - state.q[1] * state.p[0]; };
   const double before = momentum();
-  for (int n = 0; n < 64; ++n) stepper.step(state);
+  for (int n = 0; n < 64; ++n) stepper.step(state, 1.0 / 16);
   EXPECT_LE(std::abs(momentum() - before), 16 * epsilon<double>());
 }
 
@@ -136,8 +136,8 @@ TEST(Newton, LeavesWhatDoubleCannotHoldToTheFixedPoint) {
       "slow");
   const Assembled<Mpfr> scene = assemble<Mpfr>(text);
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(2, 2);
-  const auto solver = make_solver(SolverKind::automatic, scene.problem, method, Mpfr(Mpfr(1) / 10));
-  EXPECT_NO_THROW(solver->solve(scene.q0, scene.p0));
+  const auto solver = make_solver(SolverKind::automatic, scene.problem, method);
+  EXPECT_NO_THROW(solver->solve({scene.q0, scene.p0, Mpfr(Mpfr(1) / 10)}));
   EXPECT_LE(magnitude(Mpfr(solver->change().q[1] / scene.p0[1] - Mpfr(1) / 10)), 100 * epsilon<Mpfr>());
 }
 
@@ -151,11 +151,11 @@ TEST(Newton, EndsAtTheLastDigit) {
       const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 3);
       const Mpfr h = Mpfr(1) / 16;
       State<Mpfr> newtons(scene.q0, scene.p0), swept = newtons;
-      HbvmStepper<Mpfr> newton(scene.problem, method, h, SolverKind::newton),
-          fixed_point(scene.problem, method, h, SolverKind::fixed_point);
+      HbvmStepper<Mpfr> newton(scene.problem, method, SolverKind::newton),
+          fixed_point(scene.problem, method, SolverKind::fixed_point);
       for (int n = 0; n < 3; ++n) {
-        newton.step(newtons);
-        fixed_point.step(swept);
+        newton.step(newtons, h);
+        fixed_point.step(swept, h);
       }
       const Mpfr size = std::max(max_norm(swept.p), max_norm(swept.q));
       EXPECT_LE(distance(newtons.p, swept.p), 24 * epsilon<Mpfr>() * size) << name << ", " << digits;
@@ -175,10 +175,10 @@ TYPED_TEST(NewtonTest, TakesTheSolutionNearTheStartOnAStiffSpring) {
       "stiff"));
   for (const int s : {1, 2, 3}) {
     const Hbvm<S> method = make_hbvm<S>(s, s);
-    HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 8), SolverKind::newton);
+    HbvmStepper<S> stepper(scene.problem, method, SolverKind::newton);
     State<S> state(scene.q0, scene.p0);
     for (int n = 0; n < 8; ++n) {
-      stepper.step(state);
+      stepper.step(state, S(S(1) / 8));
       EXPECT_LT(max_norm(state.p), 2) << s;
       EXPECT_LT(magnitude(S(state.q.squaredNorm() - 1)), S(1) / 64) << s;
     }

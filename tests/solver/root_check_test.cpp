@@ -1,7 +1,7 @@
 #include "hbvm/solver/root_check.hpp"
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -28,14 +28,14 @@ TYPED_TEST(Roots, AreToldApart) {
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
   const Hbvm<S> method = make_hbvm<S>(4, 2);
   const S h = S(1) / 8;
-  const auto solver = make_solver<S>(SolverKind::newton, scene.problem, method, h);
-  solver->solve(scene.q0, scene.p0);
-  RootCheck<S> check(scene.problem, method, h);
+  const auto solver = make_solver<S>(SolverKind::newton, scene.problem, method);
+  solver->solve({scene.q0, scene.p0, h});
+  RootCheck<S> check(scene.problem, method);
   Matrix<S> gamma = solver->unknowns().gamma;
-  EXPECT_EQ(check.judge(scene.q0, scene.p0, gamma), Verdict::same);
+  EXPECT_EQ(check.judge({scene.q0, scene.p0, h}, gamma), Verdict::same);
   EXPECT_GT(check.sweeps(), 0);
   gamma(0, 3) += S(1) / 64;
-  EXPECT_EQ(check.judge(scene.q0, scene.p0, gamma), Verdict::other);
+  EXPECT_EQ(check.judge({scene.q0, scene.p0, h}, gamma), Verdict::other);
 }
 
 TYPED_TEST(Roots, OfMassesBeyondDoubleAreUnknown) {
@@ -44,8 +44,8 @@ TYPED_TEST(Roots, OfMassesBeyondDoubleAreUnknown) {
   Assembled<S> scene = assemble<S>(read_scene(
       "dimension = 2\nbody = [{ name = \"b\", mass = \"2^-1100\", position = [0, 0], velocity = [1, 0] }]\n", "light"));
   const Hbvm<S> method = make_hbvm<S>(1, 1);
-  RootCheck<S> check(scene.problem, method, S(1));
-  EXPECT_EQ(check.judge(scene.q0, scene.p0, Matrix<S>::Zero(1, 2)), RootCheck<S>::Verdict::unknown);
+  RootCheck<S> check(scene.problem, method);
+  EXPECT_EQ(check.judge({scene.q0, scene.p0, S(1)}, Matrix<S>::Zero(1, 2)), RootCheck<S>::Verdict::unknown);
 }
 
 /// In double the fixed point converges to a solution on the other side of the circle in the second step.
@@ -53,13 +53,13 @@ TEST(RootsOfTheFixedPoint, AreThoseOfShorterStepsOrNone) {
   const Assembled<double> scene = assemble<double>(read_scene(slow_circle, "slow"));
   const Hbvm<double> method = make_hbvm<double>(3, 3);
   for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::paper, SolverKind::automatic}) {
-    HbvmStepper<double> stepper(scene.problem, method, 250, kind);
-    HbvmStepper<double> newton(scene.problem, method, 250, SolverKind::newton);
+    HbvmStepper<double> stepper(scene.problem, method, kind);
+    HbvmStepper<double> newton(scene.problem, method, SolverKind::newton);
     State<double> state(scene.q0, scene.p0), expected = state;
     try {
       for (int n = 0; n < 4; ++n) {
-        stepper.step(state);
-        newton.step(expected);
+        stepper.step(state, 250);
+        newton.step(expected, 250);
         for (Index i = 0; i < 2; ++i) EXPECT_NEAR(state.q[i], expected.q[i], 1e-10) << name_of(kind) << " " << n;
       }
       EXPECT_EQ(kind, SolverKind::automatic) << "it should not get so far";

@@ -31,12 +31,12 @@ class StageMaps : public ::testing::TestWithParam<std::tuple<int, int>> {
 TEST_P(StageMaps, AreThePapersFormulas) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
-    StageEquations<Mpfr> equations(scene.problem, method, h);
+    StageEquations<Mpfr> equations(scene.problem, method);
     const StageFormulas formulas(model, k, s, h);
     StageUnknowns<Mpfr> x = equations.make_unknowns();
     x.gamma = generic(s, model.m(), 1);
 
-    equations.start(scene.q0, scene.p0);
+    equations.start({scene.q0, scene.p0, h});
     equations.move(x.gamma);
     equations.forces(x.psi);
     expect_equal(x.psi, formulas.psi(scene.q0, x.gamma), "psi");
@@ -58,12 +58,13 @@ TEST_P(StageMaps, AreThePapersFormulas) {
 TEST_P(StageMaps, ChangesOverTheStep) {
   const DenseModel model = ellipsoid_bead();
   const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
-  StageEquations<Mpfr> equations(scene.problem, method, h);
+  StageEquations<Mpfr> equations(scene.problem, method);
   StageUnknowns<Mpfr> x = equations.make_unknowns();
   x.gamma = generic(s, model.m(), 3);
   x.psi = generic(s, model.m(), 4);
   x.zeta = generic(s, model.m(), 5);
   StepChange<Mpfr> change(model.m());
+  equations.start({scene.q0, scene.p0, h});
   equations.changes(x, change);
   expect_equal(Matrix<Mpfr>(change.q.transpose()), Matrix<Mpfr>(x.gamma.row(0) * model.W * h), "h M^-1 gamma_0");
   expect_equal(Matrix<Mpfr>(change.p.transpose()), Matrix<Mpfr>((x.psi - x.zeta).row(0) * h), "h (psi_0 - zeta_0)");
@@ -81,8 +82,8 @@ TEST(StepChanges, KeepWhatRoundingTakesFromTheForces) {
     const auto scene = assemble<double>(read_scene(falling + (varying ? spring : ""), "scene"));
     const double h = 0.125;
     const auto method = make_hbvm<double>(2, 2);
-    StageEquations<double> equations(scene.problem, method, h);
-    equations.start(scene.q0, scene.p0);
+    StageEquations<double> equations(scene.problem, method);
+    equations.start({scene.q0, scene.p0, h});
     StageUnknowns<double> x = equations.make_unknowns();
     x.gamma.row(0) = scene.p0.transpose();
     equations.move(x.gamma);
@@ -110,13 +111,13 @@ TEST(StepChanges, KeepWhatRoundingTakesFromTheForces) {
 TEST_P(StageMaps, ResidualIsThatOfThePapersFormulas) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
-    StageEquations<Mpfr> equations(scene.problem, method, h);
+    StageEquations<Mpfr> equations(scene.problem, method);
     const StageFormulas formulas(model, k, s, h);
     StageUnknowns<Mpfr> x = equations.make_unknowns();
     x.gamma = generic(s, model.m(), 6);
     x.lambda = generic(s, model.nu(), 7);
     StageResidual<Mpfr> r{x.gamma, x.lambda};
-    equations.start(scene.q0, scene.p0);
+    equations.start({scene.q0, scene.p0, h});
     equations.residual(x, r);
     expect_equal(x.psi, formulas.psi(scene.q0, x.gamma), "psi");
     expect_equal(x.zeta, formulas.zeta(scene.q0, x.gamma, x.lambda), "zeta");
@@ -136,10 +137,10 @@ TEST(StageEquations, WithoutConstraintsHaveNoMultipliers) {
   const Assembled<Mpfr> scene = assemble<Mpfr>(
       read_scene("dimension = 2\n[[body]]\nname = \"a\"\nmass = 1\nposition = [0, 0]\nvelocity = [1, 0]\n", "free"));
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(2, 2);
-  StageEquations<Mpfr> equations(scene.problem, method, Mpfr(1));
+  StageEquations<Mpfr> equations(scene.problem, method);
   StageUnknowns<Mpfr> x = equations.make_unknowns();
   EXPECT_EQ(x.lambda.size(), 0);
-  equations.start(scene.q0, scene.p0);
+  equations.start({scene.q0, scene.p0, Mpfr(1)});
   equations.move(x.gamma);
   EXPECT_TRUE(equations.multipliers(x.psi, x.lambda, x.zeta));
   EXPECT_EQ(max_norm(x.zeta), 0);
@@ -149,9 +150,9 @@ TEST(StageEquations, ReportASingularSystem) {
   Assembled<double> scene = assemble<double>(load_scene("simple_pendulum"));
   scene.problem.constraints.push_back(scene.problem.constraints[0]);  // the Gram matrix is singular everywhere
   const Hbvm<double> method = make_hbvm<double>(1, 1);
-  StageEquations<double> equations(scene.problem, method, 1);
+  StageEquations<double> equations(scene.problem, method);
   StageUnknowns<double> x = equations.make_unknowns();
-  equations.start(scene.q0, scene.p0);
+  equations.start({scene.q0, scene.p0, 1});
   equations.move(x.gamma);
   EXPECT_FALSE(equations.multipliers(x.psi, x.lambda, x.zeta));
 }

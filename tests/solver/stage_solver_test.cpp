@@ -1,8 +1,8 @@
 #include "hbvm/solver/stage_solver.hpp"
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 #include "solver/stage_formulas.hpp"
 
@@ -31,10 +31,10 @@ TEST_P(StageSolution, FulfilsThePapersEquations) {
     for (const auto& [k, s] : methods) {
       const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
       const StageFormulas formulas(model, k, s, h);
-      const auto solver = make_solver(GetParam(), scene.problem, method, h);
+      const auto solver = make_solver(GetParam(), scene.problem, method);
       Vector<Mpfr> q0 = scene.q0, p0 = scene.p0;
       for (int step = 0; step < 3; ++step) {  // from the second on started from the step before
-        solver->solve(q0, p0);
+        solver->solve({q0, p0, h});
         const StageUnknowns<Mpfr>& x = solver->unknowns();
         // 50 digits, sums of some twenty terms, and monomials of P_4 that cancel by a factor of 10^3.
         const Mpfr tolerance = 1'000'000 * epsilon<Mpfr>();
@@ -60,12 +60,12 @@ TEST_P(StageSolution, DoesNotDependOnEarlierSteps) {
   const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 3);
   const Mpfr h = Mpfr(1) / 10;
-  const auto fresh = make_solver(GetParam(), scene.problem, method, h);
-  fresh->solve(scene.q0, scene.p0);
-  const auto used = make_solver(GetParam(), scene.problem, method, h);
+  const auto fresh = make_solver(GetParam(), scene.problem, method);
+  fresh->solve({scene.q0, scene.p0, h});
+  const auto used = make_solver(GetParam(), scene.problem, method);
   const Vector<Mpfr> elsewhere = -scene.p0;
-  used->solve(scene.q0, elsewhere);
-  used->solve(scene.q0, scene.p0);
+  used->solve({scene.q0, elsewhere, h});
+  used->solve({scene.q0, scene.p0, h});
   const Mpfr difference = max_norm(Matrix<Mpfr>(fresh->unknowns().gamma - used->unknowns().gamma));
   EXPECT_LE(difference, 1'000 * epsilon<Mpfr>());
 }
@@ -79,7 +79,7 @@ Integration<Mpfr> run(const Scene& text, SolverKind kind, int k, int s, const ch
   const Assembled<Mpfr> scene = assemble<Mpfr>(text);
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
   const TimeGrid<Mpfr> grid(Expression::parse(step), Expression::parse(until));
-  HbvmStepper<Mpfr> stepper(scene.problem, method, grid.step(), kind);
+  HbvmStepper<Mpfr> stepper(scene.problem, method, kind);
   State<Mpfr> state(scene.q0, scene.p0);
   return integrate<Mpfr>(stepper, state, grid, {});
 }

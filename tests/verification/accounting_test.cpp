@@ -61,8 +61,8 @@ Account run(const std::string& text, int k, int s, const char* step = "1/16", co
 Account sweeps(const std::string& text, int k, int s, int count) {
   const auto scene = assemble<double>(read_scene(text, "test.toml"));
   const auto method = make_hbvm<double>(k, s);
-  StageEquations<double> equations(scene.problem, method, 1.0 / 16);
-  equations.start(scene.q0, scene.p0);
+  StageEquations<double> equations(scene.problem, method);
+  equations.start({scene.q0, scene.p0, 1.0 / 16});
   auto x = equations.make_unknowns();
   x.gamma.row(0) = scene.p0.transpose();
   for (int sweep = 0; sweep < count; ++sweep) {
@@ -182,8 +182,8 @@ TEST(Accounting, ASceneOfConstantForcesEvaluatesOnceInAll) {
   }
 }
 
-/// It is added to psi_0 and, as what rounding leaves over, to gamma_0: exact sums, six operations each, of the coordinates
-/// it acts on.
+/// It is added to psi_0 and, as what rounding leaves over, to gamma_0: exact sums, six operations each, of the
+/// coordinates it acts on.
 TEST(Accounting, AConstantForceCostsTheSolverExactSumsWhereItActs) {
   const std::string along_y = "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, -1, 0]\n";
   const Account without = sweeps(bodies(3, true), 3, 2, 5), with = sweeps(bodies(3, true) + along_y, 3, 2, 5);

@@ -26,7 +26,7 @@ std::map<std::string, Folders> allowed() {
     }
     both_chains.merge(left);
   }
-  for (const char* folder : {"solver", "integrate", "reference", "analysis"}) {
+  for (const char* folder : {"solver", "step", "integrate", "reference", "analysis"}) {
     both_chains.insert(folder);
     result[folder] = both_chains;
   }

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -60,9 +60,9 @@ template <Scalar S>
 State<S> end_of(const Scene& text, int k, int s, SolverKind kind) {
   const Assembled<S> scene = assemble<S>(text);
   const Hbvm<S> method = make_hbvm<S>(k, s);
-  HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 20), kind);
+  HbvmStepper<S> stepper(scene.problem, method, kind);
   State<S> state(scene.q0, scene.p0);
-  for (int step = 0; step < 6; ++step) stepper.step(state);
+  for (int step = 0; step < 6; ++step) stepper.step(state, S(S(1) / 20));
   return state;
 }
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
 

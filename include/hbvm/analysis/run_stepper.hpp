@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "hbvm/analysis/choose_k.hpp"
-#include "hbvm/integrate/halving_stepper.hpp"
-#include "hbvm/integrate/raising_stepper.hpp"
+#include "hbvm/step/halving_stepper.hpp"
+#include "hbvm/step/raising_stepper.hpp"
 
 namespace hbvm {
 
@@ -30,7 +30,7 @@ class RunStepper final : public Stepper<S> {
   RunStepper(const RunStepper&) = delete;
 
   const Problem<S>& problem() const override { return outer_->problem(); }
-  long step(State<S>& state) override;
+  long step(State<S>& state, const S& h) override;
   const Vector<S>& multiplier() const override { return outer_->multiplier(); }
   const StageUnknowns<S>* unknowns() const override { return outer_->unknowns(); }
   SolverCounts counts() const override { return outer_->counts(); }

@@ -3,11 +3,11 @@
 #include <optional>
 
 #include "hbvm/analysis/account.hpp"
-#include "hbvm/integrate/backward_stepper.hpp"
 #include "hbvm/integrate/drift.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/watched_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/backward_stepper.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
 
@@ -57,7 +57,7 @@ Simulated<S> simulate(const Assembled<S>& scene, Stepper<S>& stepper, const Time
 template <Scalar S>
 Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKind solver, const TimeGrid<S>& grid,
                       std::vector<Observer<S>*> observers = {}, Account* account = nullptr) {
-  HbvmStepper<S> stepper(scene.problem, method, grid.step(), solver);
+  HbvmStepper<S> stepper(scene.problem, method, solver);
   return simulate<S>(scene, stepper, grid, std::move(observers), account);
 }
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "hbvm/integrate/state.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/state.hpp"
 
 namespace hbvm {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "hbvm/integrate/checkpoint.hpp"
-#include "hbvm/integrate/stepper.hpp"
 #include "hbvm/integrate/time_grid.hpp"
+#include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hbvm/integrate/coefficient_decay.hpp"
-#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
 
@@ -12,8 +12,8 @@ class WatchedStepper final : public Stepper<S> {
   WatchedStepper(Stepper<S>& inner, CoefficientDecay<S>& decay) : inner_(inner), decay_(decay) {}
 
   const Problem<S>& problem() const override { return inner_.problem(); }
-  long step(State<S>& state) override {
-    const long sweeps = inner_.step(state);
+  long step(State<S>& state, const S& h) override {
+    const long sweeps = inner_.step(state, h);
     if (const StageUnknowns<S>* const x = inner_.unknowns()) decay_.observe(*x, state.p);
     return sweeps;
   }

@@ -14,7 +14,7 @@ class Automatic final : public StageSolver<S> {
   static constexpr long slow = 25;
 
   /// In double the fixed point is preferred, whose sweeps are cheaper; in more digits Newton.
-  Automatic(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+  Automatic(const Problem<S>& problem, const Hbvm<S>& method);
 
   long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return current().unknowns(); }
@@ -29,7 +29,6 @@ class Automatic final : public StageSolver<S> {
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
-  S h_;
   std::unique_ptr<StageSolver<S>> solvers_[2];
   int used_ = 0;  ///< 0: fixed point, 1: Newton
   long last_sweeps_ = 0;

@@ -24,7 +24,7 @@ class FixedPoint final : public StageSolver<S> {
  public:
   enum class Order { paper, newest };
 
-  FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, const S& step, Order order);
+  FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, Order order);
 
   long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
@@ -32,7 +32,7 @@ class FixedPoint final : public StageSolver<S> {
   SolverCounts counts() const override { return {equations_.effect_counts(), equations_.part_counts()}; }
   void measure_time() override { equations_.measure_time(); }
   /// The multipliers are where those of the next step start from.
-  void remember(Archive& archive) override { archive(extrapolation_, x_.lambda, x_.zeta); }
+  void remember(Archive& archive) override { archive(h_, extrapolation_, x_.lambda, x_.zeta); }
 
  private:
   enum class Start { zero, constant };
@@ -54,6 +54,7 @@ class FixedPoint final : public StageSolver<S> {
   RootCheck<S> root_check_;
   Vector<S> positions_;
   StepChange<S> change_;
+  S h_ = 0;  ///< of the last step
 };
 
 #define HBVM_DECLARE(S) extern template class FixedPoint<S>;

@@ -26,9 +26,10 @@ template <Scalar S>
 class Jacobian {
  public:
   /// The problem and the method must outlive it.
-  Jacobian(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+  Jacobian(const Problem<S>& problem, const Hbvm<S>& method);
 
-  /// Evaluates and factors at the last nodes of `at`, where the multipliers were `lambda`.
+  /// Evaluates and factors at the last nodes of `at`, where the multipliers were `lambda`,
+  /// for a step of its size.
   /// \return false if it is singular or not finite
   [[nodiscard]] bool factor(const StageEquations<S>& at, const Matrix<S>& lambda);
 
@@ -65,7 +66,6 @@ class Jacobian {
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
-  S h_;
   Curvature<S> curvature_;
   std::vector<std::vector<std::pair<Index, S>>> W_;  ///< nonzeros of M^-1, row by row
   Matrix<S> X_hat_, X_projection_;                   ///< X P_hat^T Omega_hat and X P^T Omega

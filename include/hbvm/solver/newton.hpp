@@ -25,7 +25,7 @@ class Newton final : public StageSolver<S> {
   /// What a sweep with the Jacobian in double has to win.
   static constexpr long least_bits = 10;
 
-  Newton(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+  Newton(const Problem<S>& problem, const Hbvm<S>& method);
 
   long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
@@ -43,8 +43,9 @@ class Newton final : public StageSolver<S> {
     StageUnknowns<S> x;
     StageResidual<S> r;
     Vector<S> q0, p0;
+    S h = 0;
     /// To be made within the scope of its digits.
-    Level(const Problem<S>& full_problem, const Hbvm<S>& full_method, const S& step);
+    Level(const Problem<S>& full_problem, const Hbvm<S>& full_method);
   };
   struct Rung {
     unsigned digits;
@@ -60,10 +61,11 @@ class Newton final : public StageSolver<S> {
   bool residual(long bits, long& exponent);
   void take_residual(const StageResidual<S>& r, long& exponent);
   void make_rungs();
+  void take_step(const S& h);
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
-  S h_;
+  S h_ = 0;  ///< of the last step
   long bits_ = significand_bits<S>();
   std::optional<Problem<double>> rounded_problem_;
   std::optional<Hbvm<double>> rounded_method_;

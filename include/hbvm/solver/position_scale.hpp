@@ -10,12 +10,17 @@ namespace hbvm {
 template <Scalar S>
 class PositionScale {
  public:
-  PositionScale(const Problem<S>& problem, const S& step);
+  /// The problem must outlive it.
+  explicit PositionScale(const Problem<S>& problem);
 
-  /// scale_j for the positions q.
-  void evaluate(const Vector<S>& q, Vector<S>& scale);
+  /// scale_j for the positions q and a step of size h.
+  void evaluate(const Vector<S>& q, const S& h, Vector<S>& scale);
 
  private:
+  void take_step(const S& h);
+
+  const Problem<S>& problem_;
+  S h_ = 0;                        ///< of of_space_ and of_turns_
   std::vector<bool> turns_;        ///< coordinate j belongs to a director
   Vector<S> of_space_, of_turns_;  ///< sum_l |M_jl| / h over the coordinates of either kind
   S space_ = 0, directors_ = 0, t_ = 0;

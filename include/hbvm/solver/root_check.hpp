@@ -13,7 +13,7 @@ namespace hbvm {
 template <Scalar S>
 class RootCheck {
  public:
-  RootCheck(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+  RootCheck(const Problem<S>& problem, const Hbvm<S>& method) : problem_(problem), method_(method) {}
 
   enum class Verdict {
     same,
@@ -21,7 +21,7 @@ class RootCheck {
     lost,    ///< the solution cannot be followed
     unknown  ///< double does not hold the problem
   };
-  Verdict judge(const Vector<S>& q0, const Vector<S>& p0, const Matrix<S>& gamma);
+  Verdict judge(const StepStart<S>& start, const Matrix<S>& gamma);
   /// Residuals of the last judgement.
   long sweeps() const { return sweeps_; }
 
@@ -30,12 +30,11 @@ class RootCheck {
     Problem<double> problem;
     Hbvm<double> method;
     SimplifiedNewton<double> newton;
-    Rounded(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+    Rounded(const Problem<S>& problem, const Hbvm<S>& method);
   };
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
-  S h_;
   std::unique_ptr<Rounded> rounded_;
   long sweeps_ = 0;
 };

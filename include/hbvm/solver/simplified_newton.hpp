@@ -26,7 +26,7 @@ namespace hbvm {
 template <Scalar S>
 class SimplifiedNewton {
  public:
-  SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+  SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method);
 
   /// \return the number of residuals
   /// \throws StageFailure
@@ -49,7 +49,7 @@ class SimplifiedNewton {
   void add_change_of_momentum(const Matrix<S>& momentum, const Matrix<S>& correction, Vector<S>& change) const;
 
   void remember(Archive& archive) {
-    archive(extrapolation_, usable_);
+    archive(h_, extrapolation_, usable_);
     if (usable_) archive(jacobian_);
   }
 
@@ -59,8 +59,10 @@ class SimplifiedNewton {
   /// Follows the solution from a step 2^-halvings as long, where the constant v = p0 is a good start if it ever is, to
   /// the full one, by steps that grow as fast as Newton's iteration can follow.
   long grow(const StepStart<S>& from, int halvings);
-  /// \param positions what rounding of the positions amounts to in a step of this size
-  long iterate(StageEquations<S>& equations, Jacobian<S>& jacobian, const Vector<S>& positions);
+  /// The equations of the step from there, h long.
+  void begin(const StepStart<S>& from, const S& h);
+  /// From the start, for the step that the equations were started with.
+  long iterate();
   /// x_ = base_ - factor correction_.
   void move_from_base(const S& h, const S& factor);
   /// base_scale_ = the scales of x_, each the greatest of its body.
@@ -70,10 +72,10 @@ class SimplifiedNewton {
   /// A residual as large as what it is the residual of shows no solution, however small the increments.
   bool residual_is_small();
   /// start_size_ = the greatest of |p0|, h |psi| and h |zeta| at start_, each coordinate with its body's.
-  void keep_start_size(const StageEquations<S>& equations);
+  void keep_start_size();
   /// Whether the momenta of some body are farther from those of start_ than the forces there explain, or its forces psi
   /// have changed by more than half of their size.
-  bool is_far_from_start(const StageEquations<S>& equations) const;
+  bool is_far_from_start() const;
   /// Whether what a single constraint does to some body has changed by much more than its momentum and forces: where
   /// constraints are nearly dependent, branches lie side by side, and only multipliers tell that one was left.
   bool multipliers_run_wild() const;
@@ -98,6 +100,7 @@ class SimplifiedNewton {
   StoppingRule<S> rule_;
   long max_sweeps_;
   S tolerance_, root_epsilon_, coarse_;
+  S h_ = 0;  ///< of the last step
   S change_ = 0, last_ = 0, t_ = 0, u_ = 0, solved_ = 0;
 };
 

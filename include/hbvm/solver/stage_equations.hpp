@@ -38,30 +38,31 @@ struct StepChange {
   explicit StepChange(Index m) : q(m), p(m), p_rest(Vector<S>::Zero(m)) {}
 };
 
-/// Where a step starts: q0 and p0, and what rounding took from them in the steps before, if it is known. Then the step
-/// is one from q0 + q_carry, p0 + p_carry: what rounding of its positions does to H and g has no pattern, and adds up
-/// like a random walk.
+/// Where a step starts, and its size h: q0 and p0, and what rounding took from them in the steps before, if it is
+/// known. Then the step is one from q0 + q_carry, p0 + p_carry: what rounding of its positions does to H and g has no
+/// pattern, and adds up like a random walk.
 template <Scalar S>
 struct StepStart {
   const Vector<S>&q, &p;
+  const S& h;
   const Vector<S>*q_carry = nullptr, *p_carry = nullptr;
 };
 
-/// The maps of which the stage equations (dispro1) consist, for steps of one size. Owns all storage they need.
-/// Problem and method must outlive it.
+/// The maps of which the stage equations (dispro1) consist. Owns all storage they need. Problem and method must
+/// outlive it.
 template <Scalar S>
 class StageEquations {
  public:
-  StageEquations(const Problem<S>& problem, const Hbvm<S>& method, const S& step);
+  StageEquations(const Problem<S>& problem, const Hbvm<S>& method);
 
   const Problem<S>& problem() const { return problem_; }
   const Hbvm<S>& method() const { return method_; }
+  /// The size of the step that was started last.
   const S& step() const { return h_; }
   StageUnknowns<S> make_unknowns() const;
 
   /// The vectors must live as long as the step.
   void start(const StepStart<S>& start);
-  void start(const Vector<S>& q0, const Vector<S>& p0) { start(StepStart<S>{q0, p0}); }
   const Vector<S>& q0() const { return *q0_; }
   const Vector<S>& p0() const { return *p0_; }
 
@@ -132,7 +133,7 @@ class StageEquations {
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
-  S h_;
+  S h_ = 0;
   PotentialEvaluator<S> potential_;
   ConstraintGradient<S> gradient_;
   Ordering order_;  // of the constraints in (lam)
@@ -141,17 +142,17 @@ class StageEquations {
   const Vector<S>* p0_ = nullptr;
   const Vector<S>* q_carry_ = nullptr;
   const Vector<S>* p_carry_ = nullptr;
-  Vector<S> no_carry_;                   // m
-  Matrix<S> I_centred_, I_hat_centred_;  ///< I_s and I_hat with c - 1/2 for c in column 0
-  Vector<S> middle_;                     // m: q0 + h/2 M^-1 gamma_0
-  std::vector<Index> pulled_;            // the coordinates on which a constant force acts
-  Vector<S> psi_rest_;                   // m: what rounding took from their psi_0 in the last forces()
-  Matrix<S> velocity_, h_velocity_;      // s x m
-  Matrix<S> u_hat_, force_;              // k x m
-  Matrix<S> u_, w_, stage_;              // s x m
-  Matrix<S> coupling_;                   // s x s
-  Vector<S> rhs_;                        // s nu
-  S half_, h_half_, rest_, t_, x_, y_;   // the last three are scratch
+  Vector<S> no_carry_;                      // m
+  Matrix<S> I_centred_, I_hat_centred_;     ///< I_s and I_hat with c - 1/2 for c in column 0
+  Vector<S> middle_;                        // m: q0 + h/2 M^-1 gamma_0
+  std::vector<Index> pulled_;               // the coordinates on which a constant force acts
+  Vector<S> psi_rest_;                      // m: what rounding took from their psi_0 in the last forces()
+  Matrix<S> velocity_, h_velocity_;         // s x m
+  Matrix<S> u_hat_, force_;                 // k x m
+  Matrix<S> u_, w_, stage_;                 // s x m
+  Matrix<S> coupling_;                      // s x s
+  Vector<S> rhs_;                           // s nu
+  S half_, h_half_ = 0, rest_, t_, x_, y_;  // the last three are scratch
   std::vector<PartCount> parts_;
   bool timed_ = false;
 };

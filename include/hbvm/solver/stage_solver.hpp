@@ -51,7 +51,8 @@ SolverCounts sum_of(SolverCounts counts, const SolverCounts& other, const Proble
   return counts;
 }
 
-/// Solves the stage equations of one step after the other.
+/// Solves the stage equations of one step after the other. What it learns from one step serves the next, unless that
+/// is of another size.
 template <Scalar S>
 class StageSolver {
  public:
@@ -60,7 +61,6 @@ class StageSolver {
   /// \return the number of sweeps over the stage equations
   /// \throws StageFailure
   virtual long solve(const StepStart<S>& start) = 0;
-  long solve(const Vector<S>& q0, const Vector<S>& p0) { return solve(StepStart<S>{q0, p0}); }
 
   /// The solution: its gamma and lambda are converged; its psi and zeta are those of the last sweep.
   virtual const StageUnknowns<S>& unknowns() const = 0;
@@ -87,7 +87,6 @@ SolverKind parse_solver(std::string_view name);
 std::string_view name_of(SolverKind kind);
 
 template <Scalar S>
-std::unique_ptr<StageSolver<S>> make_solver(SolverKind kind, const Problem<S>& problem, const Hbvm<S>& method,
-                                            const S& step);
+std::unique_ptr<StageSolver<S>> make_solver(SolverKind kind, const Problem<S>& problem, const Hbvm<S>& method);
 
 }  // namespace hbvm

@@ -32,14 +32,15 @@ Laboratory::Laboratory(const Cell& cell) : assembled_(assemble<Mpfr>(load_scene(
 void Laboratory::walk(const Cell& cell) {
   // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion.
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 4);
-  HbvmStepper<Mpfr> stepper(assembled_.problem, method, ldexp(Mpfr(1), cell.log2_scale - 3), SolverKind::automatic);
+  HbvmStepper<Mpfr> stepper(assembled_.problem, method, SolverKind::automatic);
+  const Mpfr h = ldexp(Mpfr(1), cell.log2_scale - 3);
   State<Mpfr> state(assembled_.q0, assembled_.p0);
   const Starts& wanted = cell.starts;
   for (long n = 0;; ++n) {
     if (n >= wanted.lead && (n - wanted.lead) % wanted.stride == 0)
       starts_.push_back({state.q, point_->tangential(state.q, state.p)});
     if (static_cast<int>(starts_.size()) == wanted.count) return;
-    stepper.step(state);
+    stepper.step(state, h);
     cell.check_time();
   }
 }
@@ -60,18 +61,18 @@ Trial<S>::Trial(const Claim& subject, SolverKind solver)
 template <Scalar S>
 void Trial<S>::begin(const Laboratory::Start& start, const Mpfr& h) {
   const PrecisionScope working(digits_);
-  const S step = rounded_to<S>(raw(h));
+  h_ = rounded_to<S>(raw(h));
   state_.emplace(rounded<S>(start.q), rounded<S>(start.p));
   if (method_)
-    stepper_ = std::make_unique<HbvmStepper<S>>(assembled_.problem, *method_, step, solver_);
+    stepper_ = std::make_unique<HbvmStepper<S>>(assembled_.problem, *method_, solver_);
   else
-    stepper_ = std::make_unique<RungeKuttaStep<S>>(assembled_.problem, *runge_kutta_, step);
+    stepper_ = std::make_unique<RungeKuttaStepper<S>>(assembled_.problem, *runge_kutta_);
 }
 
 template <Scalar S>
 long Trial<S>::step() {
   const PrecisionScope working(digits_);
-  return stepper_->step(*state_);
+  return stepper_->step(*state_, h_);
 }
 
 template <Scalar S>

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "cell.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
-#include "hbvm/integrate/runge_kutta_step.hpp"
 #include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
+#include "hbvm/step/runge_kutta_stepper.hpp"
 
 namespace hbvm {
 
@@ -79,6 +79,7 @@ class Trial {
   std::optional<RungeKutta<S>> runge_kutta_;
   std::unique_ptr<Stepper<S>> stepper_;
   std::optional<State<S>> state_;
+  S h_ = 0;
 };
 
 /// The solution polynomials of the trial's last step, which went from q0 to p1 in h.

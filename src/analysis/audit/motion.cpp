@@ -6,10 +6,10 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/integrate/coefficient_decay.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {
@@ -78,11 +78,11 @@ bool resolves(const Assembled<Mpfr>& scene, int log2_h) {
   constexpr int s = 4, steps = 2;
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
   const Mpfr h = ldexp(Mpfr(1), log2_h);
-  HbvmStepper<Mpfr> stepper(scene.problem, method, h, SolverKind::automatic);
+  HbvmStepper<Mpfr> stepper(scene.problem, method, SolverKind::automatic);
   State<Mpfr> state(scene.q0, scene.p0);
   CoefficientDecay<Mpfr> decay(scene.problem, s, h);
   for (int n = 0; n < steps; ++n) {
-    stepper.step(state);
+    stepper.step(state, h);
     decay.observe(stepper.solver().unknowns(), state.p);
   }
   return 16 * decay.worst(state.q).ratio <= 1;
@@ -195,15 +195,15 @@ Motion motion_of(const std::string& scene_name) {
   motion.log2_scale = log2_time_scale(assembled, radius);
   constexpr int s = 6, steps = 8;
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
-  const Mpfr scale = ldexp(Mpfr(1), motion.log2_scale);
-  HbvmStepper<Mpfr> stepper(problem, method, scale / steps, SolverKind::automatic);
+  const Mpfr scale = ldexp(Mpfr(1), motion.log2_scale), h = scale / steps;
+  HbvmStepper<Mpfr> stepper(problem, method, SolverKind::automatic);
   State<Mpfr> state(assembled.q0, assembled.p0);
   VectorField field(problem);
   Point<Mpfr> point(problem);
   Products products(problem, field, scale);
   products.observe({state.q, state.p});
   for (int n = 0; n < steps; ++n) {
-    stepper.step(state);
+    stepper.step(state, h);
     products.observe({state.q, point.tangential(state.q, state.p)});
   }
   motion.straight = products.is_straight();

@@ -94,12 +94,12 @@ double hidden_constant(const Cell& cell) {
 double hidden_drift(const Claim& claim) {
   const Assembled<double> scene = assemble<double>(load_scene(claim.problem));
   const Hbvm<double> method = make_hbvm<double>(claim.method.k, claim.method.s);
-  HbvmStepper<double> stepper(scene.problem, method, 1 / double{10}, SolverKind::automatic);
+  HbvmStepper<double> stepper(scene.problem, method, SolverKind::automatic);
   State<double> state(scene.q0, scene.p0);
   Point<double> point(scene.problem);
   double early = 0, greatest = 0;
   for (long n = 1; n <= 12'800; ++n) {
-    stepper.step(state);
+    stepper.step(state, 1 / double{10});
     raise_to(greatest, max_norm(point.hidden_constraints(state.q, state.p)));
     if (n == 200) early = greatest;
   }

@@ -8,11 +8,11 @@
 
 #include "hbvm/analysis/stability/report.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "measure.hpp"
 #include "motion.hpp"
 #include "scenes.hpp"
@@ -178,7 +178,7 @@ Figure hidden(const std::filesystem::path& folder) {
   const TimeGrid<double> grid(Expression::parse("1/10"), Expression::parse("6553.6"));
   for (int s = 1; s <= 4; ++s) {
     const Hbvm<double> method = make_hbvm<double>(s, s);
-    HbvmStepper<double> stepper(scene.problem, method, grid.step(), SolverKind::automatic);
+    HbvmStepper<double> stepper(scene.problem, method, SolverKind::automatic);
     State<double> state(scene.q0, scene.p0);
     HiddenSoFar<double> observer(scene.problem, grid);
     integrate<double>(stepper, state, grid, {&observer});

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {
@@ -132,9 +132,9 @@ class KickingStepper final : public Stepper<S> {
       : inner_(inner), bits_(bits), every_(std::max(1L, steps / samples)) {}
 
   const Problem<S>& problem() const override { return inner_.problem(); }
-  long step(State<S>& state) override {
+  long step(State<S>& state, const S& h) override {
     if (bits_ > 0 && made_++ % every_ == 0) kick(problem(), state, bits_);
-    return inner_.step(state);
+    return inner_.step(state, h);
   }
   const Vector<S>& multiplier() const override { return inner_.multiplier(); }
   SolverCounts counts() const override { return inner_.counts(); }
@@ -154,7 +154,7 @@ Motion motion_in(const RunRequest& request, const Twist& twist) {
   State<S> state(scene.q0, scene.p0);
   const auto run = [&] {
     Recorder<S> recorder(scene.problem, grid);
-    HbvmStepper<S> plain(scene.problem, method, grid.step(), request.solver);
+    HbvmStepper<S> plain(scene.problem, method, request.solver);
     KickingStepper<S> stepper(plain, twist.kick_bits, grid.steps());
     integrate<S>(stepper, state, grid, {&recorder});
     return Motion{recorder.take(), recorder.scale(), grid.steps()};

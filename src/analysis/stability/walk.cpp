@@ -8,11 +8,11 @@
 
 #include "hbvm/analysis/line_fit.hpp"
 #include "hbvm/analysis/round_off.hpp"
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "measure.hpp"
 
 namespace hbvm {
@@ -135,7 +135,7 @@ Walk walk_in(const RunRequest& request) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
   const Assembled<S> scene = assemble<S>(request.scene);
   const Hbvm<S> method = make_hbvm<S>(request.method.k, request.method.s);
-  HbvmStepper<S> stepper(scene.problem, method, grid.step(), request.solver);
+  HbvmStepper<S> stepper(scene.problem, method, request.solver);
   State<S> state(scene.q0, scene.p0);
   Walker<S> walker(scene.problem, grid.steps());
   integrate<S>(stepper, state, grid, {&walker});

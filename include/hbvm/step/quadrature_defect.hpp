@@ -9,13 +9,14 @@ namespace hbvm {
 template <Scalar S>
 class QuadratureDefect {
  public:
-  QuadratureDefect(const Problem<S>& problem, int k, int s, const S& step);
+  QuadratureDefect(const Problem<S>& problem, int k, int s);
   QuadratureDefect(const QuadratureDefect&) = delete;
 
   /// The greatest change of a body's psi_hat, over 16 (k + s) epsilon of the size of its psi_hat or zeta: at most 1 if
   /// it is round-off. psi_0 is the mean force, and the sums of k products behind it carry k roundings each; the
   /// positions' round-off relative to the step's displacement comes on top.
-  const S& measure(const Vector<S>& q, const Vector<S>& p, const StageUnknowns<S>& x);
+  /// \param x the solution of the step that starts there
+  const S& measure(const StepStart<S>& start, const StageUnknowns<S>& x);
 
   const S& defect() const { return defect_; }
   /// The same change over the size alone. One that is more than sqrt(epsilon) is no round-off, however ill-conditioned
@@ -31,7 +32,7 @@ class QuadratureDefect {
     Hbvm<S> method;
     StageEquations<S> equations;
     Matrix<S> psi;
-    Nodes(const Problem<S>& problem, int k, int s, const S& step);
+    Nodes(const Problem<S>& problem, int k, int s);
   };
 
   const Problem<S>& problem_;

@@ -1,7 +1,7 @@
-#include "hbvm/integrate/halving_stepper.hpp"
+#include "hbvm/step/halving_stepper.hpp"
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -11,16 +11,16 @@ namespace {
 class Marching final : public Stepper<double> {
  public:
   using Fails = std::function<bool(double t, double size)>;
-  Marching(const Problem<double>& problem, double size, Fails fails, std::vector<double>& tried)
-      : problem_(problem), size_(size), fails_(std::move(fails)), tried_(tried), multiplier_(1) {}
+  Marching(const Problem<double>& problem, Fails fails, std::vector<double>& tried)
+      : problem_(problem), fails_(std::move(fails)), tried_(tried), multiplier_(1) {}
 
   const Problem<double>& problem() const override { return problem_; }
-  long step(State<double>& state) override {
-    tried_.push_back(size_);
-    if (fails_(state.q[0], size_))
-      throw StageFailure(FailureCause::precision_exhausted, "a step of " + std::to_string(size_), "1", 10);
-    state.q[0] += size_;
-    multiplier_[0] = size_;
+  long step(State<double>& state, const double& size) override {
+    tried_.push_back(size);
+    if (fails_(state.q[0], size))
+      throw StageFailure(FailureCause::precision_exhausted, "a step of " + std::to_string(size), "1", 10);
+    state.q[0] += size;
+    multiplier_[0] = size;
     return 1;
   }
   const Vector<double>& multiplier() const override { return multiplier_; }
@@ -30,7 +30,6 @@ class Marching final : public Stepper<double> {
 
  private:
   const Problem<double>& problem_;
-  double size_;
   Fails fails_;
   std::vector<double>& tried_;
   Vector<double> multiplier_;
@@ -39,9 +38,8 @@ class Marching final : public Stepper<double> {
 class Halving : public ::testing::Test {
  protected:
   HalvingStepper<double> stepper(Marching::Fails fails) {
-    return {1, [this, fails = std::move(fails)](double size) {
-              return std::make_unique<Marching>(scene.problem, size, fails, tried);
-            }};
+    return HalvingStepper<double>(
+        [this, fails = std::move(fails)](int) { return std::make_unique<Marching>(scene.problem, fails, tried); });
   }
   const Assembled<double> scene = assemble<double>(load_scene("kepler"));
   State<double> state{Vector<double>::Zero(2), Vector<double>::Zero(2)};
@@ -50,7 +48,7 @@ class Halving : public ::testing::Test {
 
 TEST_F(Halving, LeavesStepsThatSucceedAlone) {
   HalvingStepper<double> halving = stepper([](double, double) { return false; });
-  for (int n = 0; n < 5; ++n) EXPECT_EQ(halving.step(state), 1);
+  for (int n = 0; n < 5; ++n) EXPECT_EQ(halving.step(state, 1), 1);
   EXPECT_EQ(tried, std::vector<double>(5, 1));
   EXPECT_EQ(halving.log().steps, 0);
   EXPECT_EQ(halving.log().substeps, 0);
@@ -61,7 +59,7 @@ TEST_F(Halving, DividesOneThatFailsAndReturnsToTheWhole) {
   HalvingStepper<double> halving =
       stepper([](double t, double size) { return t + size > 2 && t < 3 && size > 1.0 / 4; });
   for (int n = 1; n <= 8; ++n) {
-    halving.step(state);
+    halving.step(state, 1);
     EXPECT_EQ(state.q[0], n);
   }
   // 1/4 four times; the next step begins with a half.
@@ -74,13 +72,13 @@ TEST_F(Halving, DividesOneThatFailsAndReturnsToTheWhole) {
 
 TEST_F(Halving, SweepsOfFailuresCount) {
   HalvingStepper<double> halving = stepper([](double, double size) { return size > 1.0 / 2; });
-  EXPECT_EQ(halving.step(state), 12);
+  EXPECT_EQ(halving.step(state, 1), 12);
 }
 
 TEST_F(Halving, TheMultiplierIsThatOfTheLastSubstep) {
   // The second half of the step can be made whole.
   HalvingStepper<double> halving = stepper([](double t, double size) { return t < 1.0 / 2 && size > 1.0 / 8; });
-  halving.step(state);
+  halving.step(state, 1);
   EXPECT_EQ(state.q[0], 1);
   EXPECT_EQ(halving.multiplier()[0], tried.back());
   EXPECT_GT(halving.multiplier()[0], 1.0 / 8);
@@ -89,7 +87,7 @@ TEST_F(Halving, TheMultiplierIsThatOfTheLastSubstep) {
 /// Where every whole step fails, one in about a thousand attempts is in vain.
 TEST_F(Halving, DoesNotPayTheFailureEveryTime) {
   HalvingStepper<double> halving = stepper([](double, double size) { return size > 1.0 / 4; });
-  for (int n = 0; n < 4096; ++n) halving.step(state);
+  for (int n = 0; n < 4096; ++n) halving.step(state, 1);
   EXPECT_EQ(state.q[0], 4096);
   EXPECT_EQ(halving.log().steps, 4096);
   EXPECT_EQ(halving.log().substeps, 4 * 4096);
@@ -98,10 +96,10 @@ TEST_F(Halving, DoesNotPayTheFailureEveryTime) {
 
 TEST_F(Halving, ThatFailsAtTheSmallestSizeLeavesTheStateAndTellsTheCause) {
   HalvingStepper<double> halving = stepper([](double t, double size) { return t + size > 1.75; });
-  halving.step(state);
+  halving.step(state, 1);
   state.q_carry[0] = 3;
   try {
-    halving.step(state);
+    halving.step(state, 1);
     ADD_FAILURE() << "it was made";
   } catch (const StageFailure& failure) {
     EXPECT_EQ(failure.cause(), FailureCause::precision_exhausted);
@@ -126,17 +124,17 @@ TEST_F(Halving, IsKeptWithAllThatItRemembers) {
   State<double> resumed = state;
   Archive kept;
   for (int n = 0; n < 40; ++n) {
-    part.emplace(1, [&](double size) { return std::make_unique<Marching>(scene.problem, size, fails, tried); });
+    part.emplace([&](int) { return std::make_unique<Marching>(scene.problem, fails, tried); });
     if (n > 0) {
       Archive reading(kept.text());
       reading(*part, resumed);
       reading.expect_end();
     }
     tried.clear();
-    const long sweeps = whole.step(state);
+    const long sweeps = whole.step(state, 1);
     const std::vector<double> expected = tried;
     tried.clear();
-    EXPECT_EQ(part->step(resumed), sweeps);
+    EXPECT_EQ(part->step(resumed, 1), sweeps);
     EXPECT_EQ(tried, expected) << n;
     EXPECT_EQ(resumed.q[0], state.q[0]);
     kept = {};
@@ -154,7 +152,9 @@ class NeverMade final : public Stepper<S> {
  public:
   explicit NeverMade(const Problem<S>& problem) : problem_(problem), multiplier_(Vector<S>::Zero(problem.nu())) {}
   const Problem<S>& problem() const override { return problem_; }
-  long step(State<S>&) override { throw StageFailure(FailureCause::stage_equations_diverge, "too long", "1", 1); }
+  long step(State<S>&, const S&) override {
+    throw StageFailure(FailureCause::stage_equations_diverge, "too long", "1", 1);
+  }
   const Vector<S>& multiplier() const override { return multiplier_; }
   SolverCounts counts() const override { return {}; }
   void measure_time() override {}
@@ -178,15 +178,15 @@ TYPED_TEST(HalvingOfAPendulum, IsTheMethodWithSmallerSteps) {
   const Assembled<S> scene = assemble<S>(load_scene("simple_pendulum"));
   const Hbvm<S> method = make_hbvm<S>(2, 2);
   const S h = S(1) / 8;
-  HalvingStepper<S> halving(h, [&](const S& size) -> std::unique_ptr<Stepper<S>> {
-    if (size == h) return std::make_unique<NeverMade<S>>(scene.problem);
-    return std::make_unique<HbvmStepper<S>>(scene.problem, method, size, SolverKind::fixed_point);
+  HalvingStepper<S> halving([&](int depth) -> std::unique_ptr<Stepper<S>> {
+    if (depth == 0) return std::make_unique<NeverMade<S>>(scene.problem);
+    return std::make_unique<HbvmStepper<S>>(scene.problem, method, SolverKind::fixed_point);
   });
   State<S> state(scene.q0, scene.p0), expected = state;
-  HbvmStepper<S> half(scene.problem, method, S(h / 2), SolverKind::fixed_point);
+  HbvmStepper<S> half(scene.problem, method, SolverKind::fixed_point);
   for (int n = 0; n < 4; ++n) {
-    halving.step(state);
-    for (int i = 0; i < 2; ++i) half.step(expected);
+    halving.step(state, h);
+    for (int i = 0; i < 2; ++i) half.step(expected, S(h / 2));
     EXPECT_EQ(state.q, expected.q);
     EXPECT_EQ(state.p, expected.p);
     EXPECT_EQ(state.p_carry, expected.p_carry);

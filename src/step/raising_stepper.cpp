@@ -1,4 +1,4 @@
-#include "hbvm/integrate/raising_stepper.hpp"
+#include "hbvm/step/raising_stepper.hpp"
 
 #include <algorithm>
 
@@ -8,16 +8,15 @@
 namespace hbvm {
 
 template <Scalar S>
-RaisingStepper<S>::Nodes::Nodes(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver)
-    : method(make_hbvm<S>(k, s)), stepper(problem, method, step, solver), defect(problem, k, s, step) {}
+RaisingStepper<S>::Nodes::Nodes(const Problem<S>& problem, int k, int s, SolverKind solver)
+    : method(make_hbvm<S>(k, s)), stepper(problem, method, solver), defect(problem, k, s) {}
 
 template <Scalar S>
-RaisingStepper<S>::RaisingStepper(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver,
-                                  NodeLog& log, OnShortage on_shortage)
+RaisingStepper<S>::RaisingStepper(const Problem<S>& problem, int k, int s, SolverKind solver, NodeLog& log,
+                                  OnShortage on_shortage)
     : problem_(problem),
       s_(s),
       most_(on_shortage == OnShortage::keep ? max_k - s : std::min(max_k - s, 8 * k)),
-      h_(step),
       solver_(solver),
       log_(log),
       on_shortage_(on_shortage),
@@ -31,19 +30,20 @@ RaisingStepper<S>::RaisingStepper(const Problem<S>& problem, int k, int s, const
 
 template <Scalar S>
 auto RaisingStepper<S>::make_nodes(int k) const -> std::unique_ptr<Nodes> {
-  auto nodes = std::make_unique<Nodes>(problem_, k, s_, h_, solver_);
+  auto nodes = std::make_unique<Nodes>(problem_, k, s_, solver_);
   if (timed_) nodes->stepper.measure_time();
   return nodes;
 }
 
 template <Scalar S>
-long RaisingStepper<S>::step(State<S>& state) {
+long RaisingStepper<S>::step(State<S>& state, const S& h) {
+  set(h_, h);
   copy_state(before_, state);
   // The state need not be that after its last step, if others make steps, too.
   if (!started_ || state.q != after_.q || state.p != after_.p) take_energy(state);
   if (!started_) set(first_H_, H_);
   started_ = true;
-  long sweeps = nodes_->stepper.step(state);
+  long sweeps = nodes_->stepper.step(state, h_);
   ++made_;
   set(change_, H_);
   take_energy(state);
@@ -131,8 +131,8 @@ int RaisingStepper<S>::enough_nodes(Nodes& nodes, Look look) const {
   bool small = nodes.defect.may_be_round_off();
   for (int k = nodes.method.k;;) {
     k = std::min(k + std::max(1, k / 4), most_);
-    QuadratureDefect<S> defect(problem_, k, s_, h_);
-    defect.measure(before_.q, before_.p, nodes.stepper.solver().unknowns());
+    QuadratureDefect<S> defect(problem_, k, s_);
+    defect.measure({before_.q, before_.p, h_}, nodes.stepper.solver().unknowns());
     if (k == most_ || (passes(defect, look) && 4 * defect.relative() <= first)) return k;
     // Once it is small, the error of the quadrature of a smooth force falls by far more when k is doubled.
     if (small && k < 2 * reference_k) continue;
@@ -146,8 +146,8 @@ int RaisingStepper<S>::enough_nodes(Nodes& nodes, Look look) const {
 template <Scalar S>
 bool RaisingStepper<S>::is_round_off(Nodes& nodes) const {
   if (!nodes.defect.may_be_round_off()) return false;
-  QuadratureDefect<S> half(problem_, std::max(s_, nodes.method.k / 2), s_, h_);
-  half.measure(before_.q, before_.p, nodes.stepper.solver().unknowns());
+  QuadratureDefect<S> half(problem_, std::max(s_, nodes.method.k / 2), s_);
+  half.measure({before_.q, before_.p, h_}, nodes.stepper.solver().unknowns());
   return half.relative() <= 2 * nodes.defect.relative();
 }
 
@@ -156,7 +156,7 @@ long RaisingStepper<S>::examine(State<S>& state, Look look) {
   since_ = 0;
   exceeds_records(true);
   take_round_off(state);
-  nodes_->defect.measure(before_.q, before_.p, nodes_->stepper.solver().unknowns());
+  nodes_->defect.measure({before_.q, before_.p, h_}, nodes_->stepper.solver().unknowns());
   if (passes(nodes_->defect, look)) return 0;
 
   // Rare: allocations do not matter from here on.
@@ -176,14 +176,14 @@ long RaisingStepper<S>::examine(State<S>& state, Look look) {
     std::unique_ptr<Nodes> next = make_nodes(next_k);
     copy_state(repeated, before_);
     try {
-      sweeps += next->stepper.step(repeated);
+      sweeps += next->stepper.step(repeated, h_);
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       break;
     }
     if (more) add_counts(past_, more->stepper.counts(), problem_);
     more = std::move(next);
-    more->defect.measure(before_.q, before_.p, more->stepper.solver().unknowns());
+    more->defect.measure({before_.q, before_.p, h_}, more->stepper.solver().unknowns());
     enough = passes(more->defect, look);
   }
   if (!enough && on_shortage_ == OnShortage::fail) {

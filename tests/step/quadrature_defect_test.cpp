@@ -1,7 +1,7 @@
-#include "hbvm/integrate/quadrature_defect.hpp"
+#include "hbvm/step/quadrature_defect.hpp"
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -22,10 +22,10 @@ S defect_of(const std::string& scene_text, int k, const S& h) {
   const Assembled<S> scene = assemble<S>(read_scene(scene_text, "test"));
   const Hbvm<S> method = make_hbvm<S>(k, 2);
   // Of bodies that do not act on each other every one has its own straight line as a polynomial.
-  StageEquations<S> equations(scene.problem, method, h);
+  StageEquations<S> equations(scene.problem, method);
   StageUnknowns<S> x = equations.make_unknowns();
   for (Index j = 0; j < scene.problem.m(); ++j) x.gamma(0, j) = scene.p0[j];
-  return QuadratureDefect<S>(scene.problem, k, 2, h).measure(scene.q0, scene.p0, x);
+  return QuadratureDefect<S>(scene.problem, k, 2).measure({scene.q0, scene.p0, h}, x);
 }
 
 template <class S>

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/runge_kutta_step.hpp"
+#include "hbvm/step/runge_kutta_stepper.hpp"
 
 #include "add_compensated.hpp"
 #include "hbvm/linear/arrays.hpp"
@@ -30,9 +30,8 @@ void scale_and_shift(Matrix<S>& x, const S& h, const Vector<S>& base) {
 }  // namespace
 
 template <Scalar S>
-RungeKuttaStep<S>::RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>& method, const S& step)
+RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKutta<S>& method)
     : problem_(problem),
-      h_(step),
       A_(method.A),
       b_(method.b.transpose()),
       explicit_(is_strictly_lower(method.A)),
@@ -49,7 +48,7 @@ RungeKuttaStep<S>::RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>
       position_change_(force_),
       momentum_change_(force_),
       extrapolation_(P_.rows(), P_.cols()),
-      position_scale_(problem, step),
+      position_scale_(problem),
       positions_(problem.m()),
       // The lengths of the sums of one sweep, and 4 for what they are passed through, as roundings_of_a_sweep has it.
       rule_(problem.m(), static_cast<long>(4 * (3 * method.b.size() + problem.m()))) {
@@ -60,7 +59,7 @@ RungeKuttaStep<S>::RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>
 }
 
 template <Scalar S>
-void RungeKuttaStep<S>::describe_parts() {
+void RungeKuttaStepper<S>::describe_parts() {
   const Index s = b_.cols(), m = problem_.m(), used = (A_.array() != 0).count();
   parts_ = {{"stages"}, {"sums over stages"}};
   OperationCounts& stage = parts_[stages].per_call;
@@ -77,24 +76,24 @@ void RungeKuttaStep<S>::describe_parts() {
 }
 
 template <Scalar S>
-SolverCounts RungeKuttaStep<S>::counts() const {
+SolverCounts RungeKuttaStepper<S>::counts() const {
   return sum_of(earlier_, {potential_.counts(), parts_}, problem_);
 }
 
 template <Scalar S>
-void RungeKuttaStep<S>::measure_time() {
+void RungeKuttaStepper<S>::measure_time() {
   timed_ = true;
   potential_.measure_time();
 }
 
 template <Scalar S>
-void RungeKuttaStep<S>::remember(Archive& archive) {
-  archive(extrapolation_);
+void RungeKuttaStepper<S>::remember(Archive& archive) {
+  archive(h_, extrapolation_);
   this->remember_counts(archive, earlier_);
 }
 
 template <Scalar S>
-void RungeKuttaStep<S>::stages_in_turn(const State<S>& state) {
+void RungeKuttaStepper<S>::stages_in_turn(const State<S>& state) {
   const PartCall counted = call(stages);
   const Index s = A_.rows(), m = problem_.m();
   const auto stage = [&](Index i, const Vector<S>& base, const Matrix<S>& slopes, Vector<S>& x) {
@@ -119,8 +118,8 @@ void RungeKuttaStep<S>::stages_in_turn(const State<S>& state) {
 }
 
 template <Scalar S>
-long RungeKuttaStep<S>::solve(const State<S>& state) {
-  position_scale_.evaluate(state.q, positions_);
+long RungeKuttaStepper<S>::solve(const State<S>& state) {
+  position_scale_.evaluate(state.q, h_, positions_);
   long sweeps = 0;
   if (!extrapolation_.empty()) {
     try {
@@ -142,7 +141,7 @@ long RungeKuttaStep<S>::solve(const State<S>& state) {
 }
 
 template <Scalar S>
-void RungeKuttaStep<S>::sweep(const State<S>& state) {
+void RungeKuttaStepper<S>::sweep(const State<S>& state) {
   const PartCall counted = call(stages);
   problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
   product(Q_, A_, V_);
@@ -154,7 +153,7 @@ void RungeKuttaStep<S>::sweep(const State<S>& state) {
 }
 
 template <Scalar S>
-long RungeKuttaStep<S>::iterate(const State<S>& state) {
+long RungeKuttaStepper<S>::iterate(const State<S>& state) {
   using Verdict = typename StoppingRule<S>::Verdict;
   rule_.start(state.p, positions_);
   for (;;) {
@@ -176,7 +175,7 @@ long RungeKuttaStep<S>::iterate(const State<S>& state) {
 }
 
 template <Scalar S>
-void RungeKuttaStep<S>::update(State<S>& state, long sweeps) {
+void RungeKuttaStepper<S>::update(State<S>& state, long sweeps) {
   const PartCall counted = call(sums);
   product(position_change_, b_, V_);
   product(momentum_change_, b_, F_);
@@ -194,7 +193,11 @@ void RungeKuttaStep<S>::update(State<S>& state, long sweeps) {
 }
 
 template <Scalar S>
-long RungeKuttaStep<S>::step(State<S>& state) {
+long RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
+  if (h != h_) {
+    set(h_, h);
+    extrapolation_.clear();
+  }
   long sweeps = 1;
   if (explicit_)
     stages_in_turn(state);
@@ -204,7 +207,7 @@ long RungeKuttaStep<S>::step(State<S>& state) {
   return sweeps;
 }
 
-#define HBVM_DEFINE(S) template class RungeKuttaStep<S>;
+#define HBVM_DEFINE(S) template class RungeKuttaStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
 
@@ -29,14 +29,14 @@ class HalvingStepper final : public Stepper<S> {
  public:
   static constexpr int deepest = 20;
   static constexpr long longest_patience = 1'024;
-  /// Makes what makes steps of this size.
-  using Make = std::function<std::unique_ptr<Stepper<S>>(const S&)>;
+  /// Makes what makes parts of 2^-depth of a step, each of which learns from its own last ones.
+  using Make = std::function<std::unique_ptr<Stepper<S>>(int depth)>;
 
-  HalvingStepper(const S& step, Make make);
+  explicit HalvingStepper(Make make);
 
   const Problem<S>& problem() const override { return steppers_.front()->problem(); }
   /// \throws StageFailure of the whole step, if substeps of 2^-20 fail, too
-  long step(State<S>& state) override;
+  long step(State<S>& state, const S& h) override;
   const Vector<S>& multiplier() const override { return steppers_[static_cast<std::size_t>(last_)]->multiplier(); }
   /// Of the last part of the step.
   const StageUnknowns<S>* unknowns() const override { return steppers_[static_cast<std::size_t>(last_)]->unknowns(); }
@@ -49,9 +49,9 @@ class HalvingStepper final : public Stepper<S> {
  private:
   Stepper<S>& stepper(int depth);
 
-  S h_;
   Make make_;
-  std::vector<std::unique_ptr<Stepper<S>>> steppers_;  ///< by depth: of size 2^-depth h
+  std::vector<std::unique_ptr<Stepper<S>>> steppers_;  ///< by depth
+  std::vector<S> parts_;                               ///< of the last step: 2^-depth h
   bool timed_ = false;
   State<S> before_;
   HalvingLog log_;

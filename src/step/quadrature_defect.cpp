@@ -1,27 +1,24 @@
-#include "hbvm/integrate/quadrature_defect.hpp"
+#include "hbvm/step/quadrature_defect.hpp"
 
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
 
 template <Scalar S>
-QuadratureDefect<S>::Nodes::Nodes(const Problem<S>& problem, int k, int s, const S& step)
-    : method(make_hbvm<S>(k, s)), equations(problem, method, step), psi(equations.make_unknowns().psi) {}
+QuadratureDefect<S>::Nodes::Nodes(const Problem<S>& problem, int k, int s)
+    : method(make_hbvm<S>(k, s)), equations(problem, method), psi(equations.make_unknowns().psi) {}
 
 template <Scalar S>
-QuadratureDefect<S>::QuadratureDefect(const Problem<S>& problem, int k, int s, const S& step)
-    : problem_(problem),
-      few_(problem, k, s, step),
-      more_(problem, k + s, s, step),
-      unit_(S(16 * (k + s)) * epsilon<S>()) {
+QuadratureDefect<S>::QuadratureDefect(const Problem<S>& problem, int k, int s)
+    : problem_(problem), few_(problem, k, s), more_(problem, k + s, s), unit_(S(16 * (k + s)) * epsilon<S>()) {
   using std::sqrt;
   least_ = 4 * sqrt(S(k + s)) * epsilon<S>();
 }
 
 template <Scalar S>
-const S& QuadratureDefect<S>::measure(const Vector<S>& q, const Vector<S>& p, const StageUnknowns<S>& x) {
+const S& QuadratureDefect<S>::measure(const StepStart<S>& start, const StageUnknowns<S>& x) {
   for (Nodes* nodes : {&few_, &more_}) {
-    nodes->equations.start(q, p);
+    nodes->equations.start({start.q, start.p, start.h});
     nodes->equations.move(x.gamma);
     nodes->equations.forces(nodes->psi);
   }

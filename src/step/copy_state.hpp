@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/integrate/state.hpp"
 #include "hbvm/scalar/in_place.hpp"
+#include "hbvm/step/state.hpp"
 
 namespace hbvm {
 

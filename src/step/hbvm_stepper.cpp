@@ -1,4 +1,4 @@
-#include "hbvm/integrate/hbvm_stepper.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 #include "add_compensated.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -6,15 +6,15 @@
 namespace hbvm {
 
 template <Scalar S>
-HbvmStepper<S>::HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, const S& step, SolverKind solver)
+HbvmStepper<S>::HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, SolverKind solver)
     : problem_(problem),
       method_(method),
-      solver_(make_solver(solver, problem, method, step)),
+      solver_(make_solver(solver, problem, method)),
       multiplier_(Vector<S>::Zero(problem.nu())) {}
 
 template <Scalar S>
-long HbvmStepper<S>::step(State<S>& state) {
-  const long sweeps = solver_->solve({state.q, state.p, &state.q_carry, &state.p_carry});
+long HbvmStepper<S>::step(State<S>& state, const S& h) {
+  const long sweeps = solver_->solve({state.q, state.p, h, &state.q_carry, &state.p_carry});
   const StageUnknowns<S>& x = solver_->unknowns();
   const StepChange<S>& change = solver_->change();
   for (Index j = 0; j < problem_.m(); ++j) {

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "hbvm/integrate/stepper.hpp"
 #include "hbvm/method/runge_kutta.hpp"
 #include "hbvm/solver/extrapolation.hpp"
 #include "hbvm/solver/position_scale.hpp"
 #include "hbvm/solver/stopping_rule.hpp"
+#include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
 
-/// One step of fixed size by a Runge-Kutta method, for a problem without constraints:
+/// Steps of a Runge-Kutta method, for a problem without constraints:
 ///
 ///     Q_i = q_0 + h sum_j A_ij V_j,   V_i = M^-1 P_i,         q_1 = q_0 + h sum_i b_i V_i,
 ///     P_i = p_0 + h sum_j A_ij F_j,   F_i = grad U(Q_i),      p_1 = p_0 + h sum_i b_i F_i.
@@ -19,18 +19,18 @@ namespace hbvm {
 ///
 /// StoppingRule says when the iteration ends, from the change of P; it fails as FixedPoint does.
 template <Scalar S>
-class RungeKuttaStep final : public Stepper<S> {
+class RungeKuttaStepper final : public Stepper<S> {
  public:
   /// The problem must outlive it.
   /// \throws InputError if the problem has constraints, or A is not s x s
-  RungeKuttaStep(const Problem<S>& problem, const RungeKutta<S>& method, const S& step);
+  RungeKuttaStepper(const Problem<S>& problem, const RungeKutta<S>& method);
 
   const Problem<S>& problem() const override { return problem_; }
   bool is_explicit() const { return explicit_; }
 
   /// \return sweeps over the stages: 1 if the method is explicit
   /// \throws StageFailure if the iteration fails or anything is not finite; the state is then as it was
-  long step(State<S>& state) override;
+  long step(State<S>& state, const S& h) override;
 
   /// Of no constraint.
   const Vector<S>& multiplier() const override { return multiplier_; }
@@ -50,7 +50,7 @@ class RungeKuttaStep final : public Stepper<S> {
   void update(State<S>& state, long sweeps);
 
   const Problem<S>& problem_;
-  S h_;
+  S h_ = 0;          ///< of the last step
   Matrix<S> A_, b_;  ///< s x s and 1 x s
   bool explicit_;
   PotentialEvaluator<S> potential_;
@@ -69,7 +69,7 @@ class RungeKuttaStep final : public Stepper<S> {
   SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
-#define HBVM_DECLARE(S) extern template class RungeKuttaStep<S>;
+#define HBVM_DECLARE(S) extern template class RungeKuttaStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

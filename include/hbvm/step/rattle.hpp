@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/integrate/stepper.hpp"
 #include "hbvm/linear/ordering.hpp"
+#include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
 
@@ -16,13 +16,13 @@ template <Scalar S>
 class Rattle final : public Stepper<S> {
  public:
   /// The problem must outlive it.
-  Rattle(const Problem<S>& problem, const S& step);
+  explicit Rattle(const Problem<S>& problem);
 
   const Problem<S>& problem() const override { return problem_; }
 
   /// \return Newton iterations for the positions
   /// \throws StageFailure if they do not converge; the state is then as it was
-  long step(State<S>& state) override;
+  long step(State<S>& state, const S& h) override;
 
   /// mu of the last step.
   const Vector<S>& multiplier() const override { return multiplier_; }
@@ -52,7 +52,7 @@ class Rattle final : public Stepper<S> {
   ConstraintGradient<S>& after() { return gradients_[1 - now_]; }
 
   const Problem<S>& problem_;
-  S h_, half_;
+  S h_ = 0, half_ = 0, one_half_;
   PotentialEvaluator<S> potential_;
   ConstraintGradient<S> gradients_[2];
   int now_ = 0;  ///< which of them is at the state

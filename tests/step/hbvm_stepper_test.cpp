@@ -1,9 +1,9 @@
-#include "hbvm/integrate/hbvm_stepper.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 #include "hbvm/scene/assemble.hpp"
-#include "integrate/compensated_sum.hpp"
 #include "printing.hpp"
 #include "solver/stage_formulas.hpp"
+#include "step/compensated_sum.hpp"
 
 namespace hbvm {
 namespace {
@@ -20,13 +20,13 @@ TEST(Step, IsThePapersUpdate) {
     for (const auto& [k, s] : std::vector<std::pair<int, int>>{{1, 1}, {3, 2}, {5, 3}, {4, 4}}) {
       const Assembled<Mpfr> scene = assembled<Mpfr>(model.scene);
       const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
-      const auto solver = make_solver(SolverKind::fixed_point, scene.problem, method, h);
-      solver->solve(scene.q0, scene.p0);
+      const auto solver = make_solver(SolverKind::fixed_point, scene.problem, method);
+      solver->solve({scene.q0, scene.p0, h});
       const auto expected = StageFormulas(model, k, s, h).step(scene.q0, scene.p0, solver->unknowns());
 
-      HbvmStepper<Mpfr> stepper(scene.problem, method, h, SolverKind::fixed_point);
+      HbvmStepper<Mpfr> stepper(scene.problem, method, SolverKind::fixed_point);
       State<Mpfr> state(scene.q0, scene.p0);
-      stepper.step(state);
+      stepper.step(state, h);
       const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
       EXPECT_LE(max_norm(Vector<Mpfr>(state.q - expected.q)), tolerance);
       EXPECT_LE(max_norm(Vector<Mpfr>(state.p - expected.p)), tolerance);
@@ -39,12 +39,12 @@ TEST(Step, BackwardsLeadsBack) {
   for (const auto& [k, s] : std::vector<std::pair<int, int>>{{1, 1}, {4, 1}, {2, 2}, {5, 3}}) {
     const Assembled<Mpfr> scene = assembled<Mpfr>(ellipsoid_bead().scene);
     const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
-    HbvmStepper<Mpfr> stepper(scene.problem, method, Mpfr(1) / 5, SolverKind::fixed_point);
+    HbvmStepper<Mpfr> stepper(scene.problem, method, SolverKind::fixed_point);
     State<Mpfr> state(scene.q0, scene.p0);
-    for (int n = 0; n < 4; ++n) stepper.step(state);
+    for (int n = 0; n < 4; ++n) stepper.step(state, Mpfr(1) / 5);
     EXPECT_GT(max_norm(Vector<Mpfr>(state.q - scene.q0)), literal<Mpfr>("0.1"));
     State<Mpfr> back(state.q, Vector<Mpfr>(-state.p));
-    for (int n = 0; n < 4; ++n) stepper.step(back);
+    for (int n = 0; n < 4; ++n) stepper.step(back, Mpfr(1) / 5);
     EXPECT_LE(max_norm(Vector<Mpfr>(back.q - scene.q0)), 10'000 * epsilon<Mpfr>());
     EXPECT_LE(max_norm(Vector<Mpfr>(back.p + scene.p0)), 10'000 * epsilon<Mpfr>());
   }
@@ -53,17 +53,17 @@ TEST(Step, BackwardsLeadsBack) {
 TEST(Step, ReturnsTheSweepsOfItsSolver) {
   const Assembled<double> scene = assembled<double>(scene_file_text("ellipsoid_bead"));
   const Hbvm<double> method = make_hbvm<double>(3, 2);
-  HbvmStepper<double> stepper(scene.problem, method, 0.1, SolverKind::paper);
+  HbvmStepper<double> stepper(scene.problem, method, SolverKind::paper);
   State<double> state(scene.q0, scene.p0);
-  const auto solver = make_solver(SolverKind::paper, scene.problem, method, 0.1);
-  EXPECT_EQ(stepper.step(state), solver->solve(scene.q0, scene.p0));
+  const auto solver = make_solver(SolverKind::paper, scene.problem, method);
+  EXPECT_EQ(stepper.step(state, 0.1), solver->solve({scene.q0, scene.p0, 0.1}));
 }
 
 using CompensatedUpdate = CompensatedSum;
 
 /// Rounding of p1 - p0 - h (grad U - grad g lambda) and q1 - q0 - h (p0 + p1)/2, summed over many steps of a pendulum
-/// under a gravity of 1/10: walks at random. The same bits of the gravity lost in every step would be a force of its own,
-/// and energy and constraint drift.
+/// under a gravity of 1/10: walks at random. The same bits of the gravity lost in every step would be a force of its
+/// own, and energy and constraint drift.
 TEST_F(CompensatedUpdate, LosesNothingOfAConstantForceBesideAConstraint) {
   for (const SolverKind solver : {SolverKind::fixed_point, SolverKind::newton}) {
     const Assembled<double> scene = assembled<double>(
@@ -74,14 +74,14 @@ TEST_F(CompensatedUpdate, LosesNothingOfAConstantForceBesideAConstraint) {
     const Hbvm<double> method = make_hbvm<double>(1, 1);
     constexpr double step = 0.25;
     constexpr int n = 20'000;
-    HbvmStepper<double> stepper(scene.problem, method, step, solver);
+    HbvmStepper<double> stepper(scene.problem, method, solver);
     State<double> state(scene.q0, scene.p0);
     const auto q = [&](Index j) { return Quad(state.q[j]) + Quad(state.q_carry[j]); };
     const auto p = [&](Index j) { return Quad(state.p[j]) + Quad(state.p_carry[j]); };
     Quad p_sum[2] = {0, 0}, q_sum[2] = {0, 0}, p_size = 0, q_size = 0;
     for (int i = 0; i < n; ++i) {
       const Quad q0[2] = {q(0), q(1)}, p0[2] = {p(0), p(1)};
-      stepper.step(state);
+      stepper.step(state, step);
       const Quad lambda = stepper.multiplier()[0], gravity[2] = {0, Quad(-0.1)};
       for (int j = 0; j < 2; ++j) {
         const Quad tension = (q0[j] + q(j)) * lambda;  // grad g = 2 q at the middle of the step
@@ -102,9 +102,9 @@ TEST_F(CompensatedUpdate, LosesNothingOfAConstantForceBesideAConstraint) {
 TEST_F(CompensatedUpdate, OfMomentaLosesNothingOverManySmallSteps) {
   const Assembled<double> scene = assembled<double>(falling);
   const Hbvm<double> method = make_hbvm<double>(1, 1);
-  HbvmStepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
+  HbvmStepper<double> stepper(scene.problem, method, SolverKind::fixed_point);
   State<double> state(scene.q0, scene.p0);
-  for (int n = 0; n < steps; ++n) stepper.step(state);
+  for (int n = 0; n < steps; ++n) stepper.step(state, h);
   expect_exact_sum(scene.p0[0], h * literal<double>("1/3"), state.p[0], state.p_carry[0]);
   expect_exact_sum(scene.p0[1], h * literal<double>("-1/7"), state.p[1], state.p_carry[1]);
 }
@@ -112,9 +112,9 @@ TEST_F(CompensatedUpdate, OfMomentaLosesNothingOverManySmallSteps) {
 TEST_F(CompensatedUpdate, OfPositionsLosesNothingOverManySmallSteps) {
   const Assembled<double> scene = assembled<double>(floating);
   const Hbvm<double> method = make_hbvm<double>(2, 2);
-  HbvmStepper<double> stepper(scene.problem, method, h, SolverKind::fixed_point);
+  HbvmStepper<double> stepper(scene.problem, method, SolverKind::fixed_point);
   State<double> state(scene.q0, scene.p0);
-  for (int n = 0; n < steps; ++n) stepper.step(state);
+  for (int n = 0; n < steps; ++n) stepper.step(state, h);
   for (Index j = 0; j < 2; ++j) expect_exact_sum(scene.q0[j], h * scene.p0[j], state.q[j], state.q_carry[j]);
 }
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
-#include "hbvm/integrate/quadrature_defect.hpp"
 #include "hbvm/problem/energy_terms.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
+#include "hbvm/step/quadrature_defect.hpp"
 
 namespace hbvm {
 
@@ -53,11 +53,11 @@ class RaisingStepper final : public Stepper<S> {
   static constexpr long interval = 16;
 
   /// Starts with k nodes. The problem and the log must outlive it.
-  RaisingStepper(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, NodeLog& log,
+  RaisingStepper(const Problem<S>& problem, int k, int s, SolverKind solver, NodeLog& log,
                  OnShortage on_shortage = OnShortage::keep);
 
   const Problem<S>& problem() const override { return problem_; }
-  long step(State<S>& state) override;
+  long step(State<S>& state, const S& h) override;
   const Vector<S>& multiplier() const override { return nodes_->stepper.multiplier(); }
   const StageUnknowns<S>* unknowns() const override { return nodes_->stepper.unknowns(); }
   SolverCounts counts() const override;
@@ -72,7 +72,7 @@ class RaisingStepper final : public Stepper<S> {
     Hbvm<S> method;
     HbvmStepper<S> stepper;
     QuadratureDefect<S> defect;
-    Nodes(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver);
+    Nodes(const Problem<S>& problem, int k, int s, SolverKind solver);
   };
 
   /// How closely a step is looked at: by QuadratureDefect's own measure, or, where the energy shows an error, by what
@@ -102,7 +102,7 @@ class RaisingStepper final : public Stepper<S> {
 
   const Problem<S>& problem_;
   int s_, most_;
-  S h_;
+  S h_ = 0;  ///< of the step being made
   SolverKind solver_;
   NodeLog& log_;
   OnShortage on_shortage_;

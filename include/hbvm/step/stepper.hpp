@@ -1,12 +1,12 @@
 #pragma once
 
-#include "hbvm/integrate/state.hpp"
 #include "hbvm/solver/stage_solver.hpp"
+#include "hbvm/step/state.hpp"
 
 namespace hbvm {
 
-/// Makes steps of one size, one after the other. One that wraps another (to choose its nodes, to divide a step that
-/// failed) is one, too.
+/// Makes one step after the other. What it learns from a step serves the next if that is of the same size. One that
+/// wraps another (to choose its nodes, to divide a step that failed) is one, too.
 template <Scalar S>
 class Stepper {
  public:
@@ -14,10 +14,10 @@ class Stepper {
 
   virtual const Problem<S>& problem() const = 0;
 
-  /// Advances the state by a step.
+  /// Advances the state by a step of size h.
   /// \return sweeps over the stage equations
   /// \throws StageFailure; the state is then as it was
-  virtual long step(State<S>& state) = 0;
+  virtual long step(State<S>& state, const S& h) = 0;
 
   /// The multiplier at the end of the last step.
   virtual const Vector<S>& multiplier() const = 0;
@@ -31,7 +31,7 @@ class Stepper {
   /// Also measure the time that effects and parts of the equations take.
   virtual void measure_time() = 0;
 
-  /// All that the next steps and counts() depend on to the last bit, beside problem, method, step and state.
+  /// All that the next steps and counts() depend on to the last bit, beside problem, method and state.
   virtual void remember(Archive& archive) = 0;
 
  protected:

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/raising_stepper.hpp"
+#include "hbvm/step/raising_stepper.hpp"
 
 #include "hbvm/integrate/drift.hpp"
 #include "hbvm/integrate/energy_scale.hpp"
@@ -26,15 +26,17 @@ struct Raised {
   State<S> state;
   Drift<S> drift;
   EnergyScale<S> scale;
+  S h;
 
   Raised(const std::string& toml, int k, int s, const S& step, SolverKind kind = SolverKind::fixed_point)
       : Raised(read_scene(toml, "test"), k, s, step, kind) {}
   Raised(const Scene& text, int k, int s, const S& step, SolverKind kind = SolverKind::fixed_point)
       : scene(assemble<S>(text)),
-        stepper(scene.problem, k, s, step, kind, log),
+        stepper(scene.problem, k, s, kind, log),
         state(scene.q0, scene.p0),
         drift(scene.problem),
-        scale(scene.problem) {}
+        scale(scene.problem),
+        h(step) {}
 
   void run(long steps) {
     Snapshot<S> snapshot{0, S(0), state.q, state.p, {}};
@@ -43,11 +45,12 @@ struct Raised {
       scale.observe(snapshot);
       if (snapshot.n == steps) break;
       log.step = snapshot.n;
-      stepper.step(state);
+      step();
       snapshot.q = state.q;
       snapshot.p = state.p;
     }
   }
+  long step() { return stepper.step(state, h); }
   bool conserved(long steps) const { return drift.e_H() <= scale.round_off(steps); }
 };
 
@@ -68,9 +71,9 @@ TYPED_TEST(Raising, MakesTheStepsOfTheMethodWhereTheNodesSuffice) {
     EXPECT_TRUE(raised.log.raised.empty());
     EXPECT_EQ(raised.log.unresolved, 0);
     const Hbvm<S> method = make_hbvm<S>(k, 2);
-    HbvmStepper<S> plain(raised.scene.problem, method, h, kind);
+    HbvmStepper<S> plain(raised.scene.problem, method, kind);
     State<S> state(raised.scene.q0, raised.scene.p0);
-    for (int n = 0; n < 40; ++n) plain.step(state);
+    for (int n = 0; n < 40; ++n) plain.step(state, h);
     EXPECT_EQ(raised.state.q, state.q);
     EXPECT_EQ(raised.state.p, state.p);
     EXPECT_EQ(raised.state.p_carry, state.p_carry);
@@ -96,12 +99,12 @@ TYPED_TEST(Raising, RaisesTheNodesWhereTheMotionNeedsThem) {
   EXPECT_TRUE(raised.conserved(steps)) << raised.drift.e_H();
 
   const Hbvm<S> method = make_hbvm<S>(k, 2);
-  HbvmStepper<S> plain(raised.scene.problem, method, S(S(1) / 32), SolverKind::fixed_point);
+  HbvmStepper<S> plain(raised.scene.problem, method, SolverKind::fixed_point);
   State<S> state(raised.scene.q0, raised.scene.p0);
   Drift<S> drift(raised.scene.problem);
   for (long n = 0; n <= steps; ++n) {
     drift.observe({n, S(n), state.q, state.p, {}});
-    plain.step(state);
+    plain.step(state, S(S(1) / 32));
   }
   EXPECT_GT(drift.e_H(), 1'000 * raised.scale.round_off(steps)) << "the plain method should fail";
 }
@@ -124,7 +127,7 @@ TYPED_TEST(Raising, IsKeptWithAllThatItRemembers) {
     reading(part->stepper, part->state, part->log);
     reading.expect_end();
     for (Raised<S>* const run : {whole.get(), part.get()}) run->log.step = n;
-    EXPECT_EQ(part->stepper.step(part->state), whole->stepper.step(whole->state)) << n;
+    EXPECT_EQ(part->step(), whole->step()) << n;
     ASSERT_EQ(part->state.p, whole->state.p) << n;
     ASSERT_EQ(part->state.q_carry, whole->state.q_carry) << n;
   }
@@ -195,10 +198,10 @@ TEST(RaisingWhereNoNumberIsEnough, IsLogged) {
 TEST(RaisingWhereNoNumberIsEnough, FailsIfAskedTo) {
   const Assembled<double> scene = assemble<double>(read_scene(cubic, "cubic"));
   NodeLog log;
-  RaisingStepper<double> stepper(scene.problem, 8, 2, 1.0 / 4, SolverKind::fixed_point, log, OnShortage::fail);
+  RaisingStepper<double> stepper(scene.problem, 8, 2, SolverKind::fixed_point, log, OnShortage::fail);
   State<double> state(scene.q0, scene.p0);
   try {
-    for (int n = 0; n < 8; ++n) stepper.step(state);
+    for (int n = 0; n < 8; ++n) stepper.step(state, 1.0 / 4);
     ADD_FAILURE() << "64 nodes were enough";
   } catch (const StageFailure& failure) {
     EXPECT_NE(std::string(failure.what()).find("no number of nodes up to 64"), std::string::npos) << failure.what();
@@ -208,7 +211,7 @@ TEST(RaisingWhereNoNumberIsEnough, FailsIfAskedTo) {
 
 TEST(RaisingOfAStepThatFails, LeavesTheStateAsItWas) {
   Raised<double> raised(load_scene("kepler"), 4, 2, 20.0);
-  EXPECT_THROW(raised.stepper.step(raised.state), StageFailure);
+  EXPECT_THROW(raised.step(), StageFailure);
   EXPECT_EQ(raised.state.q, raised.scene.q0);
   EXPECT_EQ(raised.state.p, raised.scene.p0);
 }

@@ -1,13 +1,13 @@
-#include "hbvm/integrate/runge_kutta_step.hpp"
+#include "hbvm/step/runge_kutta_stepper.hpp"
 
 #include <cmath>
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
-#include "integrate/compensated_sum.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
+#include "step/compensated_sum.hpp"
 
 namespace hbvm {
 namespace {
@@ -46,38 +46,38 @@ S distance(const State<S>& a, const State<S>& b) {
 }
 
 template <Scalar S, class Stepping>
-State<S> after(Stepping& stepping, const Assembled<S>& scene, long steps) {
+State<S> after(Stepping& stepping, const Assembled<S>& scene, const S& h, long steps) {
   State<S> state(scene.q0, scene.p0);
-  for (long i = 0; i < steps; ++i) stepping.step(state);
+  for (long i = 0; i < steps; ++i) stepping.step(state, h);
   return state;
 }
 
 template <class S>
-class RungeKuttaStepTest : public ::testing::Test {
+class RungeKuttaSteps : public ::testing::Test {
  protected:
   PrecisionScope digits{50};
   const Assembled<S> kepler = assemble<S>(load_scene("kepler"));
 
   State<S> run(const RungeKutta<S>& method, const S& h, long steps) const {
-    RungeKuttaStep<S> step(kepler.problem, method, h);
-    return after(step, kepler, steps);
+    RungeKuttaStepper<S> step(kepler.problem, method);
+    return after(step, kepler, h, steps);
   }
 };
-TYPED_TEST_SUITE(RungeKuttaStepTest, AllScalars, ScalarNames);
+TYPED_TEST_SUITE(RungeKuttaSteps, AllScalars, ScalarNames);
 
-TYPED_TEST(RungeKuttaStepTest, GaussIsHbvmOfEqualStages) {
+TYPED_TEST(RungeKuttaSteps, GaussIsHbvmOfEqualStages) {
   using S = TypeParam;
   for (int s = 1; s <= 4; ++s)
     for (const S& h : {S(S(1) / 20), S(S(-1) / 20)}) {
       const Hbvm<S> method = make_hbvm<S>(s, s);
-      HbvmStepper<S> stepper(this->kepler.problem, method, h, SolverKind::fixed_point);
-      const State<S> expected = after(stepper, this->kepler, 20);
+      HbvmStepper<S> stepper(this->kepler.problem, method, SolverKind::fixed_point);
+      const State<S> expected = after(stepper, this->kepler, h, 20);
       EXPECT_LE(distance(this->run(gauss<S>(s), h, 20), expected), 100 * epsilon<S>()) << s;
     }
 }
 
 /// The four stages written out.
-TYPED_TEST(RungeKuttaStepTest, ClassicalMethodStageByStage) {
+TYPED_TEST(RungeKuttaSteps, ClassicalMethodStageByStage) {
   using S = TypeParam;
   const auto force = [](const Vector<S>& q) {
     using std::sqrt;
@@ -93,29 +93,29 @@ TYPED_TEST(RungeKuttaStepTest, ClassicalMethodStageByStage) {
   expected.p += h / 6 * (F1 + 2 * F2 + 2 * F3 + F4);
   EXPECT_LE(distance(this->run(rk4<S>(), h, 1), expected), 16 * epsilon<S>());
 
-  RungeKuttaStep<S> step(this->kepler.problem, rk4<S>(), h);
+  RungeKuttaStepper<S> step(this->kepler.problem, rk4<S>());
   State<S> state(q, p);
   EXPECT_TRUE(step.is_explicit());
-  EXPECT_EQ(step.step(state), 1);
+  EXPECT_EQ(step.step(state, h), 1);
 }
 
 /// The error of one step falls by 2^(p + 1) as the step is halved. (Not from the pericentre, where by symmetry some of
 /// the terms vanish.)
-TYPED_TEST(RungeKuttaStepTest, LocalErrorHasTheOrderOfTheMethod) {
+TYPED_TEST(RungeKuttaSteps, LocalErrorHasTheOrderOfTheMethod) {
   using S = TypeParam;
   const Hbvm<S> fine = make_hbvm<S>(8, 8);
-  HbvmStepper<S> first(this->kepler.problem, fine, S(S(1) / 4), SolverKind::fixed_point);
-  const State<S> start = after(first, this->kepler, 4);
+  HbvmStepper<S> first(this->kepler.problem, fine, SolverKind::fixed_point);
+  const State<S> start = after(first, this->kepler, S(S(1) / 4), 4);
   for (const auto& [method, p] :
        {std::pair{rk4<S>(), 4}, {radau_iia<S>(), 3}, {gauss<S>(1), 2}, {gauss<S>(2), 4}, {gauss<S>(3), 6}}) {
     S last = 0;
     for (const int divisor : {8, 16, 32, 64}) {
       const S h = S(1) / divisor;
-      HbvmStepper<S> reference(this->kepler.problem, fine, h, SolverKind::fixed_point);
-      RungeKuttaStep<S> step(this->kepler.problem, method, h);
+      HbvmStepper<S> reference(this->kepler.problem, fine, SolverKind::fixed_point);
+      RungeKuttaStepper<S> step(this->kepler.problem, method);
       State<S> expected = start, state = start;
-      reference.step(expected);
-      step.step(state);
+      reference.step(expected, h);
+      step.step(state, h);
       const S error = distance(state, expected);
       if (last != 0 && error > 1'000 * epsilon<S>()) {
         EXPECT_NEAR(std::log2(approximately(S(last / error))), p + 1, 0.3) << p << " " << divisor;
@@ -126,11 +126,11 @@ TYPED_TEST(RungeKuttaStepTest, LocalErrorHasTheOrderOfTheMethod) {
 }
 
 /// RK4 and Gauss come to the same end where both are converged.
-TYPED_TEST(RungeKuttaStepTest, ClassicalMethodConvergesToTheOrbit) {
+TYPED_TEST(RungeKuttaSteps, ClassicalMethodConvergesToTheOrbit) {
   using S = TypeParam;
   const Hbvm<S> fine = make_hbvm<S>(8, 8);
-  HbvmStepper<S> reference(this->kepler.problem, fine, S(S(1) / 32), SolverKind::fixed_point);
-  const State<S> expected = after(reference, this->kepler, 32);
+  HbvmStepper<S> reference(this->kepler.problem, fine, SolverKind::fixed_point);
+  const State<S> expected = after(reference, this->kepler, S(S(1) / 32), 32);
   S last = 0;
   for (const long steps : {128L, 256L, 512L}) {
     const S error = distance(this->run(rk4<S>(), S(S(1) / S(steps)), steps), expected);
@@ -142,7 +142,7 @@ TYPED_TEST(RungeKuttaStepTest, ClassicalMethodConvergesToTheOrbit) {
   EXPECT_LE(last, literal<S>("1e-7"));
 }
 
-TYPED_TEST(RungeKuttaStepTest, GaussKeepsTheAngularMomentum) {
+TYPED_TEST(RungeKuttaSteps, GaussKeepsTheAngularMomentum) {
   using S = TypeParam;
   const auto momentum = [](const State<S>& x) { return S(x.q[0] * x.p[1] - x.q[1] * x.p[0]); };
   const S start = momentum(State<S>(this->kepler.q0, this->kepler.p0)), h = S(1) / 10;
@@ -150,7 +150,7 @@ TYPED_TEST(RungeKuttaStepTest, GaussKeepsTheAngularMomentum) {
   EXPECT_GT(magnitude(S(momentum(this->run(radau_iia<S>(), h, 50)) - start)), literal<S>("1e-6"));
 }
 
-TYPED_TEST(RungeKuttaStepTest, TakesFullMassMatricesAndConstantForces) {
+TYPED_TEST(RungeKuttaSteps, TakesFullMassMatricesAndConstantForces) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(read_scene(R"(dimension = 2
 [[body]]
@@ -165,11 +165,11 @@ acceleration = ["1/3", "-1/7"]
                                                     "scene"));
   const S h = S(1) / 4;
   const Hbvm<S> method = make_hbvm<S>(2, 2);
-  HbvmStepper<S> stepper(scene.problem, method, h, SolverKind::fixed_point);
-  const State<S> expected = after(stepper, scene, 8);  // a parabola, which all of them follow
+  HbvmStepper<S> stepper(scene.problem, method, SolverKind::fixed_point);
+  const State<S> expected = after(stepper, scene, h, 8);  // a parabola, which all of them follow
   for (const RungeKutta<S>& other : {rk4<S>(), radau_iia<S>(), gauss<S>(1)}) {
-    RungeKuttaStep<S> step(scene.problem, other, h);
-    EXPECT_LE(distance(after(step, scene, 8), expected), 50 * epsilon<S>());
+    RungeKuttaStepper<S> step(scene.problem, other);
+    EXPECT_LE(distance(after(step, scene, h, 8), expected), 50 * epsilon<S>());
   }
 }
 
@@ -182,8 +182,8 @@ constexpr double half_an_ulp = 0.5;
 TEST_F(RungeKuttaSum, OfMomentaLosesNothingOverManySmallSteps) {
   const Assembled<double> scene = assemble<double>(read_scene(falling, "falling"));
   for (const RungeKutta<double>& method : {rk4<double>(), gauss<double>(1)}) {
-    RungeKuttaStep<double> step(scene.problem, method, h);
-    const State<double> end = after(step, scene, steps);
+    RungeKuttaStepper<double> step(scene.problem, method);
+    const State<double> end = after(step, scene, h, steps);
     expect_exact_sum(scene.p0[0], h * literal<double>("1/3"), end.p[0], end.p_carry[0], half_an_ulp);
     expect_exact_sum(scene.p0[1], h * literal<double>("-1/7"), end.p[1], end.p_carry[1], half_an_ulp);
   }
@@ -192,25 +192,25 @@ TEST_F(RungeKuttaSum, OfMomentaLosesNothingOverManySmallSteps) {
 TEST_F(RungeKuttaSum, OfPositionsLosesNothingOverManySmallSteps) {
   const Assembled<double> scene = assemble<double>(read_scene(floating, "floating"));
   for (const RungeKutta<double>& method : {rk4<double>(), gauss<double>(2)}) {
-    RungeKuttaStep<double> step(scene.problem, method, h);
-    const State<double> end = after(step, scene, steps);
+    RungeKuttaStepper<double> step(scene.problem, method);
+    const State<double> end = after(step, scene, h, steps);
     for (Index j = 0; j < 2; ++j) expect_exact_sum(scene.q0[j], h * scene.p0[j], end.q[j], end.q_carry[j], half_an_ulp);
   }
 }
 
-TYPED_TEST(RungeKuttaStepTest, GoesOnFromWhatItRemembers) {
+TYPED_TEST(RungeKuttaSteps, GoesOnFromWhatItRemembers) {
   using S = TypeParam;
   const S h = S(1) / 16;
   const RungeKutta<S> method = gauss<S>(2);
-  RungeKuttaStep<S> step(this->kepler.problem, method, h), later(this->kepler.problem, method, h);
+  RungeKuttaStepper<S> step(this->kepler.problem, method), later(this->kepler.problem, method);
   State<S> state(this->kepler.q0, this->kepler.p0);
-  for (int n = 0; n < 9; ++n) step.step(state);
+  for (int n = 0; n < 9; ++n) step.step(state, h);
   Archive archive;
   step.remember(archive);
   Archive read(archive.text());
   later.remember(read);
   State<S> resumed = state;
-  for (int n = 0; n < 3; ++n) EXPECT_EQ(later.step(resumed), step.step(state));
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(later.step(resumed, h), step.step(state, h));
   EXPECT_EQ(resumed.q, state.q);
   EXPECT_EQ(resumed.p_carry, state.p_carry);
   ASSERT_EQ(later.counts().parts.size(), 2u);
@@ -218,30 +218,29 @@ TYPED_TEST(RungeKuttaStepTest, GoesOnFromWhatItRemembers) {
   EXPECT_EQ(step.counts().parts[1].calls, 12u);
 }
 
-TYPED_TEST(RungeKuttaStepTest, RefusesConstraintsAndShapes) {
+TYPED_TEST(RungeKuttaSteps, RefusesConstraintsAndShapes) {
   using S = TypeParam;
   const Assembled<S> pendulum = assemble<S>(load_scene("double_pendulum"));
-  const S h = S(1) / 10;
-  EXPECT_THROW(RungeKuttaStep<S>(pendulum.problem, rk4<S>(), h), InputError);
+  EXPECT_THROW(RungeKuttaStepper<S>(pendulum.problem, rk4<S>()), InputError);
   RungeKutta<S> method = rk4<S>();
   method.b = Vector<S>::Zero(3);
-  EXPECT_THROW(RungeKuttaStep<S>(this->kepler.problem, method, h), InputError);
+  EXPECT_THROW(RungeKuttaStepper<S>(this->kepler.problem, method), InputError);
   method = {Matrix<S>(0, 0), Vector<S>(0), Vector<S>(0)};
-  EXPECT_THROW(RungeKuttaStep<S>(this->kepler.problem, method, h), InputError);
+  EXPECT_THROW(RungeKuttaStepper<S>(this->kepler.problem, method), InputError);
 }
 
-TYPED_TEST(RungeKuttaStepTest, SaysSoWhereItFails) {
+TYPED_TEST(RungeKuttaSteps, SaysSoWhereItFails) {
   using S = TypeParam;
   State<S> state(this->kepler.q0, this->kepler.p0);
-  RungeKuttaStep<S> far(this->kepler.problem, gauss<S>(3), S(2));
-  EXPECT_THROW(far.step(state), StageFailure);
+  RungeKuttaStepper<S> far(this->kepler.problem, gauss<S>(3));
+  EXPECT_THROW(far.step(state, S(2)), StageFailure);
   EXPECT_EQ(state.q, this->kepler.q0);
   EXPECT_EQ(state.p, this->kepler.p0);
   // In the centre of the force it is not finite.
   for (const RungeKutta<S>& method : {rk4<S>(), gauss<S>(2)}) {
     State<S> centre(Vector<S>::Zero(2), Vector<S>::Zero(2));
-    RungeKuttaStep<S> step(this->kepler.problem, method, S(S(1) / 10));
-    EXPECT_THROW(step.step(centre), StageFailure);
+    RungeKuttaStepper<S> step(this->kepler.problem, method);
+    EXPECT_THROW(step.step(centre, S(S(1) / 10)), StageFailure);
     EXPECT_EQ(max_norm(centre.q), 0);
   }
 }

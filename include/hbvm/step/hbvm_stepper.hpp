@@ -2,21 +2,21 @@
 
 #include <memory>
 
-#include "hbvm/integrate/stepper.hpp"
+#include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
 
-/// One step of HBVM(k, s) of fixed size. Problem and method must outlive it.
+/// Steps of HBVM(k, s). Problem and method must outlive it.
 template <Scalar S>
 class HbvmStepper final : public Stepper<S> {
  public:
-  HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, const S& step, SolverKind solver);
+  HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, SolverKind solver);
 
   const Problem<S>& problem() const override { return problem_; }
   StageSolver<S>& solver() { return *solver_; }
 
   /// Advances the state by (q1p1new), q1 = q0 + h M^-1 gamma_0, p1 = p0 + h (psi_0 - zeta_0).
-  long step(State<S>& state) override;
+  long step(State<S>& state, const S& h) override;
 
   /// The extrapolated multiplier (lagmul) of the last step: sum_i l_i(1) lambda_i.
   const Vector<S>& multiplier() const override { return multiplier_; }

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/backward_stepper.hpp"
+#include "hbvm/step/backward_stepper.hpp"
 
 #include "integrate/runs.hpp"
 #include "printing.hpp"
@@ -19,11 +19,11 @@ TYPED_TEST(Backward, ComesBackToRoundOff) {
   for (const char* scene : {"charged_double_pendulum", "heavy_top", "kepler"}) {
     SceneRun<S> run(load_scene(scene), 3, 2, "1/64", "1", SolverKind::automatic);
     const State<S> start = run.state;
-    for (int n = 0; n < 64; ++n) run.stepper.step(run.state);
+    for (int n = 0; n < 64; ++n) run.step();
     EXPECT_GT(distance(run.state.q, start.q), S(1) / 100);
     SceneRun<S> back(load_scene(scene), 3, 2, "1/64", "1", SolverKind::automatic);
     BackwardStepper<S> stepper(back.stepper);
-    for (int n = 0; n < 64; ++n) stepper.step(run.state);
+    for (int n = 0; n < 64; ++n) stepper.step(run.state, back.grid.step());
     EXPECT_LE(distance(run.state.q, start.q), 1'000 * epsilon<S>()) << scene;
     EXPECT_LE(distance(run.state.p, start.p), 1'000 * epsilon<S>()) << scene;
   }
@@ -35,7 +35,7 @@ TEST(Backward, LeavesTheStateOfAFailedStepAlone) {
   run.state.q.setZero();
   const State<double> before = run.state;
   BackwardStepper<double> backward(run.stepper);
-  EXPECT_THROW(backward.step(run.state), StageFailure);
+  EXPECT_THROW(backward.step(run.state, run.grid.step()), StageFailure);
   EXPECT_EQ(run.state.p, before.p);
 }
 

@@ -1,9 +1,9 @@
-#include "hbvm/integrate/rattle.hpp"
+#include "hbvm/step/rattle.hpp"
 
-#include "hbvm/integrate/hbvm_stepper.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -15,9 +15,9 @@ class RattleTest : public ::testing::Test {
   PrecisionScope digits{40};
 
   State<S> after(const Assembled<S>& scene, const S& h, long steps) {
-    Rattle<S> rattle(scene.problem, h);
+    Rattle<S> rattle(scene.problem);
     State<S> state(scene.q0, scene.p0);
-    for (long i = 0; i < steps; ++i) rattle.step(state);
+    for (long i = 0; i < steps; ++i) rattle.step(state, h);
     return state;
   }
 };
@@ -39,10 +39,10 @@ TYPED_TEST(RattleTest, KeepsTheRodToRoundOffAtEveryStep) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("simple_pendulum"));
   for (int divisor = 2; divisor < 12; ++divisor) {
-    Rattle<S> rattle(scene.problem, S(S(1) / divisor));
+    Rattle<S> rattle(scene.problem);
     State<S> state(scene.q0, scene.p0);
     for (int n = 0; n < 50; ++n) {
-      rattle.step(state);
+      rattle.step(state, S(S(1) / divisor));
       const S length2 = state.q[0] * state.q[0] + state.q[1] * state.q[1];
       ASSERT_LE(magnitude(S(length2 - 1)), 8 * epsilon<S>()) << "h = 1/" << divisor << ", step " << n;
     }
@@ -68,9 +68,9 @@ TYPED_TEST(RattleTest, IsOfOrderTwo) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
   const Hbvm<S> method = make_hbvm<S>(6, 6);
-  HbvmStepper<S> stepper(scene.problem, method, S(S(1) / 32), SolverKind::fixed_point);
+  HbvmStepper<S> stepper(scene.problem, method, SolverKind::fixed_point);
   State<S> exact(scene.q0, scene.p0);
-  for (int i = 0; i < 32; ++i) stepper.step(exact);
+  for (int i = 0; i < 32; ++i) stepper.step(exact, S(S(1) / 32));
   Point<S> point(scene.problem);
   const Vector<S> p = point.tangential(exact.q, exact.p);
   S last = 0;
@@ -108,9 +108,9 @@ TYPED_TEST(RattleTest, MultiplierIsThatOfTheEnd) {
   Point<S> point(scene.problem);
   S last = 0;
   for (const long steps : {64L, 128L, 256L}) {
-    Rattle<S> rattle(scene.problem, S(S(1) / S(steps)));
+    Rattle<S> rattle(scene.problem);
     State<S> state(scene.q0, scene.p0);
-    for (long n = 0; n < steps; ++n) rattle.step(state);
+    for (long n = 0; n < steps; ++n) rattle.step(state, S(S(1) / S(steps)));
     const S error = max_norm(Vector<S>(rattle.multiplier() - point.multiplier(state.q, state.p)));
     if (last != 0) {
       EXPECT_GE(approximately(S(last / error)), 1.9);
@@ -124,9 +124,9 @@ TYPED_TEST(RattleTest, GoesOnFromWhatItRemembers) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("tethered_satellites"));
   const S h = S(1) / 8;
-  Rattle<S> rattle(scene.problem, h), later(scene.problem, h);
+  Rattle<S> rattle(scene.problem), later(scene.problem);
   State<S> state(scene.q0, scene.p0);
-  for (int n = 0; n < 5; ++n) rattle.step(state);
+  for (int n = 0; n < 5; ++n) rattle.step(state, h);
   Archive archive;
   rattle.remember(archive);
   Archive read(archive.text());
@@ -134,8 +134,8 @@ TYPED_TEST(RattleTest, GoesOnFromWhatItRemembers) {
   EXPECT_EQ(later.multiplier(), rattle.multiplier());
   State<S> resumed = state;
   for (int n = 0; n < 5; ++n) {
-    rattle.step(state);
-    later.step(resumed);
+    rattle.step(state, h);
+    later.step(resumed, h);
   }
   EXPECT_EQ(resumed.q, state.q);
   EXPECT_EQ(resumed.p, state.p);
@@ -147,10 +147,10 @@ TYPED_TEST(RattleTest, TakesAStateThatItDidNotMake) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("kepler"));
   const S h = S(1) / 64;
-  Rattle<S> used(scene.problem, h);
+  Rattle<S> used(scene.problem);
   State<S> elsewhere(Vector<S>(scene.q0 + scene.p0), scene.p0), state(scene.q0, scene.p0);
-  used.step(elsewhere);
-  used.step(state);
+  used.step(elsewhere, h);
+  used.step(state, h);
   const State<S> expected = this->after(scene, h, 1);
   EXPECT_EQ(state.q, expected.q);
   EXPECT_EQ(state.p, expected.p);
@@ -158,10 +158,10 @@ TYPED_TEST(RattleTest, TakesAStateThatItDidNotMake) {
 
 TEST(Rattle, CountsWhatItDid) {
   const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
-  Rattle<double> rattle(scene.problem, 0.01);
+  Rattle<double> rattle(scene.problem);
   State<double> state(scene.q0, scene.p0);
   long iterations = 0;
-  for (int n = 0; n < 10; ++n) iterations += rattle.step(state);
+  for (int n = 0; n < 10; ++n) iterations += rattle.step(state, 0.01);
   const auto calls = [&](const std::string& name) {
     for (const PartCount& part : rattle.counts().parts)
       if (part.name == name) return static_cast<long>(part.calls);
@@ -176,19 +176,19 @@ TEST(Rattle, CountsWhatItDid) {
 
 TEST(Rattle, FailsWhereAForceIsNotFiniteAndThenGoesOn) {
   const Assembled<double> scene = assemble<double>(load_scene("kepler"));
-  Rattle<double> rattle(scene.problem, 0.1);
+  Rattle<double> rattle(scene.problem);
   State<double> centre(Vector<double>::Zero(2), Vector<double>::Zero(2)), state(scene.q0, scene.p0);
-  EXPECT_THROW(rattle.step(centre), StageFailure);
+  EXPECT_THROW(rattle.step(centre, 0.1), StageFailure);
   EXPECT_EQ(centre.q, (Vector<double>(Vector<double>::Zero(2))));
-  rattle.step(state);
+  rattle.step(state, 0.1);
   EXPECT_TRUE(state.q.allFinite());
 }
 
 TEST(Rattle, SaysSoWhereItFindsNoPositions) {
   const Assembled<double> scene = assemble<double>(load_scene("swinging_pendulum"));
-  Rattle<double> rattle(scene.problem, 5.0);
+  Rattle<double> rattle(scene.problem);
   State<double> state(scene.q0, scene.p0);
-  EXPECT_THROW(rattle.step(state), StageFailure);
+  EXPECT_THROW(rattle.step(state, 5.0), StageFailure);
   EXPECT_EQ(state.q, scene.q0);
 }
 

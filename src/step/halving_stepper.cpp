@@ -1,4 +1,4 @@
-#include "hbvm/integrate/halving_stepper.hpp"
+#include "hbvm/step/halving_stepper.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -8,8 +8,8 @@
 namespace hbvm {
 
 template <Scalar S>
-HalvingStepper<S>::HalvingStepper(const S& step, Make make)
-    : h_(step), make_(std::move(make)), before_(Vector<S>(), Vector<S>()) {
+HalvingStepper<S>::HalvingStepper(Make make)
+    : make_(std::move(make)), parts_(deepest + 1, S(0)), before_(Vector<S>(), Vector<S>()) {
   const Index m = stepper(0).problem().m();
   before_ = State<S>(Vector<S>::Zero(m), Vector<S>::Zero(m));
 }
@@ -19,14 +19,16 @@ Stepper<S>& HalvingStepper<S>::stepper(int depth) {
   while (static_cast<int>(steppers_.size()) <= depth) steppers_.emplace_back();
   std::unique_ptr<Stepper<S>>& made = steppers_[static_cast<std::size_t>(depth)];
   if (!made) {
-    made = make_(S(h_ / S(1L << depth)));
+    made = make_(depth);
     if (timed_) made->measure_time();
   }
   return *made;
 }
 
 template <Scalar S>
-long HalvingStepper<S>::step(State<S>& state) {
+long HalvingStepper<S>::step(State<S>& state, const S& h) {
+  if (h != parts_[0])
+    for (int depth = 0; depth <= deepest; ++depth) parts_[static_cast<std::size_t>(depth)] = h / S(1L << depth);
   copy_state(before_, state);
   long sweeps = 0, substeps = 0;
   int smallest = 0;
@@ -35,7 +37,7 @@ long HalvingStepper<S>::step(State<S>& state) {
   constexpr long whole = 1L << deepest;
   for (long done = 0; done < whole;) {
     try {
-      sweeps += stepper(depth_).step(state);
+      sweeps += stepper(depth_).step(state, parts_[static_cast<std::size_t>(depth_)]);
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       if (!first) first = failure;

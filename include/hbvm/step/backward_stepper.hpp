@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/integrate/stepper.hpp"
 #include "hbvm/scalar/in_place.hpp"
+#include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
 
@@ -15,9 +15,9 @@ class BackwardStepper final : public Stepper<S> {
 
   const Problem<S>& problem() const override { return forward_.problem(); }
 
-  long step(State<S>& state) override {
+  long step(State<S>& state, const S& h) override {
     const Reversal reversal(state);
-    return forward_.step(state);
+    return forward_.step(state, h);
   }
 
   const Vector<S>& multiplier() const override { return forward_.multiplier(); }

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/rattle.hpp"
+#include "hbvm/step/rattle.hpp"
 
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -7,10 +7,9 @@
 namespace hbvm {
 
 template <Scalar S>
-Rattle<S>::Rattle(const Problem<S>& problem, const S& step)
+Rattle<S>::Rattle(const Problem<S>& problem)
     : problem_(problem),
-      h_(step),
-      half_(step / 2),
+      one_half_(S(1) / 2),
       potential_(problem.potential, 1),
       gradients_{{problem, 1}, {problem, 1}},
       force_(Matrix<S>::Zero(1, problem.m())),
@@ -190,7 +189,11 @@ void Rattle<S>::project(long iterations) {
 }
 
 template <Scalar S>
-long Rattle<S>::step(State<S>& state) {
+long Rattle<S>::step(State<S>& state, const S& h) {
+  if (h != h_) {
+    set(h_, h);
+    set_product(half_, h, one_half_);
+  }
   arrive(state.q);
   kick_and_drift(state);
   long iterations = 0;
