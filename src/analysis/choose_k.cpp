@@ -73,7 +73,7 @@ template <Scalar S>
 ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind solver) {
   if (const auto degree = degree_of_U(scene.problem)) {
     const int k = std::max(s, (*degree * s + 1) / 2);
-    MethodName{k, s}.check();
+    HbvmName{k, s}.check();
     return {k,
             "U is a polynomial of degree " + std::to_string(*degree) +
                 (*degree <= 2 ? ": k = s" : ": k >= " + std::to_string(*degree) + "/2 s") + " conserves energy exactly",

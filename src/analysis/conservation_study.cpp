@@ -64,7 +64,7 @@ Agreement check(const Experiment& experiment, const std::vector<Row>& rows) {
 Findings conservation_study(const Experiment& experiment, TomlTable& top) {
   const Expression step = top.number("step"), until = top.number("until");
   const int s = static_cast<int>(top.integer("s"));
-  MethodName{s, s}.check();
+  HbvmName{s, s}.check();
   Findings findings;
   findings.table.columns = {"scene", "nodes", "k", "e_H", "e_g", "e_P", "e_L", "momenta", "kept", "lost"};
   findings.table.groups.emplace_back();

@@ -4,10 +4,11 @@
 #include <functional>
 
 #include "hbvm/analysis/study.hpp"
-#include "hbvm/method/method_name.hpp"
 #include "hbvm/report/table.hpp"
 #include "hbvm/scene/scene.hpp"
-#include "scene/toml_table.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/registry.hpp"
+#include "toml/toml_table.hpp"
 
 namespace hbvm {
 
@@ -31,10 +32,18 @@ Findings long_run_study(const Experiment& experiment, TomlTable& top);
 Findings conservation_study(const Experiment& experiment, TomlTable& top);
 
 /// The method that a table of study.toml names.
-inline MethodName stated_method(TomlTable& reader) {
-  const MethodName method = MethodName::parse(reader.string("method"));
-  if (method.is_auto()) reader.fail("a study states its k");
+inline MethodPtr stated_method(TomlTable& reader) {
+  const MethodPtr method = parse_method(reader.string("method"));
+  const HbvmMethod* const hbvm = as_hbvm(*method);
+  if (hbvm && hbvm->name().is_auto()) reader.fail("a study states its k");
   return method;
+}
+
+/// A number of the method's name, by its letter; "---" if it has none.
+inline std::string letter(const MethodPtr& method, const std::string& letter) {
+  const Constants all = method->parameters();
+  const auto place = all.find(letter);
+  return place == all.end() ? "---" : place->second.text();
 }
 
 }  // namespace hbvm

@@ -28,7 +28,7 @@ Agreement check(const Experiment& experiment, const std::vector<Block>& blocks, 
     const HalvingRow* found = nullptr;
     for (const Block& block : blocks)
       for (const HalvingRow& row : block.rows)
-        if (std::to_string(block.request.method.k) == k && std::to_string(block.request.method.s) == s &&
+        if (letter(block.request.method, "k") == k && letter(block.request.method, "s") == s &&
             std::to_string(row.i) == i)
           found = &row;
     for (std::size_t c = 0; c < expected.columns.size(); ++c) {
@@ -101,8 +101,8 @@ Findings halving_study(const Experiment& experiment, TomlTable& top) {
   }
   for (Block& block : blocks) {
     block.rows = step_halving(block.request, experiment.precision, [&] { experiment.progress(++done, runs); });
-    const auto [k, s] = block.request.method;
-    Table::Group rows{group + " = " + std::to_string(group == "k" ? k : s), {std::to_string(k), std::to_string(s)}, {}};
+    const std::string k = letter(block.request.method, "k"), s = letter(block.request.method, "s");
+    Table::Group rows{group + " = " + (group == "k" ? k : s), {k, s}, {}};
     for (const HalvingRow& row : block.rows) {
       std::vector<std::string> cells;
       for (const std::string& column : table.columns) cells.push_back(row.cell(column));

@@ -7,6 +7,7 @@
 #include "hbvm/analysis/choose_k.hpp"
 #include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 
 namespace hbvm {
 namespace {
@@ -21,9 +22,9 @@ S walked_round_off(long steps) {
 }  // namespace
 
 template <Scalar S>
-HealthWatch<S>::HealthWatch(const Problem<S>& problem, int s, const TimeGrid<S>& grid)
+HealthWatch<S>::HealthWatch(const Problem<S>& problem, const Method& method, const TimeGrid<S>& grid)
     : problem_(problem),
-      s_(s),
+      s_(as_hbvm(method) ? as_hbvm(method)->name().s : 0),
       h_(magnitude(grid.step())),
       steps_(grid.steps()),
       gradient_(problem, 1),
@@ -32,7 +33,7 @@ HealthWatch<S>::HealthWatch(const Problem<S>& problem, int s, const TimeGrid<S>&
       energy_(problem),
       angles_(problem),
       hidden_(problem, grid.steps()),
-      decay_(problem, s, grid.step()) {}
+      decay_(problem, std::max(s_, 1), grid.step()) {}
 
 template <Scalar S>
 void HealthWatch<S>::observe(const Snapshot<S>& snapshot) {
@@ -46,22 +47,25 @@ void HealthWatch<S>::observe(const Snapshot<S>& snapshot) {
 }
 
 template <Scalar S>
-void HealthWatch<S>::report_energy(Health& health, const MethodName& method) {
+void HealthWatch<S>::report_energy(Health& health, const Method& method) {
   const S size = energy_.size(), error = energy_.error();
   const S relative = error == 0 ? S(0) : S(error / size);
   health.worst_e_H = to_scientific(relative, 3);
   const S rounding = energy_.rounding() + h_ * hidden_.power();
   if (!(error > walked_round_off<S>(steps_) * rounding)) return;
+  const HbvmMethod* const hbvm = as_hbvm(method);
+  if (!hbvm) return;  // whose energy errors are no accident
+  const auto [k, s] = hbvm->name();
   const std::optional<int> degree = degree_of_U(problem_);
-  const bool exact = degree && 2 * method.k >= *degree * method.s;
+  const bool exact = degree && 2 * k >= *degree * s;
   health.warnings.push_back(
       {"energy_lost",
-       fmt::format("H is off by {} of its greatest term at t = {}, more than rounding explains ({}); {}",
-                   health.worst_e_H, to_scientific(energy_.t(), 4),
-                   to_scientific(S(walked_round_off<S>(steps_) * rounding / size), 1),
-                   exact ? "the method conserves it exactly: take more digits or a smaller step"
-                         : fmt::format("k = {} nodes do not conserve it: take more, or hbvm:auto,{}, or a smaller step",
-                                       method.k, method.s))});
+       fmt::format(
+           "H is off by {} of its greatest term at t = {}, more than rounding explains ({}); {}", health.worst_e_H,
+           to_scientific(energy_.t(), 4), to_scientific(S(walked_round_off<S>(steps_) * rounding / size), 1),
+           exact
+               ? "the method conserves it exactly: take more digits or a smaller step"
+               : fmt::format("k = {} nodes do not conserve it: take more, or hbvm:auto,{}, or a smaller step", k, s))});
 }
 
 template <Scalar S>
@@ -97,7 +101,7 @@ void HealthWatch<S>::report_hidden(Health& health) {
                      "take a smaller step",
                      name(worst.constraint), health.worst_hidden, to_scientific(worst.t, 4))});
   constexpr long least_steps = 16;
-  if (s_ % 2 != 0 || steps_ < least_steps) return;
+  if (s_ == 0 || s_ % 2 != 0 || steps_ < least_steps) return;
   const auto growth = hidden_.growth(walked_round_off<S>(steps_) * S(condition_));
   if (growth.factor >= 2)
     health.warnings.push_back(
@@ -120,7 +124,7 @@ void HealthWatch<S>::report_steps(Health& health) {
 }
 
 template <Scalar S>
-Health HealthWatch<S>::report(const MethodName& method) {
+Health HealthWatch<S>::report(const Method& method) {
   Health health;
   report_energy(health, method);
   report_constraints(health);

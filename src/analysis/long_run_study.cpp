@@ -69,8 +69,8 @@ Findings long_run_study(const Experiment& experiment, TomlTable& top) {
     reader.finish();
     const RunResult result = hbvm::run(request, {});
     const auto three = [](const std::string& text) { return to_three_digits(text); };
-    table.groups.back().rows.push_back({std::to_string(request.method.k), std::to_string(request.method.s),
-                                        request.until.text(), three(result.e_H), three(result.e_g), three(result.e_hid),
+    table.groups.back().rows.push_back({letter(request.method, "k"), letter(request.method, "s"), request.until.text(),
+                                        three(result.e_H), three(result.e_g), three(result.e_hid),
                                         three(result.output_delta_H), fmt::format("{:.1f}", result.iterations_per_step),
                                         fmt::format("{:.2f}", result.cpu_seconds)});
     results.push_back(result);

@@ -48,6 +48,7 @@ NodesReport report_nodes(const RunStepper<S>& stepper, const TimeGrid<S>& grid, 
                          const S& e_H) {
   const NodeLog& log = stepper.nodes();
   NodesReport report;
+  report.k = stepper.chosen()->k;
   report.because = stepper.chosen()->reason;
   for (const NodeLog::Raise& raise : log.raised) report.raised.push_back({to_text(grid.time(raise.step)), raise.k});
   const long substeps = stepper.halving() ? stepper.halving()->substeps : 0;
@@ -119,7 +120,7 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   }
   MomentumDrift<S> momenta(scene.problem, observed_momenta(request.scene, scene));
   if (!momenta.components().empty()) observers.push_back(&momenta);
-  HealthWatch<S> health(scene.problem, result.method.s, grid);
+  HealthWatch<S> health(scene.problem, *result.method, grid);
   observers.push_back(&health);
   std::optional<ShadowedRun<S>> shadowed;
   if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.m(), grid.steps()));
@@ -153,12 +154,12 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   result.e_hid = to_text(simulated.e_hid);
   result.iterations_per_step =
       static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
-  result.health = health.report(result.method);
+  result.health = health.report(*result.method);
   for (const Redundancy& redundancy : scene.redundant)
     result.health.warnings.push_back(
         {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +
                                       to_scientific(simulated.redundancy, 3) + " of their terms"});
-  if (shadowed) result.shadow = shadowed->compare(request, result.method, course.start);
+  if (shadowed) result.shadow = shadowed->compare(request, *result.method, course.start);
   result.cpu_seconds = simulated.integration.cpu_seconds;
   if (request.scene.observes("energy"))
     result.observables.push_back({"energy", to_text(simulated.H0), to_text(simulated.e_H)});

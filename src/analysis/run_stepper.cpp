@@ -1,6 +1,7 @@
 #include "hbvm/analysis/run_stepper.hpp"
 
 #include "hbvm/integrate/integrate.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 
 namespace hbvm {
 
@@ -29,23 +30,26 @@ ChosenK choose_k_of_halves(const Assembled<S>& scene, int s, S step, SolverKind 
 }  // namespace
 
 template <Scalar S>
-RunStepper<S>::RunStepper(const Assembled<S>& scene, MethodName name, const S& step, SolverKind solver,
+RunStepper<S>::RunStepper(const Assembled<S>& scene, MethodPtr method, const S& step, SolverKind solver,
                           OnFailure on_failure)
-    : name_(name) {
+    : method_(std::move(method)) {
   const bool halve = on_failure == OnFailure::halve;
-  if (name_.is_auto()) {
-    chosen_ = halve ? choose_k_of_halves(scene, name_.s, step, solver) : choose_k(scene, name_.s, step, solver);
-    name_.k = chosen_->k;
+  const HbvmMethod* const hbvm = as_hbvm(*method_);
+  const int s = hbvm ? hbvm->name().s : 0;
+  if (hbvm && hbvm->name().is_auto()) {
+    chosen_ = halve ? choose_k_of_halves(scene, s, step, solver) : choose_k(scene, s, step, solver);
+    method_ = hbvm_of({chosen_->k, s});
   }
   const bool raise = chosen_ && !chosen_->exact;
-  if (!raise) method_ = make_hbvm<S>(name_.k, name_.s);
+  StepperMaker<S> plain;
+  if (!raise) plain = method_->prepare(scene.problem, solver);
   const auto make = [=, this, &problem = scene.problem](int depth) -> std::unique_ptr<Stepper<S>> {
     // The smallest parts of a step are kept as they are.
     const bool divisible = halve && depth < HalvingStepper<S>::deepest;
     if (raise)
-      return std::make_unique<RaisingStepper<S>>(problem, name_.k, name_.s, solver, nodes_,
+      return std::make_unique<RaisingStepper<S>>(problem, chosen_->k, s, solver, nodes_,
                                                  divisible ? OnShortage::fail : OnShortage::keep);
-    return std::make_unique<HbvmStepper<S>>(problem, *method_, solver);
+    return plain();
   };
   if (halve) {
     auto halving = std::make_unique<HalvingStepper<S>>(make);

@@ -103,7 +103,7 @@ void ShadowedRun<S>::observe(const Snapshot<S>& snapshot) {
 }
 
 template <Scalar S>
-Shadow ShadowedRun<S>::compare(const RunRequest& request, const MethodName& method,
+Shadow ShadowedRun<S>::compare(const RunRequest& request, const Method& method,
                                const std::optional<State<S>>& start) const {
   using std::log10;
   const double all = significand_bits<S>() * log10(double{2});
@@ -116,11 +116,10 @@ Shadow ShadowedRun<S>::compare(const RunRequest& request, const MethodName& meth
     Comparison<S> comparison(states_, every_, steps_);
     const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
     const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
-    const Hbvm<Mpfr> hbvm = make_hbvm<Mpfr>(method.k, method.s);
-    HbvmStepper<Mpfr> stepper(scene.problem, hbvm, request.solver);
+    const std::unique_ptr<Stepper<Mpfr>> stepper = method.make_stepper(scene.problem, request.solver);
     Course<Mpfr> course;
     if (start) course.start = exact_state(*start);
-    simulate<Mpfr>(scene, stepper, grid, {&comparison}, nullptr, nullptr, course);
+    simulate<Mpfr>(scene, *stepper, grid, {&comparison}, nullptr, nullptr, course);
     comparison.report(shadow, all);
   } catch (const Error& error) {
     shadow.failure = error.what();

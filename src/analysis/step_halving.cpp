@@ -26,7 +26,7 @@ std::string rate(const S& above, const S& here, const S& size) {
 template <Scalar S>
 std::vector<HalvingRow> step_halving_in(const HalvingRequest& request, const std::function<void()>& after_each_run) {
   const Assembled<S> scene = assemble<S>(*request.scene);
-  const Hbvm<S> method = make_hbvm<S>(request.method.k, request.method.s);
+  const StepperMaker<S> make_stepper = request.method->prepare(scene.problem, request.solver);
   std::optional<Simulated<S>> coarse;
   std::optional<Errors<S>> above;
   std::vector<HalvingRow> rows;
@@ -34,7 +34,8 @@ std::vector<HalvingRow> step_halving_in(const HalvingRequest& request, const std
     Constants constants = request.scene->constants;
     constants.insert_or_assign("i", Expression::parse(std::to_string(i)));
     const TimeGrid<S> grid(request.step, request.until, constants);
-    Simulated<S> fine = simulate(scene, method, request.solver, grid);
+    const std::unique_ptr<Stepper<S>> stepper = make_stepper();
+    Simulated<S> fine = simulate<S>(scene, *stepper, grid);
     after_each_run();
     if (coarse) {
       const Snapshot<S>&a = coarse->integration.end, &b = fine.integration.end;

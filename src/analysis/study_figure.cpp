@@ -98,7 +98,7 @@ std::vector<std::string> study_figure(const Experiment& experiment, TomlTable re
     if (hooks.every < 1) run_reader.fail("'every' must be positive");
     run_reader.finish();
     hooks.provenance = provenance;
-    hooks.provenance.push_back("method " + request.method.text() + ", step " + request.step.text() + ", until " +
+    hooks.provenance.push_back("method " + request.method->text() + ", step " + request.step.text() + ", until " +
                                request.until.text());
     hooks.open_csv = [&] { return std::make_unique<CsvFile>(csvs.back(), CsvFile::Opening::anew); };
     hbvm::run(request, hooks);

@@ -13,8 +13,8 @@
 #include "hbvm/analysis/audit/audit.hpp"
 #include "hbvm/analysis/audit/claims.hpp"
 #include "hbvm/analysis/audit/report.hpp"
-#include "hbvm/analysis/read_tableau.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/method/read_tableau.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/version.hpp"
 #include "progress_bar.hpp"
@@ -62,7 +62,7 @@ std::vector<Claim> claims_of(const AuditArguments& o) {
   if (o.claims && (o.claims->ends_with(".toml") || o.claims->find('/') != std::string::npos))
     throw InputError("--claims: there is no file '" + *o.claims + "'");
   if (o.method)
-    claims = tableau_claims(std::make_shared<const Tableau>(read_tableau(*o.method)));
+    claims = tableau_claims(read_tableau(*o.method));
   else
     claims = paper_claims(o.full ? Extent::full : Extent::quick);
   return o.claims ? filtered(std::move(claims), *o.claims) : claims;

@@ -13,6 +13,7 @@
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"
+#include "hbvm/step/registry.hpp"
 #include "hbvm/version.hpp"
 #include "progress_bar.hpp"
 #include "resume.hpp"
@@ -61,7 +62,7 @@ nlohmann::ordered_json json_of(const Shadow& shadow) {
 std::string json_of(const RunRequest& request, const RunResult& result) {
   nlohmann::ordered_json j;
   j["scene"] = request.scene.name;
-  j["method"] = result.method.text();
+  j["method"] = result.method->text();
   j["solver"] = name_of(request.solver);
   j["precision"] = request.precision.name();
   j["step"] = result.step;
@@ -86,7 +87,7 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
   if (result.nodes) {
     nlohmann::ordered_json raised = nlohmann::ordered_json::array();
     for (const auto& raise : result.nodes->raised) raised.push_back({{"t", raise.t}, {"k", raise.k}});
-    j["chosen"] = {{"k", result.method.k},
+    j["chosen"] = {{"k", result.nodes->k},
                    {"because", result.nodes->because},
                    {"raised", raised},
                    {"verified", result.nodes->verified},
@@ -124,7 +125,7 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
 
 void print(const RunRequest& request, const RunResult& result) {
   if (result.nodes) {
-    fmt::print("k = {}: {}\n", result.method.k, result.nodes->because);
+    fmt::print("k = {}: {}\n", result.nodes->k, result.nodes->because);
     const auto& raised = result.nodes->raised;
     if (!raised.empty())
       fmt::print("raised to {}, {} times, first to {} in the step from t = {}\n", raised.back().k, raised.size(),
@@ -150,7 +151,7 @@ void print(const RunRequest& request, const RunResult& result) {
   };
   const Shadow shadow = result.shadow.value_or(Shadow{});
   fmt::print("{}: {}\n", request.scene.name, request.scene.title);
-  fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method.text(), request.precision.name(),
+  fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method->text(), request.precision.name(),
              name_of(request.solver), result.steps, result.step);
   fmt::print("state at t = {}\n", result.t);
   list("q", result.q, shadow.q);
@@ -218,7 +219,7 @@ RunIdentity identity_of(const RunArguments& o, const CLI::App& command) {
 
 RunRequest request_of(const RunArguments& o, const RunIdentity& identity) {
   RunRequest request{o.resumed ? read_scene(identity.scene, identity.scene_name) : load_scene(o.scene),
-                     MethodName::parse(o.method),
+                     parse_method(o.method),
                      parse_solver(o.solver),
                      expression("step", o.step),
                      expression("until", o.until),
@@ -258,7 +259,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.out) {
     hooks.open_csv = [&] { return open(*o.out, o); };
     hooks.provenance = {std::string("hbvm ") + version(), "scene " + request.scene.name + ": " + request.scene.title,
-                        "command hbvm run " + o.scene + " --method " + request.method.text() + " --step '" + o.step +
+                        "command hbvm run " + o.scene + " --method " + request.method->text() + " --step '" + o.step +
                             "' --until '" + o.until + "' --precision " + request.precision.name() + " --solver " +
                             std::string(name_of(request.solver)) + " --every " + std::to_string(o.every) +
                             (o.start ? " --start " + *o.start : "") + (o.reverse ? " --reverse" : "") +
@@ -286,7 +287,7 @@ void add_run_command(CLI::App& app) {
   auto o = std::make_shared<RunArguments>();
   CLI::App* const command = app.add_subcommand("run", "Integrate a scene and report the final state and its errors");
   command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
-  command->add_option("--method", o->method, "hbvm:K,S with K >= S >= 1 (K = S is Gauss), or hbvm:auto,S")->required();
+  command->add_option("--method", o->method, method_usage())->required();
   command->add_option("--step", o->step, "Step size: a number or an expression, as 2^(3/4)*pi/40")->required();
   command->add_option("--until", o->until, "Final time, a multiple of the step")->required();
   command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();

@@ -56,7 +56,7 @@ Hbvm<Mpfr> assemble(int k, int s) {
 
 template <Scalar S>
 Hbvm<S> make_hbvm(int k, int s) {
-  const MethodName name{k, s};
+  const HbvmName name{k, s};
   name.check();
   if (name.is_auto()) throw InputError("method " + name.text() + ": K is not chosen yet");
   Hbvm<S> r;

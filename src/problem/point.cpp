@@ -12,6 +12,7 @@ Point<S>::Point(const Problem<S>& problem)
       gradient_(problem, 1),
       U_(1),
       v_(problem.m()),
+      acceleration_(problem.m()),
       g_(problem.nu()),
       hidden_(problem.nu()),
       tangential_(problem.m()),
@@ -77,33 +78,40 @@ const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
 }
 
 template <Scalar S>
-const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
-  if (problem_.nu() == 0) return multiplier_;
+void Point<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force) {
   gradient_.update(lanes(q));
-  potential_.force(lanes(q), force_);
-  Vector<S> acceleration(problem_.m());
-  problem_.mass.velocity(lanes(force_), lanes(acceleration));
+  problem_.mass.velocity(lanes(force), lanes(acceleration_));
   problem_.mass.velocity(lanes(p), lanes(v_));
   for (Index a = 0; a < problem_.nu(); ++a) {
-    gradient_.transposed_times(a, lanes(std::as_const(acceleration)), &multiplier_[a]);
+    gradient_.transposed_times(a, lanes(std::as_const(acceleration_)), &multiplier_[a]);
     multiplier_[a] += curvature(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, v_);
   }
   solve_gram(multiplier_);
+}
+
+template <Scalar S>
+const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
+  if (problem_.nu() == 0) return multiplier_;
+  potential_.force(lanes(q), force_);
+  find_multiplier(q, p, force_);
   return multiplier_;
 }
 
 template <Scalar S>
-const typename Point<S>::Forces& Point<S>::forces(const Vector<S>& q, const Vector<S>& p) {
+const Vector<S>& Point<S>::constraint_force(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force) {
   forces_.constraint = Vector<S>::Zero(problem_.m());
-  if (problem_.nu() == 0) {
-    potential_.force(lanes(q), force_);
-    forces_.applied = force_.transpose();
-    return forces_;
-  }
-  multiplier(q, p);  // evaluates the force, too
-  forces_.applied = force_.transpose();
+  if (problem_.nu() == 0) return forces_.constraint;
+  find_multiplier(q, p, force);
   for (Index a = 0; a < problem_.nu(); ++a) row_(0, a) = -multiplier_[a];
   gradient_.add_times(row_, lanes(forces_.constraint));
+  return forces_.constraint;
+}
+
+template <Scalar S>
+const typename Point<S>::Forces& Point<S>::forces(const Vector<S>& q, const Vector<S>& p) {
+  potential_.force(lanes(q), force_);
+  forces_.applied = force_.transpose();
+  constraint_force(q, p, force_);
   return forces_;
 }
 

@@ -6,7 +6,7 @@
 
 #include "hbvm/problem/effect/registry.hpp"
 #include "hbvm/scene/scene.hpp"
-#include "toml_table.hpp"
+#include "toml/toml_table.hpp"
 
 namespace hbvm {
 namespace {

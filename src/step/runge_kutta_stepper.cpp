@@ -1,6 +1,7 @@
 #include "hbvm/step/runge_kutta_stepper.hpp"
 
 #include "add_compensated.hpp"
+#include "copy_state.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -30,7 +31,8 @@ void scale_and_shift(Matrix<S>& x, const S& h, const Vector<S>& base) {
 }  // namespace
 
 template <Scalar S>
-RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKutta<S>& method)
+RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKutta<S>& method,
+                                        OnConstraints on_constraints)
     : problem_(problem),
       A_(method.A),
       b_(method.b.transpose()),
@@ -51,10 +53,17 @@ RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKu
       position_scale_(problem),
       positions_(problem.m()),
       // The lengths of the sums of one sweep, and 4 for what they are passed through, as roundings_of_a_sweep has it.
-      rule_(problem.m(), static_cast<long>(4 * (3 * method.b.size() + problem.m()))) {
-  if (problem.nu() > 0) throw InputError("a Runge-Kutta method takes no constraints, and the problem has some");
+      rule_(problem.m(), static_cast<long>(4 * (3 * method.b.size() + problem.m()))),
+      multiplier_(Vector<S>::Zero(problem.nu())),
+      pull_(Matrix<S>::Zero(1, problem.nu())),
+      lane_(force_),
+      before_(Vector<S>::Zero(problem.m()), Vector<S>::Zero(problem.m())) {
   const Index s = method.b.size();
   if (s < 1 || A_.rows() != s || A_.cols() != s) throw InputError("A must have as many rows and columns as b entries");
+  if (problem.nu() > 0) {
+    point_.emplace(problem);
+    if (on_constraints == OnConstraints::project) projection_.emplace(problem);
+  }
   describe_parts();
 }
 
@@ -73,17 +82,22 @@ void RungeKuttaStepper<S>::describe_parts() {
   parts_[sums].per_call.add_dots(2 * m, s);
   parts_[sums].per_call.add(Op::multiply, 2 * m);
   parts_[sums].per_call.add(Op::add, 2 * m);
+  if (point_) parts_.push_back({"constraint forces"});
 }
 
 template <Scalar S>
 SolverCounts RungeKuttaStepper<S>::counts() const {
-  return sum_of(earlier_, {potential_.counts(), parts_}, problem_);
+  SolverCounts now{potential_.counts(), parts_};
+  if (projection_)
+    now.parts.insert(now.parts.end(), projection_->part_counts().begin(), projection_->part_counts().end());
+  return sum_of(earlier_, now, problem_);
 }
 
 template <Scalar S>
 void RungeKuttaStepper<S>::measure_time() {
   timed_ = true;
   potential_.measure_time();
+  if (projection_) projection_->measure_time();
 }
 
 template <Scalar S>
@@ -110,6 +124,7 @@ void RungeKuttaStepper<S>::stages_in_turn(const State<S>& state) {
     stage(i, state.p, F_, p_);
     problem_.mass.velocity(lanes(std::as_const(p_)), lanes(v_));
     potential_.force(lanes(std::as_const(q_)), force_);
+    if (point_) add_constraint_force(q_, p_, force_, 0);
     for (Index j = 0; j < m; ++j) {
       set(V_(i, j), v_[j]);
       set(F_(i, j), force_(0, j));
@@ -147,6 +162,13 @@ void RungeKuttaStepper<S>::sweep(const State<S>& state) {
   product(Q_, A_, V_);
   scale_and_shift(Q_, h_, state.q);
   potential_.force(lanes(std::as_const(Q_)), F_);
+  for (Index i = 0; i < F_.rows() && point_; ++i) {
+    for (Index j = 0; j < F_.cols(); ++j) {
+      set(q_[j], Q_(i, j));
+      set(p_[j], P_(i, j));
+    }
+    add_constraint_force(q_, p_, F_, i);
+  }
   P_.swap(P_before_);
   product(P_, A_, F_);
   scale_and_shift(P_, h_, state.p);
@@ -171,6 +193,35 @@ long RungeKuttaStepper<S>::iterate(const State<S>& state) {
                        : rule_.grows()                ? "the increments grow"
                                                       : "the increments stagnate",
                        to_scientific(rule_.relative_change(), 3), rule_.sweeps());
+  }
+}
+
+template <Scalar S>
+void RungeKuttaStepper<S>::add_constraint_force(const Vector<S>& Q, const Vector<S>& P, Matrix<S>& force, Index row) {
+  const PartCall counted = call(pulls);
+  for (Index j = 0; j < force.cols(); ++j) set(lane_(0, j), force(row, j));
+  try {
+    const Vector<S>& pull = point_->constraint_force(Q, P, lane_);
+    for (Index j = 0; j < force.cols(); ++j) set_sum(force(row, j), force(row, j), pull[j]);
+  } catch (const IntegrationError& error) {
+    throw StageFailure(FailureCause::near_singular_constraints, error.what(), "0", rule_.sweeps());
+  }
+}
+
+template <Scalar S>
+void RungeKuttaStepper<S>::settle(State<S>& state) {
+  if (!point_) return;
+  if (projection_) {
+    projection_->set_directions(state.q);
+    set_zero(pull_);
+    set(q_, state.q);
+    projection_->find_position(q_, S(-1), pull_, state.q);
+    projection_->make_tangential(state.p);
+  }
+  try {
+    set(multiplier_, point_->multiplier(state.q, state.p));
+  } catch (const IntegrationError& error) {
+    throw StageFailure(FailureCause::near_singular_constraints, error.what(), "0", 0);
   }
 }
 
@@ -203,7 +254,14 @@ long RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
     stages_in_turn(state);
   else
     sweeps = solve(state);
-  update(state, sweeps);
+  if (point_) copy_state(before_, state);
+  try {
+    update(state, sweeps);
+    settle(state);
+  } catch (const StageFailure&) {
+    if (point_) copy_state(state, before_);
+    throw;
+  }
   return sweeps;
 }
 

@@ -3,6 +3,7 @@
 #include "hbvm/analysis/run.hpp"
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/step/registry.hpp"
 #include "printing.hpp"
 #include "scene/scene_text.hpp"
 
@@ -154,11 +155,11 @@ TYPED_TEST(ChooseK, OtherwiseConservesEnergyToRoundOff) {
 TEST(ChosenK, ServesTheWholeRunAndNotItsFirstStepAlone) {
   const Scene scene = read_scene(with({central_attraction}, "[0, \"sqrt(3/5)\"]"), "ellipse");  // excentricity 2/5
   for (const char* precision : {"double", "quad"}) {
-    const RunResult result = run({scene, MethodName::parse("hbvm:auto,1"), SolverKind::fixed_point,
-                                  Expression::parse("1/8"), Expression::parse("2"), Precision::parse(precision), false},
+    const RunResult result = run({scene, parse_method("hbvm:auto,1"), SolverKind::fixed_point, Expression::parse("1/8"),
+                                  Expression::parse("2"), Precision::parse(precision), false},
                                  {});
     EXPECT_LE(std::stod(result.e_H), 1'000 * (std::string(precision) == "double" ? 2.2e-16 : 1.9e-34))
-        << precision << ", k = " << result.method.k;
+        << precision << ", k = " << result.method->text();
   }
 }
 

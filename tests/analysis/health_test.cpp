@@ -5,13 +5,14 @@
 #include <set>
 
 #include "hbvm/analysis/run.hpp"
+#include "hbvm/step/registry.hpp"
 
 namespace hbvm {
 namespace {
 
 RunResult result_of(const Scene& scene, const char* method, const char* step, const char* until,
                     const char* precision = "double", SolverKind solver = SolverKind::automatic) {
-  return run({scene, MethodName::parse(method), solver, Expression::parse(step), Expression::parse(until),
+  return run({scene, parse_method(method), solver, Expression::parse(step), Expression::parse(until),
               Precision::parse(precision)},
              {});
 }

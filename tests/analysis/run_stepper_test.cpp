@@ -2,6 +2,8 @@
 
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/integrate/energy_scale.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/registry.hpp"
 #include "printing.hpp"
 #include "scene/scene_text.hpp"
 
@@ -45,10 +47,10 @@ TYPED_TEST(RunSteps, AreDividedWhereTheyFailAndConserve) {
   const Assembled<S> scene = assemble<S>(read_scene(fast_pendulum(), "test"));
   const TimeGrid<S> grid(Expression::parse("1"), Expression::parse("12"));
   for (const SolverKind kind : {SolverKind::paper, SolverKind::fixed_point}) {
-    RunStepper<S> stops(scene, {2, 2}, grid.step(), kind, OnFailure::stop);
+    RunStepper<S> stops(scene, hbvm_of({2, 2}), grid.step(), kind, OnFailure::stop);
     EXPECT_EQ(stops.halving(), nullptr);
     EXPECT_THROW(simulate<S>(scene, stops, grid), StepError);
-    RunStepper<S> halves(scene, {2, 2}, grid.step(), kind, OnFailure::halve);
+    RunStepper<S> halves(scene, hbvm_of({2, 2}), grid.step(), kind, OnFailure::halve);
     EnergyScale<S> scale(scene.problem);
     const Simulated<S> run = simulate<S>(scene, halves, grid, {&scale});
     EXPECT_EQ(run.integration.steps, 12);
@@ -66,8 +68,7 @@ TYPED_TEST(RunSteps, MayBeDividedAndHaveTheirNodesChosen) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(read_scene(charged_pendulum("\"3/2\""), "test"));
   const TimeGrid<S> grid(Expression::parse("1"), Expression::parse("8"));
-  RunStepper<S> stepper(scene, MethodName::parse("hbvm:auto,2"), grid.step(), SolverKind::fixed_point,
-                        OnFailure::halve);
+  RunStepper<S> stepper(scene, parse_method("hbvm:auto,2"), grid.step(), SolverKind::fixed_point, OnFailure::halve);
   EnergyScale<S> scale(scene.problem);
   const Simulated<S> run = simulate<S>(scene, stepper, grid, {&scale});
   EXPECT_GT(stepper.halving()->steps, 0);
@@ -77,8 +78,8 @@ TYPED_TEST(RunSteps, MayBeDividedAndHaveTheirNodesChosen) {
 
 TEST(RunStepsOfAPolynomial, HaveTheExactNodesAndNoneIsRaised) {
   const Assembled<double> scene = assemble<double>(load_scene("quartic_oscillator"));
-  RunStepper<double> stepper(scene, MethodName::parse("hbvm:auto,2"), 1.0 / 16, SolverKind::automatic, OnFailure::stop);
-  EXPECT_EQ(stepper.method().k, 4);
+  RunStepper<double> stepper(scene, parse_method("hbvm:auto,2"), 1.0 / 16, SolverKind::automatic, OnFailure::stop);
+  EXPECT_EQ(as_hbvm(*stepper.method())->name().k, 4);
   EXPECT_TRUE(stepper.chosen()->exact);
 }
 
@@ -90,7 +91,7 @@ TEST(RunStepsThatCannotBeMade, AtAnySizeFailWithTheirCause) {
                                   "effect = [{ kind = \"central_gravity\", center = \"O\", strength = \"2^100\" }]\n",
                                   "test"));
   const TimeGrid<double> grid(Expression::parse("1"), Expression::parse("2"));
-  RunStepper<double> stepper(scene, {4, 2}, grid.step(), SolverKind::fixed_point, OnFailure::halve);
+  RunStepper<double> stepper(scene, hbvm_of({4, 2}), grid.step(), SolverKind::fixed_point, OnFailure::halve);
   try {
     simulate<double>(scene, stepper, grid);
     ADD_FAILURE() << "it was made";

@@ -1,6 +1,7 @@
 #include "hbvm/analysis/run.hpp"
 
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/registry.hpp"
 #include "printing.hpp"
 #include "verification/models.hpp"
 
@@ -19,7 +20,7 @@ class RunTest : public ::testing::Test {
   const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
 
   static RunResult result(const DenseModel& model, const char* method, SolverKind solver) {
-    return run({read_scene(model.scene, "model"), MethodName::parse(method), solver, Expression::parse("1/10"),
+    return run({read_scene(model.scene, "model"), parse_method(method), solver, Expression::parse("1/10"),
                 Expression::parse("1/2"), Precision::parse("mpfr:50"), false},
                {});
   }

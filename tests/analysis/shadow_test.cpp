@@ -8,6 +8,7 @@
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
+#include "hbvm/step/registry.hpp"
 #include "integrate/runs.hpp"
 
 namespace hbvm {
@@ -16,7 +17,7 @@ namespace {
 RunResult shadowed_result_of(const Scene& scene, const char* method, const char* step, const char* until,
                              const char* precision) {
   RunRequest request{scene,
-                     MethodName::parse(method),
+                     parse_method(method),
                      SolverKind::automatic,
                      Expression::parse(step),
                      Expression::parse(until),
@@ -118,10 +119,10 @@ TEST(ShadowedRun, OfManyStepsIsComparedAtSome) {
       q[1] = double(n) / 1000;
       run.observe({n, 0, q, start.p0, {}});
     }
-    const MethodName method = MethodName::parse("hbvm:1,1");
+    const MethodPtr method = parse_method("hbvm:1,1");
     return run.compare({scene, method, SolverKind::fixed_point, Expression::parse("1/1000"),
                         Expression::parse(std::to_string(steps) + "/1000"), Precision::parse("double")},
-                       method, {});
+                       *method, {});
   };
   for (const auto& [numbers, every] :
        {std::pair(ShadowedRun<double>::most_numbers, 1L), {400L, 11L}, {40L, 101L}, {1L, 1001L}}) {

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "hbvm/error.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 
 namespace hbvm {
 namespace {
@@ -66,7 +67,7 @@ TEST(StepHalving, MeasuresInUnitsOfTheSizes) {
       "constraint = [{ kind = \"rod\", between = [\"O\", \"a\"], length = 8 }]\n",
       "circle");
   const HalvingRequest request{
-      &scene, {1, 1}, SolverKind::fixed_point, Expression::parse("2^(-i)"), Expression::parse("4"), 1, 3};
+      &scene, hbvm_of({1, 1}), SolverKind::fixed_point, Expression::parse("2^(-i)"), Expression::parse("4"), 1, 3};
   const std::vector<HalvingRow> rows = step_halving(request, Precision::parse("double"), [] {});
   ASSERT_EQ(rows.size(), 3u);
   for (const HalvingRow& r : rows) {
@@ -86,7 +87,7 @@ TEST(StepHalving, MeasuresInUnitsOfTheSizes) {
 TEST(StepHalving, StarsARateWhereTheErrorIsAFewUnits) {
   const Scene scene = load_scene("modified_pendulum");
   const HalvingRequest request{
-      &scene, {3, 1}, SolverKind::fixed_point, Expression::parse("2^(-i)"), Expression::parse("5"), 2, 6};
+      &scene, hbvm_of({3, 1}), SolverKind::fixed_point, Expression::parse("2^(-i)"), Expression::parse("5"), 2, 6};
   int shown = 0, starred = 0;
   for (const HalvingRow& r : step_halving(request, Precision::parse("double"), [] {})) {
     if (!r.rate_H) continue;

@@ -163,10 +163,36 @@ TEST(AuditCommand, RefusesBadInput) {
   expect_refused({"audit", "--until", "soon"}, {"--until", "soon"});
   expect_refused({"audit", "--quick", "--full"}, {"--full"});
   expect_refused({"audit", "--out", "/proc/nowhere"}, {"/proc/nowhere"});
-  const std::string constrained =
-      "[[claim]]\nquantity = \"q\"\nproblem = \"double_pendulum\"\nmethod = \"gauss.toml\"\nrate = 4\n";
+  const std::string polynomials =
+      "[[claim]]\nquantity = \"u and v\"\nproblem = \"double_pendulum\"\nmethod = \"rattle\"\nover = \"step\"\nrate = "
+      "2\n";
+  expect_refused({"audit", "--json", "--claims", folder.write("claims.toml", polynomials)}, {"rattle", "polynomials"});
+}
+
+TEST(AuditCommand, DecidesClaimsAboutEveryMethod) {
+  const Folder folder;
   folder.write("gauss.toml", gauss_tableau);
-  expect_refused({"audit", "--json", "--claims", folder.write("claims.toml", constrained)}, {"constraint"});
+  const auto audited = [&](const std::vector<std::string>& all, int code, const std::string& verdict) {
+    std::string claims;
+    for (const std::string& claim : all) claims += "[[claim]]\nproblem = \"double_pendulum\"\n" + claim;
+    const Json json = json_of({"--claims", folder.write("claims.toml", claims)}, code);
+    for (const Json& claim : json.at("claims")) EXPECT_EQ(claim.at("verdict"), verdict) << claim.dump();
+  };
+  const auto of = [](const char* method, const char* quantity, const char* rate) {
+    return std::string("method = \"") + method + "\"\nquantity = \"" + quantity + "\"\nrate = " + rate + "\n";
+  };
+  const char* const round_off = "\"round-off\"";
+  // The hidden constraints are quadratic invariants of the index-reduced equations, which Gauss methods keep.
+  audited(
+      {of("rattle", "q", "2"), of("rattle", "tangential p", "2"), of("rattle", "g", round_off),
+       of("rattle", "hidden", round_off), of("rattle", "reversal", round_off), of("compose:rattle,4", "q", "4"),
+       of("compose:rattle,4", "hidden", round_off), of("compose:rattle,6", "tangential p", "6"),
+       of("gauss.toml", "q", "4"), of("gauss.toml", "hidden", round_off), of("tableau:gauss.toml+project", "q", "4"),
+       of("tableau:gauss.toml+project", "g", round_off), of("tableau:gauss.toml+project", "hidden", round_off)},
+      0, "holds");
+  audited({of("rattle", "q", "3"), of("rattle", "H", round_off), of("compose:rattle,4", "q", "5"),
+           of("gauss.toml", "g", round_off), of("tableau:gauss.toml+project", "H", round_off)},
+          1, "fails");
 }
 
 }  // namespace

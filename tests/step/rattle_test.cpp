@@ -192,5 +192,20 @@ TEST(Rattle, SaysSoWhereItFindsNoPositions) {
   EXPECT_EQ(state.q, scene.q0);
 }
 
+/// Two bodies that fly side by side do not pull on their rod: the multiplier is round-off itself.
+TYPED_TEST(RattleTest, FindsPositionsWhereNothingPulls) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(
+      read_scene("dimension = 2\n"
+                 "body = [{ name = \"a\", mass = \"1/3\", position = [\"1/7\", 0], velocity = [\"1/10\", \"3/7\"] },\n"
+                 "        { name = \"b\", mass = 3, position = [\"8/7\", 0], velocity = [\"1/10\", \"3/7\"] }]\n"
+                 "constraint = [{ kind = \"rod\", between = [\"a\", \"b\"], length = 1 }]\n",
+                 "side by side"));
+  const State<S> end = this->after(scene, S(S(1) / 10), 100);
+  Point<S> point(scene.problem);
+  EXPECT_LE(max_norm(point.constraints(end.q)), 1'000 * epsilon<S>());
+  EXPECT_LE(magnitude(S(end.q[0] - S(8) / 7)), 1'000 * epsilon<S>());
+}
+
 }  // namespace
 }  // namespace hbvm

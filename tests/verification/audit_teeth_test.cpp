@@ -5,18 +5,19 @@
 #include "analysis/audit/cell.hpp"
 #include "hbvm/analysis/audit/audit.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 
 namespace hbvm {
 namespace {
 
-Claim claim(Quantity quantity, const std::string& problem, MethodName method, Span span, Form form, double predicted) {
+Claim claim(Quantity quantity, const std::string& problem, HbvmName method, Span span, Form form, double predicted) {
   Claim c = make_claim("test", quantity, problem, span, form, predicted);
-  c.method = method;
+  c.method = hbvm_of(method);
   return c;
 }
 
 /// What the errors of one step must show.
-std::vector<Claim> order_claims(const std::string& problem, MethodName method) {
+std::vector<Claim> order_claims(const std::string& problem, HbvmName method) {
   const int k = method.k, s = method.s;
   std::vector<Claim> claims;
   for (const auto& [quantity, rate] : {std::pair(Quantity::q, 2 * s + 1),
@@ -32,7 +33,7 @@ std::vector<Claim> order_claims(const std::string& problem, MethodName method) {
   return claims;
 }
 
-std::vector<Claim> coefficient_claims(MethodName method) {
+std::vector<Claim> coefficient_claims(HbvmName method) {
   std::vector<Claim> claims;
   for (const Quantity quantity : {Quantity::B, Quantity::C, Quantity::D, Quantity::X, Quantity::symmetry, Quantity::W})
     claims.push_back(claim(quantity, "tableau", method, Span::interval, Form::round_off, 0));
@@ -52,7 +53,7 @@ AuditOptions one_start() {
 
 /// How many no longer hold. (With some signs flipped steps cannot be made, or rates do not settle.)
 int failures(std::vector<Claim> claims, const Perturbation& perturbation) {
-  for (Claim& c : claims) c.perturbation = perturbation;
+  for (Claim& c : claims) c.method = hbvm_of(as_hbvm(*c.method)->name(), perturbation);
   AuditOptions options = one_start();
   options.coefficient_digits = 0;
   return static_cast<int>(claims.size()) - count(audit(claims, options), Verdict::holds);
@@ -60,7 +61,7 @@ int failures(std::vector<Claim> claims, const Perturbation& perturbation) {
 
 /// One number of the method wrong by a relative 1e-11, 1e-16 or 1e-25, or with its sign flipped, is caught by the
 /// errors of one step, with the coefficients never looked at; and by the coefficients' conditions, too.
-class Teeth : public ::testing::TestWithParam<std::tuple<MethodName, const char*>> {
+class Teeth : public ::testing::TestWithParam<std::tuple<HbvmName, const char*>> {
  protected:
   void expect_caught(Perturbation::Part part, bool hat, int i, int j) {
     const auto& [method, relative] = GetParam();
@@ -70,8 +71,8 @@ class Teeth : public ::testing::TestWithParam<std::tuple<MethodName, const char*
     EXPECT_GE(failures(order_claims("modified_pendulum", method), perturbation), 1);
     EXPECT_GE(failures(coefficient_claims(method), perturbation), 1);
   }
-  int s() const { return std::get<MethodName>(GetParam()).s; }
-  int k() const { return std::get<MethodName>(GetParam()).k; }
+  int s() const { return std::get<HbvmName>(GetParam()).s; }
+  int k() const { return std::get<HbvmName>(GetParam()).k; }
 };
 
 using Part = Perturbation::Part;
@@ -97,10 +98,10 @@ TEST_P(Teeth, CatchAWrongLegendreCoefficient) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Audit, Teeth,
-                         ::testing::Combine(::testing::Values(MethodName{1, 1}, MethodName{3, 2}, MethodName{4, 4}),
+                         ::testing::Combine(::testing::Values(HbvmName{1, 1}, HbvmName{3, 2}, HbvmName{4, 4}),
                                             ::testing::Values("1e-11", "1e-16", "1e-25", "-2")),
                          [](const auto& parameter) {
-                           const MethodName method = std::get<MethodName>(parameter.param);
+                           const HbvmName method = std::get<HbvmName>(parameter.param);
                            const std::string relative = std::get<const char*>(parameter.param);
                            return "k" + std::to_string(method.k) + "s" + std::to_string(method.s) +
                                   (relative == "-2" ? "sign" : "e" + relative.substr(3));
@@ -152,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Audit, NoFalseAlarm, ::testing::Range(0, 5));
 TEST(Audit, RefusesFalseClaims) {
   std::vector<Claim> claims;
   for (const int s : {1, 2, 3}) {
-    const MethodName method{s, s};
+    const HbvmName method{s, s};
     if (s > 1) claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::interval, Form::at_least, 2 * s));
     if (s % 2 == 1)  // (ord2s) for one step
       claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::step, Form::at_least, s + 2));
@@ -162,7 +163,7 @@ TEST(Audit, RefusesFalseClaims) {
     claims.push_back(claim(Quantity::hidden, "double_pendulum", method, Span::interval, Form::round_off, 0));
     claims.back().quantity = Quantity::angular_momentum;
     claims.back().problem = "tethered_satellites";
-    claims.back().method.k = s + 2;
+    claims.back().method = hbvm_of({s + 2, s});
   }
   // (dlamj) with one order more, and an order claimed "exactly" that is exceeded.
   claims.push_back(claim(Quantity::delta_lambda, "modified_pendulum", {2, 2}, Span::step, Form::at_least, 3));
@@ -176,7 +177,7 @@ TEST(Audit, RefusesFalseClaims) {
 TEST(Audit, HoldsAnIntervalAgainstItsSteps) {
   Claim c = claim(Quantity::q, "modified_pendulum", {2, 2}, Span::interval, Form::at_least, 4);
   EXPECT_EQ(audit({c}, one_start()).front().verdict, Verdict::holds);
-  c.perturbation = Perturbation{Part::node, false, 0, 0, Expression::parse("1e-25")};
+  c.method = hbvm_of({2, 2}, Perturbation{Part::node, false, 0, 0, Expression::parse("1e-25")});
   AuditOptions options = one_start();
   options.coefficient_digits = 0;
   EXPECT_EQ(audit({c}, options).front().verdict, Verdict::fails);

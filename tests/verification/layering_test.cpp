@@ -18,7 +18,8 @@ std::map<std::string, Folders> allowed() {
   Folders both_chains{""};
   result[""] = {""};
   for (const std::vector<std::string>& chain :
-       {std::vector<std::string>{"scalar", "linear", "basis", "method"}, {"scalar", "linear", "problem", "scene"}}) {
+       {std::vector<std::string>{"scalar", "linear", "basis", "toml", "method"},
+        {"scalar", "linear", "problem", "toml", "scene"}}) {
     Folders left{""};
     for (const std::string& folder : chain) {
       left.insert(folder);

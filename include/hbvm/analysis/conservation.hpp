@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hbvm/analysis/round_off.hpp"
-#include "hbvm/method/method_name.hpp"
+#include "hbvm/method/hbvm_name.hpp"
 #include "hbvm/scalar/precision.hpp"
 #include "hbvm/scene/scene.hpp"
 
@@ -20,7 +20,7 @@ struct ConservedQuantity {
 };
 
 struct Conservation {
-  MethodName method;
+  HbvmName method;
   long steps = 0;
   std::vector<ConservedQuantity> quantities;  ///< energy, constraints if any, then each momentum
 

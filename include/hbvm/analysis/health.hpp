@@ -7,6 +7,7 @@
 #include "hbvm/integrate/constraint_angles.hpp"
 #include "hbvm/integrate/energy_balance.hpp"
 #include "hbvm/integrate/hidden_cosines.hpp"
+#include "hbvm/step/method.hpp"
 
 namespace hbvm {
 
@@ -44,7 +45,7 @@ template <Scalar S>
 class HealthWatch final : public Observer<S> {
  public:
   /// The problem must outlive it; N is that of the grid.
-  HealthWatch(const Problem<S>& problem, int s, const TimeGrid<S>& grid);
+  HealthWatch(const Problem<S>& problem, const Method& method, const TimeGrid<S>& grid);
 
   void observe(const Snapshot<S>& snapshot) override;
   /// What decay() has seen is the stepper's to remember, which shows it.
@@ -52,10 +53,10 @@ class HealthWatch final : public Observer<S> {
   CoefficientDecay<S>& decay() { return decay_; }
 
   /// With the method of the run in the end: its k decides what is said of a lost energy.
-  Health report(const MethodName& method);
+  Health report(const Method& method);
 
  private:
-  void report_energy(Health& health, const MethodName& method);
+  void report_energy(Health& health, const Method& method);
   void report_constraints(Health& health);
   void report_hidden(Health& health);
   void report_steps(Health& health);
@@ -64,7 +65,7 @@ class HealthWatch final : public Observer<S> {
   }
 
   const Problem<S>& problem_;
-  int s_;
+  int s_;  ///< of HBVM, 0 of other methods
   S h_;
   long steps_;
   ConstraintGradient<S> gradient_;

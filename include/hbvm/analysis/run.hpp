@@ -26,7 +26,8 @@ struct NodesReport {
     std::string t;
     int k;
   };
-  std::string because;        ///< why k was chosen
+  int k = 0;                  ///< that was chosen
+  std::string because;        ///< why
   std::vector<Raise> raised;  ///< where it had to be raised
   bool verified = false;      ///< the energy is conserved to round-off over the run, and k was enough in all of it
   std::string verdict;        ///< the same for people, with what to do
@@ -42,7 +43,7 @@ struct HalvingReport {
 
 /// What came out, every number of the working precision as decimal text that reads back exactly.
 struct RunResult {
-  MethodName method;                     ///< with k as chosen
+  MethodPtr method;                      ///< with k as chosen
   std::optional<NodesReport> nodes;      ///< if k was chosen
   std::optional<HalvingReport> halving;  ///< if steps might be divided
   std::string step, until, t;

@@ -5,7 +5,6 @@
 #include "hbvm/analysis/run_stepper.hpp"
 #include "hbvm/analysis/start_state.hpp"
 #include "hbvm/integrate/time_grid.hpp"
-#include "hbvm/method/method_name.hpp"
 #include "hbvm/scalar/precision.hpp"
 #include "hbvm/scene/scene.hpp"
 #include "hbvm/solver/stage_solver.hpp"
@@ -15,7 +14,7 @@ namespace hbvm {
 /// One run as a user asks for it.
 struct RunRequest {
   Scene scene;
-  MethodName method;
+  MethodPtr method;
   SolverKind solver = SolverKind::automatic;
   Expression step, until;
   Precision precision;

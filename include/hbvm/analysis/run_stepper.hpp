@@ -4,6 +4,7 @@
 
 #include "hbvm/analysis/choose_k.hpp"
 #include "hbvm/step/halving_stepper.hpp"
+#include "hbvm/step/method.hpp"
 #include "hbvm/step/raising_stepper.hpp"
 
 namespace hbvm {
@@ -25,7 +26,7 @@ class RunStepper final : public Stepper<S> {
   /// The scene must outlive it.
   /// \throws InputError, StepError as choose_k does; if steps may be divided, k is chosen for the first that can be
   /// made
-  RunStepper(const Assembled<S>& scene, MethodName name, const S& step, SolverKind solver, OnFailure on_failure);
+  RunStepper(const Assembled<S>& scene, MethodPtr method, const S& step, SolverKind solver, OnFailure on_failure);
 
   RunStepper(const RunStepper&) = delete;
 
@@ -38,17 +39,16 @@ class RunStepper final : public Stepper<S> {
   void remember(Archive& archive) override { archive(*outer_, nodes_); }
 
   /// With k as chosen.
-  const MethodName& method() const { return name_; }
+  const MethodPtr& method() const { return method_; }
   const std::optional<ChosenK>& chosen() const { return chosen_; }
   const NodeLog& nodes() const { return nodes_; }
   /// Null unless steps may be divided.
   const HalvingLog* halving() const { return halving_ ? &halving_->log() : nullptr; }
 
  private:
-  MethodName name_;
+  MethodPtr method_;
   std::optional<ChosenK> chosen_;
   NodeLog nodes_;
-  std::optional<Hbvm<S>> method_;
   std::unique_ptr<Stepper<S>> outer_;
   HalvingStepper<S>* halving_ = nullptr;
 };

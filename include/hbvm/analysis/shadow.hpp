@@ -37,7 +37,7 @@ class ShadowedRun final : public Observer<S> {
 
   /// The same run in more digits. `method` has the k that was chosen; `start` is where it began, if not at the start of
   /// its scene.
-  Shadow compare(const RunRequest& request, const MethodName& method, const std::optional<State<S>>& start) const;
+  Shadow compare(const RunRequest& request, const Method& method, const std::optional<State<S>>& start) const;
 
  private:
   long steps_, every_;

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/method/method_name.hpp"
 #include "hbvm/scalar/precision.hpp"
 #include "hbvm/scene/scene.hpp"
-#include "hbvm/solver/stage_solver.hpp"
+#include "hbvm/step/method.hpp"
 
 namespace hbvm {
 
@@ -36,7 +35,7 @@ struct HalvingRow {
 /// A ladder of steps h_i, i = first .. last + 1, on one interval.
 struct HalvingRequest {
   const Scene* scene = nullptr;
-  MethodName method;
+  MethodPtr method;
   SolverKind solver = SolverKind::fixed_point;
   Expression step;  ///< in terms of i and the scene's constants
   Expression until;

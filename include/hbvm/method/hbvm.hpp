@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hbvm/linear/matrix.hpp"
-#include "hbvm/method/method_name.hpp"
+#include "hbvm/method/hbvm_name.hpp"
 
 namespace hbvm {
 

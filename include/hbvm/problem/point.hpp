@@ -31,6 +31,8 @@ class Point {
   /// (grad g^T M^-1 grad g)^-1 (nabla^2 g (M^-1 p, M^-1 p) + grad g^T M^-1 grad U).
   /// \throws IntegrationError as tangential does
   const Vector<S>& multiplier(const Vector<S>& q, const Vector<S>& p);
+  /// -grad g(q) lambda with that multiplier, where `force` is grad U(q), 1 x m.
+  const Vector<S>& constraint_force(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force);
 
   /// The two parts of p' = grad U(q) - grad g(q) lambda with that multiplier.
   struct Forces {
@@ -41,7 +43,8 @@ class Point {
   const Forces& forces(const Vector<S>& q, const Vector<S>& p);
 
  private:
-  /// force_ = grad U(q).
+  /// multiplier_, where `force` is grad U(q).
+  void find_multiplier(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force);
   /// x = (grad g^T M^-1 grad g)^-1 x at the q of the last gradient.
   void solve_gram(Vector<S>& x);
 
@@ -49,7 +52,7 @@ class Point {
   PotentialEvaluator<S> potential_;
   ConstraintGradient<S> gradient_;
   Lu<S> gram_;
-  Vector<S> U_, v_, g_, hidden_, tangential_, multiplier_;
+  Vector<S> U_, v_, acceleration_, g_, hidden_, tangential_, multiplier_;
   Matrix<S> force_, row_, gram_matrix_;
   Forces forces_;
 };

@@ -11,6 +11,11 @@ template <Scalar S>
 class HbvmStepper final : public Stepper<S> {
  public:
   HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, SolverKind solver);
+  /// The same, and keeps the method.
+  HbvmStepper(const Problem<S>& problem, std::shared_ptr<const Hbvm<S>> method, SolverKind solver)
+      : HbvmStepper(problem, *method, solver) {
+    kept_method_ = std::move(method);
+  }
 
   const Problem<S>& problem() const override { return problem_; }
   StageSolver<S>& solver() { return *solver_; }
@@ -29,6 +34,7 @@ class HbvmStepper final : public Stepper<S> {
  private:
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
+  std::shared_ptr<const Hbvm<S>> kept_method_;
   std::unique_ptr<StageSolver<S>> solver_;
   Vector<S> multiplier_;
   SolverCounts earlier_;  ///< those of a run that this one continues

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/linear/ordering.hpp"
-#include "hbvm/step/stepper.hpp"
+#include "hbvm/step/constraint_projection.hpp"
+#include "hbvm/step/method.hpp"
 
 namespace hbvm {
 
@@ -31,40 +31,27 @@ class Rattle final : public Stepper<S> {
   void remember(Archive& archive) override;
 
  private:
-  enum Part { kicks, shifts, gradients, matrix, factors, solution, tangential };
-  PartCall call(Part part) { return {parts_[part], timed_}; }
-  void describe_parts();
-
-  /// Force and gradients at the state, unless they are there.
+  /// The force at the state, and the directions in which it is constrained, unless they are there.
   void arrive(const Vector<S>& q);
   /// p_ = p_0 + h/2 grad U(q_0) and free_ = q_0 + h M^-1 p_, where q_1 were without constraints.
   void kick_and_drift(const State<S>& state);
-  /// lambda_ and q_ = q_1, and the gradients there. \return iterations
-  long find_positions();
   /// p_ += h/2 (grad U(q_1) - grad g(q_0) lambda).
   void kick_back();
-  /// p_ -= grad g(q_1) h/2 mu, which is found so that the velocity is tangential.
-  void project(long iterations);
-
-  /// x = (left^T M^-1 right)^-1 x. \return false if that is singular
-  bool solve(ConstraintGradient<S>& left, const ConstraintGradient<S>& right, Matrix<S>& x);
-  ConstraintGradient<S>& before() { return gradients_[now_]; }
-  ConstraintGradient<S>& after() { return gradients_[1 - now_]; }
 
   const Problem<S>& problem_;
-  S h_ = 0, half_ = 0, one_half_;
+  S h_ = 0, half_ = 0, factor_ = 0, one_half_;  ///< h, h/2, -h^2/2
   PotentialEvaluator<S> potential_;
-  ConstraintGradient<S> gradients_[2];
-  int now_ = 0;  ///< which of them is at the state
-  Ordering order_;
-  Lu<S> system_;
-  Matrix<S> force_, lambda_, mu_, g_;  // 1 x m and 1 x nu
-  Vector<S> free_, q_, p_, v_, x_, multiplier_;
-  Vector<S> arrived_;  ///< where force_ and before() are
+  ConstraintProjection<S> projection_;
+  Matrix<S> force_, lambda_, pull_;  // 1 x m and 1 x nu
+  Vector<S> free_, q_, p_, v_, multiplier_;
+  Vector<S> arrived_;  ///< where force_ and the directions are
   bool started_ = false, timed_ = false;
-  std::vector<PartCount> parts_;
+  PartCount kicks_{"half kicks and drift"};
   SolverCounts earlier_;  ///< those of a run that this one continues
 };
+
+/// From no arguments. \throws InputError
+MethodPtr rattle_method(std::string_view arguments);
 
 #define HBVM_DECLARE(S) extern template class Rattle<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)

@@ -11,19 +11,7 @@
 namespace hbvm {
 namespace {
 
-std::string subject_key(const Claim& claim) {
-  std::string key = claim.problem + "|" + claim.method_text();
-  if (claim.tableau) {
-    for (const auto& row : claim.tableau->A)
-      for (const Expression& x : row) key += "," + x.text();
-    for (const Expression& x : claim.tableau->b) key += "," + x.text();
-    for (const Expression& x : claim.tableau->c) key += "," + x.text();
-  }
-  if (const auto& p = claim.perturbation)
-    key += "|" + std::to_string(static_cast<int>(p->part)) + (p->hat ? "^" : "") + std::to_string(p->i) + "," +
-           std::to_string(p->j) + "," + p->relative.text();
-  return key;
-}
+std::string subject_key(const Claim& claim) { return claim.problem + "|" + claim.method->key(); }
 
 std::vector<Auditor::Unit> units_of(const std::vector<Claim>& claims, const std::vector<bool>& skip) {
   using Kind = Auditor::Kind;

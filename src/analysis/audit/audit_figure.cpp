@@ -8,6 +8,7 @@
 #include "hbvm/analysis/audit/report.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {
@@ -18,7 +19,7 @@ constexpr double log10_of_2 = std::numbers::ln2 / std::numbers::ln10;
 /// One curve: errors over an interval of the modified pendulum, in one precision.
 struct Line {
   Quantity quantity;
-  MethodName method;
+  MethodPtr method;
   std::string precision, label;
 };
 
@@ -80,18 +81,18 @@ Panel panel_of(const std::string& title, const std::vector<Line>& lines,
 
 Figure audit_figure(const std::string& folder) {
   const std::filesystem::path path(folder);
-  const auto in_all_precisions = [](Quantity quantity, MethodName method) {
+  const auto in_all_precisions = [](Quantity quantity, const MethodPtr& method) {
     return std::vector<Line>{{quantity, method, "mpfr:50", "50 digits"},
                              {quantity, method, "quad", "quad"},
                              {quantity, method, "double", "double"}};
   };
   Figure figure;
   figure.name = "orders";
-  figure.panels.push_back(panel_of("Position, HBVM(4,4): order 8", in_all_precisions(Quantity::q, {4, 4}), {{0, 8}},
-                                   (path / "position.csv").string()));
-  figure.panels.push_back(panel_of("Energy, HBVM(4,2): order 8", in_all_precisions(Quantity::H, {4, 2}), {{0, 8}},
-                                   (path / "energy.csv").string()));
-  const MethodName method{2, 2};
+  figure.panels.push_back(panel_of("Position, HBVM(4,4): order 8", in_all_precisions(Quantity::q, hbvm_of({4, 4})),
+                                   {{0, 8}}, (path / "position.csv").string()));
+  figure.panels.push_back(panel_of("Energy, HBVM(4,2): order 8", in_all_precisions(Quantity::H, hbvm_of({4, 2})),
+                                   {{0, 8}}, (path / "energy.csv").string()));
+  const MethodPtr method = hbvm_of({2, 2});
   figure.panels.push_back(panel_of("HBVM(2,2), 50 digits: what converges how",
                                    {{Quantity::lagmul, method, "mpfr:50", "multiplier (lagmul)"},
                                     {Quantity::p, method, "mpfr:50", "raw p"},

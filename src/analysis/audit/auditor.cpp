@@ -11,6 +11,8 @@
 #include "hbvm/reference/closed_form.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/tableau_method.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {
@@ -32,8 +34,10 @@ constexpr double allowed_ulps_a_stage = 2;
 /// Conditions that hold to so many digits are meant to hold.
 constexpr int meant_digits = 10;
 
+bool is_tableau(const Claim& claim) { return as_tableau(*claim.method) != nullptr; }
+
 /// By how much the rate of what is measured exceeds the rate that is claimed.
-double offset(const Claim& claim) { return claim.tableau && claim.span == Span::interval ? 1 : 0; }
+double offset(const Claim& claim) { return is_tableau(claim) && claim.span == Span::interval ? 1 : 0; }
 
 bool is_rate(const Claim& claim) { return claim.form == Form::at_least || claim.form == Form::exactly; }
 
@@ -53,7 +57,7 @@ Auditor::Kind Auditor::kind_of(const Claim& claim) {
     case Quantity::X:
     case Quantity::symmetry:
     case Quantity::W:
-      return claim.tableau ? Kind::special : Kind::tableau;
+      return is_tableau(claim) ? Kind::special : Kind::tableau;
     case Quantity::order_conditions:
     case Quantity::hidden_constant:
     case Quantity::hidden_drift:
@@ -70,7 +74,7 @@ Auditor::Auditor(const std::vector<Claim>& claims, const Unit& unit, const Audit
   for (const std::size_t i : unit.members) {
     const Claim& claim = claims[i];
     // The order of a Runge-Kutta method is that of its local error less one, which shows far smaller flaws.
-    (claim.span == Span::step || claim.tableau ? steps_ : intervals_).push_back(cell_.claims.size());
+    (claim.span == Span::step || is_tableau(claim) ? steps_ : intervals_).push_back(cell_.claims.size());
     cell_.claims.push_back(claim);
   }
 }
@@ -105,7 +109,7 @@ void Auditor::work() {
 
 void Auditor::prepare() {
   for (std::size_t c = 0; c < cell_.claims.size(); ++c) finding(c).reference = reference();
-  if (options_.coefficient_digits > 0) {
+  if (options_.coefficient_digits > 0 && CoefficientCheck::is_for(*cell_.subject().method)) {
     coefficients_.emplace(cell_.subject(), options_.coefficient_digits);
     cell_.check_time();
   }
@@ -299,7 +303,7 @@ void Auditor::conserve() {
   std::vector<std::size_t> unproved;
   for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
     if (finding(c).verdict != Verdict::holds) continue;
-    finding(c).reason = coefficients_ ? proof_of(finding(c).claim, *coefficients_) : "";
+    finding(c).reason = proof_of(finding(c).claim, coefficients_ ? &*coefficients_ : nullptr);
     if (!finding(c).reason.empty()) continue;
     unproved.push_back(c);
     digits = std::max(digits, digits_to_show(finding(c).claim, cell_.log2_scale));
@@ -324,7 +328,9 @@ void Auditor::conserve() {
 }
 
 void Auditor::check_tableau() {
-  const int stages = cell_.subject().method.k;
+  const HbvmMethod* const hbvm = as_hbvm(*cell_.subject().method);
+  if (!hbvm) throw InputError("the coefficients of " + cell_.subject().method_text() + " have no such conditions");
+  const int stages = hbvm->name().k;
   for (std::size_t level = 0; level < deep; ++level) {
     const Precision precision = Precision::parse(precisions[level]);
     const auto units = with_scalar(precision, [&]<Scalar S>() {
@@ -347,7 +353,7 @@ void Auditor::check_tableau() {
 
 void Auditor::measure_special() {
   Finding& f = finding(0);
-  if (f.claim.tableau) {
+  if (is_tableau(f.claim)) {
     if (!coefficients_) coefficients_.emplace(f.claim, 100);
     const bool order = f.claim.quantity == Quantity::order_conditions;
     const int digits = coefficients_->digits();
@@ -390,7 +396,7 @@ void Auditor::weigh(Finding& f) {
 void Auditor::weigh_coefficients(Finding& f) {
   const CoefficientCheck& check = *coefficients_;
   int seen = check.definition();
-  if (f.claim.tableau) {
+  if (is_tableau(f.claim)) {
     const double order = f.claim.span == Span::step ? f.claim.predicted - 1 : f.claim.predicted;
     const int shown = check.order_to(meant_digits);
     // What the claim needs, as far as it is meant to be there; an order above that is due to the problem.

@@ -6,10 +6,14 @@
 
 namespace hbvm {
 
-int Cell::stages() const {
-  const Claim& claim = subject();
-  return claim.tableau ? std::min(claim.tableau->stages(), 20) : claim.method.s;
-}
+namespace {
+
+/// No order that is asked for needs more.
+constexpr int most_stages = 20;
+
+}  // namespace
+
+int Cell::stages() const { return std::min(subject().method->stages(), most_stages); }
 
 void Cell::check_time() const {
   if (stop_at > 0 && thread_seconds() > stop_at) throw LimitReached("the limit of time was reached");

@@ -38,7 +38,7 @@ struct Cell {
   bool asks_for(Quantity quantity) const;
   /// Whether the finest rung of each quantity asked for is lost in round-off.
   bool is_lost(const Ladders& ladders) const;
-  /// s, or the tableau's number of stages: what a reference must exceed. No order that is asked for needs more than 20.
+  /// What a reference must exceed.
   int stages() const;
   /// \throws LimitReached
   void check_time() const;

@@ -77,11 +77,6 @@ Claim make_claim(const std::string& label, Quantity quantity, const std::string&
   return claim;
 }
 
-std::string Claim::method_text() const {
-  if (tableau) return tableau->name;
-  return "HBVM(" + std::to_string(method.k) + "," + std::to_string(method.s) + ")";
-}
-
 Verdict judge(const Claim& claim, const std::optional<Rate>& rate) {
   if (!rate || std::isnan(rate->value) || !(rate->uncertainty >= 0)) return Verdict::undecidable;
   // What the logarithms of the errors themselves are rounded by.

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/tableau_method.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {
@@ -15,10 +17,12 @@ constexpr int guard = 24;
 
 }  // namespace
 
+bool CoefficientCheck::is_for(const Method& method) { return as_hbvm(method) || as_tableau(method); }
+
 CoefficientCheck::CoefficientCheck(const Claim& subject, int digits) : digits_(digits) {
   const PrecisionScope scope(static_cast<unsigned>(digits + guard));
-  if (subject.tableau) {
-    look_at(*subject.tableau);
+  if (const TableauMethod* const method = as_tableau(*subject.method)) {
+    look_at(method->tableau());
     return;
   }
   definition_ = digits;

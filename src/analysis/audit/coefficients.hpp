@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hbvm/analysis/audit/claim.hpp"
+#include "hbvm/method/runge_kutta.hpp"
 
 namespace hbvm {
 
@@ -10,6 +11,8 @@ namespace hbvm {
 /// them.
 class CoefficientCheck {
  public:
+  /// Whether there is something to look at.
+  static bool is_for(const Method& method);
   /// \throws InputError for coefficients without a value
   CoefficientCheck(const Claim& subject, int digits);
 

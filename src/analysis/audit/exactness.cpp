@@ -7,6 +7,8 @@
 #include "hbvm/analysis/choose_k.hpp"
 #include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/tableau_method.hpp"
 #include "sensitivity.hpp"
 
 namespace hbvm {
@@ -22,6 +24,23 @@ std::string proof_for_tableau(const Claim& claim, const CoefficientCheck& check,
       return symplectic ? "the method is symplectic" : "";
     case Quantity::reversal:
       return check.symmetry() >= check.digits() ? "the method is symmetric" : "";
+    default:
+      return {};
+  }
+}
+
+/// What the method promises of every motion.
+std::string proof_by_construction(const Claim& claim) {
+  const Kept kept = claim.method->kept();
+  switch (claim.quantity) {
+    case Quantity::g:
+      return kept.constraints ? "each step ends on the constraints" : "";
+    case Quantity::hidden:
+      return kept.hidden ? "each step ends in their tangent space" : "";
+    case Quantity::reversal:
+      return kept.reversal ? "the method is symmetric" : "";
+    case Quantity::angular_momentum:
+      return kept.momenta ? "the method is symplectic" : "";
     default:
       return {};
   }
@@ -54,14 +73,20 @@ double bits_of_the_weakest(const Claim& claim, int log2_scale) {
 
 }  // namespace
 
-std::string proof_of(const Claim& claim, const CoefficientCheck& check) {
+std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
   std::optional<int> degree;
+  bool constrained = false;
   {
     const PrecisionScope scope(30);
-    degree = degree_of_U(assemble<Mpfr>(load_scene(claim.problem)).problem);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
+    degree = degree_of_U(scene.problem);
+    constrained = scene.problem.nu() > 0;
   }
-  if (claim.tableau) return proof_for_tableau(claim, check, degree);
-  const auto [k, s] = std::pair(claim.method.k, claim.method.s);
+  const HbvmMethod* const hbvm = as_hbvm(*claim.method);
+  if (check && as_tableau(*claim.method) && !constrained) return proof_for_tableau(claim, *check, degree);
+  if (!hbvm) return proof_by_construction(claim);
+  if (!check) return {};
+  const auto [k, s] = hbvm->name();
   switch (claim.quantity) {
     case Quantity::g:
       return "g is quadratic";
@@ -80,9 +105,9 @@ std::string proof_of(const Claim& claim, const CoefficientCheck& check) {
 
 int digits_to_show(const Claim& claim, int log2_scale) {
   constexpr double margin = 64;
-  const int s = claim.tableau ? claim.tableau->stages() : claim.method.s;
-  const bool energy = claim.quantity == Quantity::H && !claim.tableau;
-  const double order = energy ? 2 * claim.method.k + 1 : 2 * s + 2;
+  const HbvmMethod* const hbvm = as_hbvm(*claim.method);
+  const bool energy = claim.quantity == Quantity::H && hbvm;
+  const double order = energy ? 2 * hbvm->name().k + 1 : 2 * claim.method->stages() + 2;
   const double bits = order * (3 + std::log2(order)) + margin + bits_of_the_weakest(claim, log2_scale);
   return static_cast<int>(std::ceil(bits * std::numbers::ln2 / std::numbers::ln10));
 }

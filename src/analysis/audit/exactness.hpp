@@ -13,8 +13,9 @@ namespace hbvm {
 ///     angular momentum: k = s, or mu <= 2, where the further nodes change nothing; of a tableau if it is symplectic
 ///     g, of degree 2: always;  forth and back: always; of a tableau if it is symmetric
 ///
-/// \param check of the method's coefficients, on which all this rests \throws InputError
-std::string proof_of(const Claim& claim, const CoefficientCheck& check);
+/// Of other methods, what they keep by construction.
+/// \param check of the coefficients of HBVM or a tableau, on which all this rests, or null \throws InputError
+std::string proof_of(const Claim& claim, const CoefficientCheck* check);
 
 /// In how many decimal digits an error of the method that is not 0 would be seen at half the time scale: an error of
 /// one step is of an order Q that s and k bound, (2k + 1 for H, 2s + 2 else); Gauss formulas of Q

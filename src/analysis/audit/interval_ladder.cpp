@@ -116,8 +116,9 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
           const Vector<Mpfr> before = q;
           trial.step();
           trial.state(q, p);
-          if (constrained && cell.asks_for(Quantity::delta_lambda))
-            add(Quantity::delta_lambda, delta_lambda(laboratory, trial, before, p, h, subject.method.s), divided);
+          if (constrained && trial.has_polynomials() && cell.asks_for(Quantity::delta_lambda))
+            add(Quantity::delta_lambda, delta_lambda(laboratory, trial, before, p, h, subject.method->stages()),
+                divided);
           if (cell.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), unit + sensitivity.H);
           if (constrained && cell.asks_for(Quantity::hidden))
             add(Quantity::hidden, max_norm(point.hidden_constraints(q, p)), unit + sensitivity.hidden);

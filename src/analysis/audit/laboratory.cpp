@@ -47,15 +47,8 @@ void Laboratory::walk(const Cell& cell) {
 
 template <Scalar S>
 Trial<S>::Trial(const Claim& subject, SolverKind solver)
-    : digits_(static_cast<unsigned>(digits10<S>())),
-      solver_(solver),
-      assembled_(assemble<S>(load_scene(subject.problem))) {
-  if (subject.tableau) {
-    runge_kutta_ = make_runge_kutta<S>(*subject.tableau);
-  } else {
-    method_ = make_hbvm<S>(subject.method.k, subject.method.s);
-    if (subject.perturbation) perturb(*method_, *subject.perturbation);
-  }
+    : digits_(static_cast<unsigned>(digits10<S>())), assembled_(assemble<S>(load_scene(subject.problem))) {
+  make_stepper_ = subject.method->prepare(assembled_.problem, solver);
 }
 
 template <Scalar S>
@@ -63,10 +56,7 @@ void Trial<S>::begin(const Laboratory::Start& start, const Mpfr& h) {
   const PrecisionScope working(digits_);
   h_ = rounded_to<S>(raw(h));
   state_.emplace(rounded<S>(start.q), rounded<S>(start.p));
-  if (method_)
-    stepper_ = std::make_unique<HbvmStepper<S>>(assembled_.problem, *method_, solver_);
-  else
-    stepper_ = std::make_unique<RungeKuttaStepper<S>>(assembled_.problem, *runge_kutta_);
+  stepper_ = make_stepper_();
 }
 
 template <Scalar S>

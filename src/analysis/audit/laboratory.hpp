@@ -11,7 +11,6 @@
 #include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
-#include "hbvm/step/runge_kutta_stepper.hpp"
 
 namespace hbvm {
 
@@ -67,16 +66,14 @@ class Trial {
   void state(Vector<Mpfr>& q, Vector<Mpfr>& p) const;
   /// (lagmul) of the last step.
   void multiplier(Vector<Mpfr>& lambda) const;
-  /// Coefficients and multipliers of the last step, each if asked for; not for a tableau.
+  /// Coefficients and multipliers of the last step, each if asked for; not for a method without polynomials.
   void unknowns(Matrix<Mpfr>* gamma, Matrix<Mpfr>* lambda);
-  bool has_polynomials() const { return method_.has_value(); }
+  bool has_polynomials() const { return stepper_ && stepper_->unknowns(); }
 
  private:
   unsigned digits_;
-  SolverKind solver_;
   Assembled<S> assembled_;
-  std::optional<Hbvm<S>> method_;
-  std::optional<RungeKutta<S>> runge_kutta_;
+  StepperMaker<S> make_stepper_;
   std::unique_ptr<Stepper<S>> stepper_;
   std::optional<State<S>> state_;
   S h_ = 0;

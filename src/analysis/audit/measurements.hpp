@@ -26,8 +26,8 @@ struct ConservationRun {
   int log2_step;
   long steps;
 };
-/// How many units of round-off each coordinate may be off by in every step: as many as numbers are summed for it at k +
-/// s nodes and coefficients (of a tableau, its stages), four times over.
+/// How many units of round-off each coordinate may be off by in every step: as many as numbers are summed for it
+/// (k + s for HBVM), four times over.
 double allowed_units(const Claim& claim);
 /// The greatest error of an exactly conserved quantity in such a run, over what round-off may make of it; of
 /// Quantity::reversal, what the start is missed by after as many steps back.

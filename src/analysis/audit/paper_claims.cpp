@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "hbvm/analysis/audit/claims.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 
 namespace hbvm {
 namespace {
@@ -25,7 +26,7 @@ int order(int s) { return s % 2 == 0 ? s : s + 1; }
 
 class List {
  public:
-  List(std::string problem, int k, int s) : problem_(std::move(problem)), method_{k, s} {}
+  List(std::string problem, int k, int s) : problem_(std::move(problem)), method_(hbvm_of({k, s})) {}
 
   void rate(const std::string& label, Quantity quantity, Span span, double rate, Form form = Form::at_least) {
     add(label, quantity, span, form, rate);
@@ -50,7 +51,7 @@ class List {
   }
 
   std::string problem_;
-  MethodName method_;
+  MethodPtr method_;
   std::vector<Claim> claims_;
 };
 

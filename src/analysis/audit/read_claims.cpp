@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "hbvm/analysis/audit/claims.hpp"
-#include "hbvm/analysis/read_tableau.hpp"
+#include "hbvm/method/method_spec.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/scalar/literal.hpp"
-#include "scene/toml_table.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/registry.hpp"
+#include "toml/toml_table.hpp"
 
 namespace hbvm {
 namespace {
@@ -14,6 +17,19 @@ std::string located(const std::string& name, const std::filesystem::path& folder
   const std::filesystem::path beside = folder / name;
   std::error_code ignored;
   return std::filesystem::is_regular_file(beside, ignored) ? beside.string() : name;
+}
+
+/// As parse_method has it, with files beside the claims' file first; a name of no family is a file with a tableau.
+MethodPtr method_of(const std::string& text, const std::filesystem::path& folder) {
+  constexpr std::string_view tableau = "tableau:", projected = "+project";
+  const std::string family = MethodSpec::parse(text).family;
+  const bool is_file = std::none_of(method_families().begin(), method_families().end(),
+                                    [&](const MethodFamily& known) { return known.name == family; });
+  if (!is_file && !text.starts_with(tableau)) return parse_method(text);
+  std::string file = is_file ? text : text.substr(tableau.size());
+  const bool project = file.ends_with(projected);
+  if (project) file.resize(file.size() - projected.size());
+  return parse_method(std::string(tableau) + located(file, folder) + (project ? std::string(projected) : ""));
 }
 
 int counted_from_one(TomlTable& reader, const char* key) {
@@ -61,12 +77,9 @@ class ClaimReader {
     claim.problem = located(reader_.string("problem"), folder_);
     const std::string method = reader_.string("method");
     checked([&] {
-      if (method.starts_with("hbvm:")) {
-        claim.method = MethodName::parse(method);
-        if (claim.method.is_auto()) throw InputError("method " + method + ": a claim states its k");
-      } else {
-        claim.tableau = std::make_shared<const Tableau>(read_tableau(located(method, folder_)));
-      }
+      claim.method = method_of(method, folder_);
+      const HbvmMethod* const hbvm = as_hbvm(*claim.method);
+      if (hbvm && hbvm->name().is_auto()) throw InputError("method " + method + ": a claim states its k");
     });
     const std::string over = string_or("over", "interval");
     if (over != "interval" && over != "step") reader_.fail("unknown 'over' \"" + over + "\": use interval or step");
@@ -79,14 +92,10 @@ class ClaimReader {
     claim.of_degenerate_motion = flag(reader_, "degenerate");
     if (const toml::node* const node = reader_.take("perturb")) {
       if (!node->is_table()) reader_.fail(*node, "'perturb' is a table");
-      if (claim.tableau) reader_.fail(*node, "'perturb' is for hbvm:K,S; a tableau is changed in its own file");
-      claim.perturbation = perturbation(TomlTable(reader_.source(), *node->as_table(), "perturb"));
-      checked(
-          [&] {
-            auto method_in_double = make_hbvm<double>(claim.method.k, claim.method.s);
-            perturb(method_in_double, *claim.perturbation);
-          },
-          node);
+      const HbvmMethod* const hbvm = as_hbvm(*claim.method);
+      if (!hbvm) reader_.fail(*node, "'perturb' is for hbvm:K,S; a tableau is changed in its own file");
+      const Perturbation wrong = perturbation(TomlTable(reader_.source(), *node->as_table(), "perturb"));
+      checked([&] { claim.method = hbvm_of(hbvm->name(), wrong); }, node);
     }
     reader_.finish();
     refuse_nonsense(claim);
@@ -115,10 +124,7 @@ class ClaimReader {
       claim.form = Form::round_off;
       return;
     }
-    Constants constants;
-    if (!claim.tableau) constants.insert_or_assign("k", Expression::parse(std::to_string(claim.method.k)));
-    constants.insert_or_assign(
-        "s", Expression::parse(std::to_string(claim.tableau ? claim.tableau->stages() : claim.method.s)));
+    const Constants constants = claim.method->parameters();
     const Expression rate = reader_.to_number(node, "'rate'");
     checked([&] { claim.predicted = evaluate<double>(rate, constants); }, &node);
     if (!(claim.predicted >= 0 && claim.predicted <= 2 * max_k + 1)) reader_.fail(node, "no such rate");
@@ -130,19 +136,19 @@ class ClaimReader {
     if (q >= Quantity::hidden_constant) reader_.fail("quantity '" + name + "' has no rate to claim");
     if (q == Quantity::polynomials && claim.span != Span::step)
       reader_.fail("quantity '" + name + "' is one of a step: over = \"step\"");
-    const bool conserved =
-        q == Quantity::g || q == Quantity::H || q == Quantity::angular_momentum || q == Quantity::reversal;
+    const bool conserved = q == Quantity::g || q == Quantity::hidden || q == Quantity::H ||
+                           q == Quantity::angular_momentum || q == Quantity::reversal;
     if (claim.form == Form::round_off && !conserved)
-      reader_.fail("only g, H, angular momentum and reversal can be 0 to round-off");
+      reader_.fail("only g, hidden, H, angular momentum and reversal can be 0 to round-off");
+    const bool of_polynomials = q == Quantity::polynomials || q == Quantity::delta_lambda;
+    if (of_polynomials && !as_hbvm(*claim.method))
+      reader_.fail("quantity '" + name + "' is of the polynomials of hbvm:K,S, and " + claim.method->text() +
+                   " has none");
     if (claim.form != Form::round_off && (q == Quantity::g || q == Quantity::reversal))
       reader_.fail("quantity '" + name + "' is claimed with rate = \"round-off\"");
     if (q == Quantity::angular_momentum && claim.form != Form::round_off && claim.span == Span::step)
       reader_.fail("the angular momentum is looked at over an interval");
-    checked([&] {
-      const Scene scene = load_scene(claim.problem);
-      if (claim.tableau && !(scene.constraints.empty() && scene.rigid_bodies.empty()))
-        throw InputError("a tableau is for problems without constraints, and '" + claim.problem + "' has some");
-    });
+    checked([&] { static_cast<void>(load_scene(claim.problem)); });
   }
 
   TomlTable reader_;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "analysis/json_lines.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/version.hpp"
 
 namespace hbvm {
@@ -57,12 +58,13 @@ Json evidence_of(const Finding& finding) {
 
 Json json_of(const Finding& f) {
   const Claim& c = f.claim;
+  const HbvmMethod* const hbvm = as_hbvm(*c.method);
   Json json{{"claim", c.label},
             {"quantity", hbvm::name_of(c.quantity)},
             {"problem", c.problem},
             {"method", c.method_text()},
-            {"k", c.tableau ? Json(nullptr) : Json(c.method.k)},
-            {"s", c.tableau ? Json(nullptr) : Json(c.method.s)},
+            {"k", hbvm ? Json(hbvm->name().k) : Json(nullptr)},
+            {"s", hbvm ? Json(hbvm->name().s) : Json(nullptr)},
             {"over", name_of(c.span)},
             {"form", name_of(c.form)},
             {"predicted", c.predicted},
@@ -111,13 +113,13 @@ Finding finding_of(const Json& j) {
 }  // namespace
 
 Table audit_table(const std::vector<Finding>& findings) {
-  const bool tableaux =
-      std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.claim.tableau != nullptr; });
+  const bool named =
+      std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return !as_hbvm(*f.claim.method); });
   Table table;
   table.caption = "Claims and what was measured";
   table.key_columns = {"problem"};
   table.columns = {"claim", "quantity", "over"};
-  for (const char* const column : tableaux ? std::vector{"method"} : std::vector{"k", "s"})
+  for (const char* const column : named ? std::vector{"method"} : std::vector{"k", "s"})
     table.columns.emplace_back(column);
   for (const char* const column : {"predicted", "measured", "+-", "precision", "coefficients to", "verdict"})
     table.columns.emplace_back(column);
@@ -130,10 +132,11 @@ Table audit_table(const std::vector<Finding>& findings) {
     const bool rate = (c.form == Form::at_least || c.form == Form::exactly) && c.problem != "tableau";
     std::vector<std::string> row{on_one_line(c.label), std::string(hbvm::name_of(c.quantity)),
                                  rate ? std::string(name_of(c.span)) : ""};
-    if (tableaux)
+    if (named)
       row.push_back(on_one_line(c.method_text()));
     else
-      row.insert(row.end(), {std::to_string(c.method.k), std::to_string(c.method.s)});
+      for (const int number : {as_hbvm(*c.method)->name().k, as_hbvm(*c.method)->name().s})
+        row.push_back(std::to_string(number));
     row.insert(row.end(), {predicted_text(c), short_text(f.measured), short_text(f.uncertainty), f.precision,
                            f.coefficients_to > 0 ? std::to_string(f.coefficients_to) : "---",
                            std::string(hbvm::name_of(f.verdict))});

@@ -31,9 +31,7 @@ class Allowance {
 
 }  // namespace
 
-double allowed_units(const Claim& claim) {
-  return 4 * (claim.tableau ? claim.tableau->stages() : claim.method.k + claim.method.s);
-}
+double allowed_units(const Claim& claim) { return 4 * claim.method->terms(); }
 
 template <Scalar S>
 std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& run) {
@@ -62,7 +60,8 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& 
     const Mpfr H0 = point.energy(q, p);
     std::vector<MomentumValue<Mpfr>> momentum_0;
     for (const auto& component : momenta) momentum_0.push_back(momentum(problem, component, q, p));
-    Allowance of_H(cell, last_bit), of_g(cell, last_bit), of_q(cell, last_bit), of_p(cell, last_bit);
+    Allowance of_H(cell, last_bit), of_g(cell, last_bit), of_hidden(cell, last_bit), of_q(cell, last_bit),
+        of_p(cell, last_bit);
     std::vector<Allowance> of_momenta(momenta.size(), Allowance(cell, last_bit));
     trial.begin(start, h);
     for (long n = 1; n <= run.steps; ++n) {
@@ -72,6 +71,8 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& 
       trial.state(q, p);
       add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), of_H.step(here.H));
       if (problem.nu() > 0) add(Quantity::g, max_norm(point.constraints(q)), of_g.step(here.g));
+      if (problem.nu() > 0)
+        add(Quantity::hidden, max_norm(point.hidden_constraints(q, p)), of_hidden.step(here.hidden));
       for (std::size_t c = 0; c < momenta.size(); ++c)
         add(Quantity::angular_momentum, abs(Mpfr(momentum(problem, momenta[c], q, p).value - momentum_0[c].value)),
             of_momenta[c].step(here.momenta[c]));

@@ -2,6 +2,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/problem/constraint.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {
@@ -63,7 +64,7 @@ LeadingTerm leading_term(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, co
 double hidden_constant(const Cell& cell) {
   const PrecisionScope scope(100);
   const Claim& claim = cell.subject();
-  const int s = claim.method.s;
+  const int s = claim.method->stages();
   Laboratory laboratory(cell);
   const Laboratory::Start& start = laboratory.starts().front();
   const Mpfr until = Mpfr(1) / 4, h = ldexp(Mpfr(1), -8);
@@ -93,13 +94,12 @@ double hidden_constant(const Cell& cell) {
 /// The greatest hidden constraint up to t = 1280 over that up to t = 20, in steps of 1/10.
 double hidden_drift(const Claim& claim) {
   const Assembled<double> scene = assemble<double>(load_scene(claim.problem));
-  const Hbvm<double> method = make_hbvm<double>(claim.method.k, claim.method.s);
-  HbvmStepper<double> stepper(scene.problem, method, SolverKind::automatic);
+  const auto stepper = claim.method->make_stepper(scene.problem, SolverKind::automatic);
   State<double> state(scene.q0, scene.p0);
   Point<double> point(scene.problem);
   double early = 0, greatest = 0;
   for (long n = 1; n <= 12'800; ++n) {
-    stepper.step(state, 1 / double{10});
+    stepper->step(state, 1 / double{10});
     raise_to(greatest, max_norm(point.hidden_constraints(state.q, state.p)));
     if (n == 200) early = greatest;
   }
@@ -129,7 +129,7 @@ double special_value(const Cell& cell) {
       return hidden_drift(claim);
     case Quantity::sweeps: {
       Cell least = cell;
-      least.claims.front().method.k = claim.method.s;
+      least.claims.front().method = hbvm_of({claim.method->stages(), claim.method->stages()});
       return mean_sweeps(cell) - mean_sweeps(least);
     }
     default:

@@ -65,7 +65,8 @@ class StepMeasurement {
     add(Quantity::output_lambda, distance(output_lambda, exact_lambda), std::max(lambda_unit, margin.lambda));
     add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(divided, margin.lambda));
     add(Quantity::hidden, hidden, unit_ + sensitivity.hidden);
-    add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, start.q, p, h, s_), divided);
+    if (trial.has_polynomials())
+      add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, start.q, p, h, s_), divided);
     return margin;
   }
 

@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "hbvm/method/runge_kutta.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {
@@ -19,8 +21,7 @@ Matrix<Mpfr> times(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b) { return a.lazy
 
 template <Scalar S>
 std::map<Quantity, double> tableau_defects(const Claim& subject) {
-  Hbvm<S> method = make_hbvm<S>(subject.method.k, subject.method.s);
-  if (subject.perturbation) perturb(method, *subject.perturbation);
+  const Hbvm<S> method = as_hbvm(*subject.method)->coefficients<S>();
   // Twice the digits show the rounding of each entry, and nothing of the sums.
   const PrecisionScope scope(2 * static_cast<unsigned>(digits10<S>()) + guard_digits);
   const int k = method.k, s = method.s;

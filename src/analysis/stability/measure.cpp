@@ -16,6 +16,7 @@
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/registry.hpp"
 
 namespace hbvm {
 namespace {
@@ -149,7 +150,7 @@ std::vector<std::string> warnings_of(const RunResult& run) {
 RunRequest request_of(Scene scene, std::string_view method, std::string_view solver, std::string_view step,
                       std::string_view until, std::string_view precision) {
   return {std::move(scene),
-          MethodName::parse(method),
+          parse_method(method),
           parse_solver(solver),
           Expression::parse(step),
           Expression::parse(until),
@@ -200,7 +201,7 @@ CaseResult energy(const RunRequest& request) {
     result.criteria = {
         {"e_H, units of round-off", units / energy_size(request.scene, csv), round_off_units(run.steps)}};
     result.warnings = warnings_of(run);
-    result.message = run.method.text();
+    result.message = run.method->text();
     return result;
   });
 }

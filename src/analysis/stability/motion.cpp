@@ -150,12 +150,12 @@ template <Scalar S>
 Motion motion_in(const RunRequest& request, const Twist& twist) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
   const Assembled<S> scene = assemble<S>(request.scene);
-  const Hbvm<S> method = make_hbvm<S>(request.method.k, request.method.s);
+  const StepperMaker<S> make_stepper = request.method->prepare(scene.problem, request.solver);
   State<S> state(scene.q0, scene.p0);
   const auto run = [&] {
     Recorder<S> recorder(scene.problem, grid);
-    HbvmStepper<S> plain(scene.problem, method, request.solver);
-    KickingStepper<S> stepper(plain, twist.kick_bits, grid.steps());
+    const std::unique_ptr<Stepper<S>> plain = make_stepper();
+    KickingStepper<S> stepper(*plain, twist.kick_bits, grid.steps());
     integrate<S>(stepper, state, grid, {&recorder});
     return Motion{recorder.take(), recorder.scale(), grid.steps()};
   };

@@ -134,11 +134,10 @@ template <Scalar S>
 Walk walk_in(const RunRequest& request) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
   const Assembled<S> scene = assemble<S>(request.scene);
-  const Hbvm<S> method = make_hbvm<S>(request.method.k, request.method.s);
-  HbvmStepper<S> stepper(scene.problem, method, request.solver);
+  const std::unique_ptr<Stepper<S>> stepper = request.method->make_stepper(scene.problem, request.solver);
   State<S> state(scene.q0, scene.p0);
   Walker<S> walker(scene.problem, grid.steps());
-  integrate<S>(stepper, state, grid, {&walker});
+  integrate<S>(*stepper, state, grid, {&walker});
   Walk walk = walker.walk();
   walk.steps = grid.steps();
   return walk;

@@ -2,16 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include "hbvm/step/hbvm_method.hpp"
+
 namespace hbvm {
 namespace {
 
-Claim claim(Quantity quantity, const std::string& problem, MethodName method, Form form, double predicted = 0) {
+Claim claim(Quantity quantity, const std::string& problem, HbvmName method, Form form, double predicted = 0) {
   Claim claim = make_claim("test", quantity, problem, Span::interval, form, predicted);
-  claim.method = method;
+  claim.method = hbvm_of(method);
   return claim;
 }
 
-Claim conserved(Quantity quantity, const std::string& problem, MethodName method) {
+Claim conserved(Quantity quantity, const std::string& problem, HbvmName method) {
   return claim(quantity, problem, method, Form::round_off);
 }
 
@@ -24,7 +26,8 @@ AuditOptions one_start() {
 Finding found(const Claim& claim, const AuditOptions& options = one_start()) { return audit({claim}, options).front(); }
 
 Claim with_wrong_weight(Claim claim, const char* relative) {
-  claim.perturbation = Perturbation{Perturbation::Part::weight, true, 0, 0, Expression::parse(relative)};
+  claim.method = hbvm_of(as_hbvm(*claim.method)->name(),
+                         Perturbation{Perturbation::Part::weight, true, 0, 0, Expression::parse(relative)});
   return claim;
 }
 

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "hbvm/error.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/tableau_method.hpp"
 
 namespace hbvm {
 namespace {
@@ -138,9 +140,9 @@ TEST(Verdicts, HaveNames) {
 
 TEST(Claims, NameTheirMethod) {
   Claim claim;
-  claim.method = {12, 3};
+  claim.method = hbvm_of({12, 3});
   EXPECT_EQ(claim.method_text(), "HBVM(12,3)");
-  claim.tableau = std::make_shared<const Tableau>(Tableau{"Gauss, two stages", {}, {}, {}, {}});
+  claim.method = std::make_shared<const TableauMethod>(Tableau{"Gauss, two stages", {}, {}, {}, {}}, "");
   EXPECT_EQ(claim.method_text(), "Gauss, two stages");
 }
 

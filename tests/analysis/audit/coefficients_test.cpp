@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/tableau_method.hpp"
+
 namespace hbvm {
 namespace {
 
@@ -15,7 +18,7 @@ Claim gauss(const std::string& in_b = "", const std::string& in_A = "") {
                   {text("1/2-sqrt(3)/6"), text("1/2+sqrt(3)/6")},
                   {}};
   Claim claim = make_claim("test", Quantity::q, "kepler", Span::interval, Form::at_least, 4);
-  claim.tableau = std::make_shared<const Tableau>(std::move(tableau));
+  claim.method = std::make_shared<const TableauMethod>(std::move(tableau), "");
   return claim;
 }
 
@@ -28,8 +31,8 @@ TEST(CoefficientCheck, SeesWhatIsRightToAllDigits) {
   EXPECT_EQ(check.symmetry(), 200);
   EXPECT_EQ(check.row_sums(), 200);
   Claim hbvm;
-  for (const MethodName method : {MethodName{1, 1}, {5, 3}, {20, 20}}) {
-    hbvm.method = method;
+  for (const HbvmName method : {HbvmName{1, 1}, {5, 3}, {20, 20}}) {
+    hbvm.method = hbvm_of(method);
     EXPECT_EQ(CoefficientCheck(hbvm, 300).definition(), 300) << method.text();
   }
 }
@@ -63,7 +66,7 @@ TEST(CoefficientCheck, OrdersBeyondTheTreesAreSeen) {
     tableau.c.push_back(exact(hbvm.c[i]));
   }
   Claim claim = gauss();
-  claim.tableau = std::make_shared<const Tableau>(tableau);
+  claim.method = std::make_shared<const TableauMethod>(tableau, "");
   const CoefficientCheck check(claim, 250);
   EXPECT_EQ(check.order_to(250), 14);
   EXPECT_LT(check.order(15), 20);

@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/tableau_method.hpp"
+
 namespace hbvm {
 namespace {
 
-std::string proof(Quantity quantity, const std::string& problem, MethodName method) {
+std::string proof(Quantity quantity, const std::string& problem, HbvmName method) {
   Claim claim = make_claim("test", quantity, problem, Span::interval, Form::round_off, 0);
-  claim.method = method;
-  return proof_of(claim, CoefficientCheck(claim, 50));
+  claim.method = hbvm_of(method);
+  const CoefficientCheck check(claim, 50);
+  return proof_of(claim, &check);
 }
 
 TEST(Exactness, OfTheEnergyIsProvedByTheDegree) {
@@ -33,9 +37,10 @@ TEST(Exactness, OfConstraintsAndReversalIsProved) {
 TEST(Exactness, OfTableauxIsProvedByTheirCoefficients) {
   const auto proof_for = [](Quantity quantity, const char* a, const std::string& problem) {
     Claim claim = make_claim("test", quantity, problem, Span::interval, Form::round_off, 0);
-    claim.tableau = std::make_shared<const Tableau>(
-        Tableau{"one stage", {{Expression::parse(a)}}, {Expression::parse("1")}, {Expression::parse(a)}, {}});
-    return proof_of(claim, CoefficientCheck(claim, 50));
+    claim.method = std::make_shared<const TableauMethod>(
+        Tableau{"one stage", {{Expression::parse(a)}}, {Expression::parse("1")}, {Expression::parse(a)}, {}}, "");
+    const CoefficientCheck check(claim, 50);
+    return proof_of(claim, &check);
   };
   for (const Quantity quantity : {Quantity::angular_momentum, Quantity::reversal}) {
     EXPECT_NE(proof_for(quantity, "1/2", "kepler"), "");
@@ -47,9 +52,9 @@ TEST(Exactness, OfTableauxIsProvedByTheirCoefficients) {
 
 /// More nodes need more digits, and so does an effect that is far weaker than the others.
 TEST(Exactness, NeedsDigitsForTheOrder) {
-  const auto digits = [](MethodName method) {
+  const auto digits = [](HbvmName method) {
     Claim claim = make_claim("test", Quantity::H, "kepler", Span::interval, Form::round_off, 0);
-    claim.method = method;
+    claim.method = hbvm_of(method);
     return digits_to_show(claim, 0);
   };
   EXPECT_LT(digits({4, 2}), 60);

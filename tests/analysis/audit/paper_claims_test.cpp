@@ -6,9 +6,14 @@
 
 #include "hbvm/analysis/audit/audit.hpp"
 #include "hbvm/analysis/audit/claims.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/tableau_method.hpp"
 
 namespace hbvm {
 namespace {
+
+int k_of(const Claim& claim) { return as_hbvm(*claim.method)->name().k; }
+int s_of(const Claim& claim) { return as_hbvm(*claim.method)->name().s; }
 
 constexpr Extent both[] = {Extent::quick, Extent::full};
 
@@ -19,7 +24,7 @@ std::set<std::string> labels(Extent extent) {
 }
 /// All of a claim but its k.
 auto but_k(const Claim& c) {
-  return std::tuple(c.label, c.quantity, c.problem, c.method.s, c.span, c.form, c.predicted, c.tolerance);
+  return std::tuple(c.label, c.quantity, c.problem, s_of(c), c.span, c.form, c.predicted, c.tolerance);
 }
 
 TEST(PaperClaims, QuickOnesAreFewer) {
@@ -55,21 +60,20 @@ TEST(PaperClaims, EveryQuantityIsClaimedInFull) {
 TEST(PaperClaims, StagesAndNodes) {
   std::map<int, int> most_k;
   for (const Claim& claim : paper_claims(Extent::full)) {
-    EXPECT_GE(claim.method.k, claim.method.s);
+    EXPECT_GE(k_of(claim), s_of(claim));
     // U of degree 4 takes k = 2 s, and one less is not enough.
-    if (!claim.problem.starts_with("quartic"))
-      most_k[claim.method.s] = std::max(most_k[claim.method.s], claim.method.k);
+    if (!claim.problem.starts_with("quartic")) most_k[s_of(claim)] = std::max(most_k[s_of(claim)], k_of(claim));
   }
   const std::map<int, int> expected{{1, 5},  {2, 6},  {3, 7},  {4, 8},   {5, 9},
                                     {6, 10}, {7, 11}, {8, 12}, {12, 12}, {20, 20}};
   EXPECT_EQ(most_k, expected);
-  for (const Claim& claim : paper_claims(Extent::quick)) EXPECT_LE(claim.method.s, 3);
+  for (const Claim& claim : paper_claims(Extent::quick)) EXPECT_LE(s_of(claim), 3);
 }
 
 TEST(PaperClaims, ManyStagesAreLookedAtInManyDigits) {
   for (const Extent extent : both)
     for (const Claim& claim : paper_claims(extent)) {
-      const bool many = claim.method.s > 8 && claim.problem != "tableau";
+      const bool many = s_of(claim) > 8 && claim.problem != "tableau";
       EXPECT_EQ(claim.least_digits, many ? 200u : 0u) << key_of(claim);
     }
 }
@@ -87,10 +91,10 @@ TEST(PaperClaims, QuickOnesAreInFullUpToK) {
   std::set<std::tuple<std::string, Quantity, std::string, int, Span, Form, double, double>> others;
   for (const Claim& claim : paper_claims(Extent::full)) {
     keys.insert(key_of(claim));
-    if (claim.method.k == claim.method.s + 2) others.insert(but_k(claim));
+    if (k_of(claim) == s_of(claim) + 2) others.insert(but_k(claim));
   }
   for (const Claim& claim : paper_claims(Extent::quick)) {
-    const bool moved = claim.method.k == claim.method.s + 1 && others.contains(but_k(claim));
+    const bool moved = k_of(claim) == s_of(claim) + 1 && others.contains(but_k(claim));
     EXPECT_TRUE(keys.contains(key_of(claim)) || moved) << key_of(claim);
   }
 }
@@ -103,7 +107,7 @@ TEST(PaperClaims, ProblemsAreBuiltIn) {
 
 TEST(PaperClaims, OrdersAreThoseOfTheTheorems) {
   for (const Claim& claim : paper_claims(Extent::full)) {
-    const int s = claim.method.s, one = claim.span == Span::step ? 1 : 0;
+    const int s = s_of(claim), one = claim.span == Span::step ? 1 : 0;
     const int even = s + s % 2;
     if (claim.label == "superconvergence" || claim.label == "ord2s, dli0" || claim.label == "no constraints") {
       EXPECT_EQ(claim.predicted, 2 * s + one) << key_of(claim);
@@ -121,7 +125,7 @@ TEST(PaperClaims, OrdersAreThoseOfTheTheorems) {
       EXPECT_EQ(claim.predicted, s) << key_of(claim);
     }
     if (claim.label == "evaik") {
-      EXPECT_EQ(claim.predicted, 2 * claim.method.k + one) << key_of(claim);
+      EXPECT_EQ(claim.predicted, 2 * k_of(claim) + one) << key_of(claim);
     }
   }
 }
@@ -135,9 +139,8 @@ TEST(PaperClaims, AreExactWhereTheLeadingTermIsKnown) {
     }
 }
 
-std::shared_ptr<const Tableau> tableau(const std::vector<std::vector<std::string>>& A,
-                                       const std::vector<std::string>& b, const std::vector<std::string>& c,
-                                       std::optional<int> order = {}) {
+Tableau tableau(const std::vector<std::vector<std::string>>& A, const std::vector<std::string>& b,
+                const std::vector<std::string>& c, std::optional<int> order = {}) {
   const auto parsed = [](const std::vector<std::string>& texts) {
     std::vector<Expression> row;
     for (const std::string& text : texts) row.push_back(Expression::parse(text));
@@ -145,7 +148,7 @@ std::shared_ptr<const Tableau> tableau(const std::vector<std::vector<std::string
   };
   Tableau t{"test", {}, parsed(b), parsed(c), order};
   for (const auto& row : A) t.A.push_back(parsed(row));
-  return std::make_shared<const Tableau>(t);
+  return t;
 }
 
 /// What is predicted of a quantity, at each place where it is claimed.
@@ -186,7 +189,7 @@ TEST(TableauClaims, OrderIsThatToTenDigits) {
 }
 
 TEST(TableauClaims, SymmetryAndSymplecticityAreClaimedOfThoseThatHaveThem) {
-  const auto expect = [](const std::shared_ptr<const Tableau>& t, std::size_t symmetric, std::size_t symplectic) {
+  const auto expect = [](const Tableau& t, std::size_t symmetric, std::size_t symplectic) {
     const auto claims = tableau_claims(t);
     EXPECT_EQ(predicted(claims, Quantity::reversal).size(), symmetric);
     EXPECT_EQ(predicted(claims, Quantity::angular_momentum).size(), symplectic);
@@ -210,7 +213,8 @@ TEST(TableauClaims, AreOfTheTableauAndDifferent) {
   const auto t = tableau({{"1/2"}}, {"1"}, {"1/2"});
   std::set<std::string> keys, problems;
   for (const Claim& claim : tableau_claims(t)) {
-    EXPECT_EQ(claim.tableau, t);
+    ASSERT_TRUE(as_tableau(*claim.method));
+    EXPECT_EQ(as_tableau(*claim.method)->tableau().b.front().text(), t.b.front().text());
     EXPECT_TRUE(keys.insert(key_of(claim)).second) << key_of(claim);
     problems.insert(claim.problem);
   }
@@ -227,15 +231,16 @@ TEST(ClaimKeys, TellAllButTheLabelApart) {
   expect(true, "label", [](Claim& c) { c.label = "another"; });
   expect(false, "quantity", [](Claim& c) { c.quantity = Quantity::W; });
   expect(false, "problem", [](Claim& c) { c.problem += "x"; });
-  expect(false, "k", [](Claim& c) { ++c.method.k; });
+  expect(false, "k", [](Claim& c) { c.method = hbvm_of({k_of(c) + 1, s_of(c)}); });
   expect(false, "span", [](Claim& c) { c.span = c.span == Span::step ? Span::interval : Span::step; });
   expect(false, "form", [](Claim& c) { c.form = Form::near; });
   expect(false, "predicted", [](Claim& c) { c.predicted += 1; });
   expect(false, "tolerance", [](Claim& c) { c.tolerance += 1; });
-  expect(false, "tableau", [](Claim& c) { c.tableau = tableau({{"1/2"}}, {"1"}, {"1/2"}); });
+  expect(false, "tableau",
+         [](Claim& c) { c.method = std::make_shared<const TableauMethod>(tableau({{"1/2"}}, {"1"}, {"1/2"}), ""); });
   const auto perturbed = [](bool hat, int i, int j, const char* relative) {
     return [=](Claim& c) {
-      c.perturbation = Perturbation{Perturbation::Part::integral, hat, i, j, Expression::parse(relative)};
+      c.method = hbvm_of({4, 3}, Perturbation{Perturbation::Part::integral, hat, i, j, Expression::parse(relative)});
     };
   };
   std::set<std::string> keys{key_of(base)};
@@ -249,7 +254,7 @@ TEST(ClaimKeys, TellAllButTheLabelApart) {
 
 /// Two tableaux may have one name, and the same numbers in another place.
 TEST(ClaimKeys, TellTableauxApart) {
-  const auto key = [](const std::shared_ptr<const Tableau>& t) { return key_of(tableau_claims(t).front()); };
+  const auto key = [](const Tableau& t) { return key_of(tableau_claims(t).front()); };
   EXPECT_NE(key(tableau({{"1/2"}}, {"1"}, {"1/2"}, 2)), key(tableau({{"1/2+1e-30"}}, {"1"}, {"1/2"}, 2)));
   EXPECT_NE(key(tableau({{"1/2"}}, {"1"}, {"1/2"}, 2)), key(tableau({{"1/2"}}, {"1"}, {"1/3"}, 2)));
 }

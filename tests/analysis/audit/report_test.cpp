@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/not_finite.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/tableau_method.hpp"
 
 namespace hbvm {
 namespace {
@@ -21,7 +23,7 @@ Finding finding(const std::string& label = "ord2s", const std::string& problem =
   f.claim.label = label;
   f.claim.quantity = Quantity::tangential_p;
   f.claim.problem = problem;
-  f.claim.method = {3, 2};
+  f.claim.method = hbvm_of({3, 2});
   f.claim.span = Span::step;
   f.claim.predicted = 5;
   f.verdict = Verdict::fails;
@@ -39,7 +41,7 @@ Finding finding(const std::string& label = "ord2s", const std::string& problem =
 }
 Finding of_tableau(const std::string& name) {
   Finding f = finding();
-  f.claim.tableau = std::make_shared<const Tableau>(Tableau{name, {}, {}, {}, {}});
+  f.claim.method = std::make_shared<const TableauMethod>(Tableau{name, {}, {}, {}, {}}, "");
   return f;
 }
 

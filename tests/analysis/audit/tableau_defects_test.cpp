@@ -4,15 +4,16 @@
 #include <limits>
 
 #include "analysis/audit/measurements.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 
 namespace hbvm {
 namespace {
 
 using Part = Perturbation::Part;
 
-Claim subject(MethodName method) {
+Claim subject(HbvmName method) {
   Claim claim = make_claim("test", Quantity::B, "tableau", Span::interval, Form::round_off, 0);
-  claim.method = method;
+  claim.method = hbvm_of(method);
   return claim;
 }
 
@@ -21,9 +22,9 @@ std::map<Quantity, double> in_units(std::map<Quantity, double> defects) {
   return defects;
 }
 
-std::map<Quantity, double> defects(MethodName method, Part part, bool hat, int i, int j = 0) {
+std::map<Quantity, double> defects(HbvmName method, Part part, bool hat, int i, int j = 0) {
   Claim claim = subject(method);
-  claim.perturbation = Perturbation{part, hat, i, j, Expression::parse("1e-9")};
+  claim.method = hbvm_of(method, Perturbation{part, hat, i, j, Expression::parse("1e-9")});
   return in_units(tableau_defects<double>(claim));
 }
 
@@ -31,7 +32,7 @@ const std::vector<Quantity> conditions{Quantity::B, Quantity::C,        Quantity
                                        Quantity::X, Quantity::symmetry, Quantity::W};
 
 TEST(TableauDefects, AreRoundOffForEveryMethod) {
-  for (const MethodName method : {MethodName{1, 1}, {3, 1}, {2, 2}, {5, 2}, {4, 4}, {7, 4}})
+  for (const HbvmName method : {HbvmName{1, 1}, {3, 1}, {2, 2}, {5, 2}, {4, 4}, {7, 4}})
     for (const auto& [quantity, units] : in_units(tableau_defects<double>(subject(method))))
       EXPECT_LE(units, 2 * method.k) << name_of(quantity) << " of " << method.text();
 }
@@ -39,7 +40,7 @@ TEST(TableauDefects, AreRoundOffForEveryMethod) {
 /// Each condition is tried on both sets of nodes: with k > s, a flaw in one set leaves the other as it is, and each of
 /// the conditions that hold such a number sees it.
 TEST(TableauDefects, EveryConditionSeesAFlawInEitherSetOfNodes) {
-  const MethodName method{4, 3};
+  const HbvmName method{4, 3};
   for (const bool hat : {false, true}) {
     for (const Part part : {Part::weight, Part::node}) {
       const auto found = defects(method, part, hat, 0);

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "hbvm/analysis/audit/convergence.hpp"
-#include "hbvm/method/method_name.hpp"
-#include "hbvm/method/perturbation.hpp"
-#include "hbvm/method/runge_kutta.hpp"
 #include "hbvm/scene/scene.hpp"
+#include "hbvm/step/method.hpp"
 
 namespace hbvm {
 
@@ -64,18 +62,16 @@ struct Claim {
   std::string label;  ///< of the paper's statement, or where else it is from
   Quantity quantity = Quantity::q;
   std::string problem;  ///< a scene, by name or file; "tableau" for the coefficients alone
-  MethodName method;
+  MethodPtr method;
   Span span = Span::interval;
   Form form = Form::at_least;
-  double predicted = 0;                      ///< rate, or value
-  double tolerance = 0;                      ///< of Form::near
-  unsigned least_digits = 0;                 ///< with which it must be looked at
-  std::shared_ptr<const Tableau> tableau{};  ///< in place of HBVM(k, s)
-  std::optional<Perturbation> perturbation{};
+  double predicted = 0;               ///< rate, or value
+  double tolerance = 0;               ///< of Form::near
+  unsigned least_digits = 0;          ///< with which it must be looked at
   bool of_degenerate_motion = false;  ///< it speaks of the very motion, though that says nothing of the method
 
   /// "HBVM(3,2)", or the tableau's name.
-  std::string method_text() const;
+  std::string method_text() const { return method->title(); }
 };
 
 /// A claim whose method is still to be said.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hbvm/analysis/audit/claim.hpp"
+#include "hbvm/method/runge_kutta.hpp"
 
 namespace hbvm {
 
@@ -20,14 +21,14 @@ std::vector<Claim> paper_claims(Extent extent);
 /// What a Runge-Kutta method must show on the problems without constraints: the order that its author states (if none,
 /// that which its conditions show to ten digits, as a look in double would have it), the order of the energy error, and
 /// symmetry and conservation of angular momentum if its coefficients say so to ten digits.
-std::vector<Claim> tableau_claims(const std::shared_ptr<const Tableau>& tableau);
+std::vector<Claim> tableau_claims(const Tableau& tableau);
 
 /// Claims written in TOML, an array of tables [[claim]] with
 ///
 ///     quantity = "raw p"          what name_of gives: "q", "H", "g", "hidden" …
 ///     problem = "double_pendulum" a scene, by name or file
-///     method = "hbvm:3,2"         or a file with a tableau
-///     rate = "2*s"                an expression of k and s; or "round-off"
+///     method = "hbvm:3,2"         what parse_method reads, or a file with a tableau
+///     rate = "2*s"                an expression of the method's k and s; or "round-off"
 ///     form = "exactly"            "at least" if absent
 ///     over = "step"               "interval" if absent
 ///     degenerate = true           if it speaks of a motion that says nothing of the method, a relative equilibrium

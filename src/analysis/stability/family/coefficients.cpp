@@ -75,7 +75,7 @@ void add_coefficients(std::vector<HardCase>& cases, Collection collection) {
   std::vector<std::pair<int, int>> methods{{12, 12}, {60, 40}};
   if (family.full()) methods.insert(methods.end(), {{200, 200}, {1000, 100}});
   for (const auto& [k, s] : methods)
-    family.add("coefficients of HBVM(k,s)", MethodName{k, s}.text(), all, holds(),
+    family.add("coefficients of HBVM(k,s)", HbvmName{k, s}.text(), all, holds(),
                [k = k, s = s](const std::string& precision) {
                  return against_more_digits(precision, [k, s]<Scalar S>() { return coefficients_in<S>(k, s); });
                });

@@ -16,7 +16,7 @@ CaseResult growth(const RunRequest& request) {
   const double time = evaluate<double>(request.until) / evaluate<double>(start.until);
   CaseResult result;
   // For odd s every second step takes back what the first added; for even s it adds up, at most like t.
-  const bool odd = request.method.s % 2 == 1;
+  const bool odd = request.method->stages() % 2 == 1;
   result.criteria = {{"growth of e_hid", factor, odd ? 2 : 2 * time}};
   result.warnings = warnings_of(whole);
   return result;

@@ -1,4 +1,4 @@
-#include "hbvm/method/method_name.hpp"
+#include "hbvm/method/hbvm_name.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,44 +7,44 @@
 namespace hbvm {
 namespace {
 
-TEST(MethodName, ReadsKAndS) {
-  const MethodName name = MethodName::parse("hbvm:5,3");
+TEST(HbvmName, ReadsKAndS) {
+  const HbvmName name = HbvmName::parse("hbvm:5,3");
   EXPECT_EQ(name.k, 5);
   EXPECT_EQ(name.s, 3);
   EXPECT_FALSE(name.is_auto());
 }
 
-TEST(MethodName, ReadsAuto) {
-  const MethodName name = MethodName::parse("hbvm:auto,3");
+TEST(HbvmName, ReadsAuto) {
+  const HbvmName name = HbvmName::parse("hbvm:auto,3");
   EXPECT_TRUE(name.is_auto());
   EXPECT_EQ(name.s, 3);
 }
 
-TEST(MethodName, TextReadsBack) {
+TEST(HbvmName, TextReadsBack) {
   for (const char* text : {"hbvm:1,1", "hbvm:5,3", "hbvm:1000,200", "hbvm:auto,1", "hbvm:auto,200"}) {
-    EXPECT_EQ(MethodName::parse(text).text(), text);
-    EXPECT_EQ(MethodName::parse(MethodName::parse(text).text()), MethodName::parse(text));
+    EXPECT_EQ(HbvmName::parse(text).text(), text);
+    EXPECT_EQ(HbvmName::parse(HbvmName::parse(text).text()), HbvmName::parse(text));
   }
 }
 
-TEST(MethodName, LimitsAreInclusive) {
-  EXPECT_NO_THROW((MethodName{1, 1}.check()));
-  EXPECT_NO_THROW((MethodName{max_k, max_s}.check()));
-  EXPECT_NO_THROW((MethodName{0, max_s}.check()));
-  EXPECT_THROW((MethodName{max_k + 1, 1}.check()), InputError);
-  EXPECT_THROW((MethodName{max_s + 1, max_s + 1}.check()), InputError);
-  EXPECT_THROW((MethodName{0, max_s + 1}.check()), InputError);
-  EXPECT_THROW((MethodName{2, 3}.check()), InputError);
-  EXPECT_THROW((MethodName{2, 0}.check()), InputError);
-  EXPECT_THROW((MethodName{0, 0}.check()), InputError);
-  EXPECT_THROW((MethodName{-3, 1}.check()), InputError);
+TEST(HbvmName, LimitsAreInclusive) {
+  EXPECT_NO_THROW((HbvmName{1, 1}.check()));
+  EXPECT_NO_THROW((HbvmName{max_k, max_s}.check()));
+  EXPECT_NO_THROW((HbvmName{0, max_s}.check()));
+  EXPECT_THROW((HbvmName{max_k + 1, 1}.check()), InputError);
+  EXPECT_THROW((HbvmName{max_s + 1, max_s + 1}.check()), InputError);
+  EXPECT_THROW((HbvmName{0, max_s + 1}.check()), InputError);
+  EXPECT_THROW((HbvmName{2, 3}.check()), InputError);
+  EXPECT_THROW((HbvmName{2, 0}.check()), InputError);
+  EXPECT_THROW((HbvmName{0, 0}.check()), InputError);
+  EXPECT_THROW((HbvmName{-3, 1}.check()), InputError);
 }
 
 class RefusedMethod : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RefusedMethod, IsAnInputErrorThatQuotesIt) {
   try {
-    MethodName::parse(GetParam());
+    HbvmName::parse(GetParam());
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(GetParam()), std::string::npos) << error.what();

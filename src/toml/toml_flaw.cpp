@@ -1,4 +1,4 @@
-#include "toml_flaw.hpp"
+#include "toml/toml_flaw.hpp"
 
 #include <algorithm>
 

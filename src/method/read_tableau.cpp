@@ -1,14 +1,14 @@
-#include "hbvm/analysis/read_tableau.hpp"
+#include "hbvm/method/read_tableau.hpp"
 
 #include <filesystem>
 
 #include "hbvm/read_file.hpp"
-#include "scene/toml_table.hpp"
+#include "toml/toml_table.hpp"
 
 namespace hbvm {
 namespace {
 
-std::string at(std::size_t i) { return "[" + std::to_string(i + 1) + "]"; }
+std::string numbered(std::size_t i) { return "[" + std::to_string(i + 1) + "]"; }
 
 /// Refuses a number that has no value, which shows in any number of bits.
 void check_value(const TomlTable& table, const toml::node& node, const Expression& number, const std::string& place) {
@@ -34,7 +34,7 @@ std::vector<Expression> entries(const TomlTable& table, const toml::node& node, 
         node, place + " has " + std::to_string(array.size()) + " entries, but A has " + std::to_string(size) + " rows");
   std::vector<Expression> result;
   for (const toml::node& number : array) {
-    const std::string where = place + at(result.size());
+    const std::string where = place + numbered(result.size());
     result.push_back(table.to_number(number, where));
     check_value(table, number, result.back(), where);
   }
@@ -84,12 +84,12 @@ Tableau read_tableau(const std::string& path) {
   if (s == 0 || s > max_tableau_stages)
     top.fail(*A, "A has " + std::to_string(s) + " rows: a method has from 1 to " + std::to_string(max_tableau_stages) +
                      " stages");
-  for (const toml::node& row : rows) tableau.A.push_back(entries(top, row, s, "A" + at(tableau.A.size())));
+  for (const toml::node& row : rows) tableau.A.push_back(entries(top, row, s, "A" + numbered(tableau.A.size())));
   tableau.b = entries(top, *b, s, "b");
   if (c)
     tableau.c = entries(top, *c, s, "c");
   else
-    for (std::size_t i = 0; i < s; ++i) tableau.c.push_back(sum_of(top, rows[i], tableau.A[i], "A" + at(i)));
+    for (std::size_t i = 0; i < s; ++i) tableau.c.push_back(sum_of(top, rows[i], tableau.A[i], "A" + numbered(i)));
   return tableau;
 }
 

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/read_tableau.hpp"
+#include "hbvm/method/read_tableau.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string gauss = R"(name = "Gauss, two stages"
+const std::string two_stages = R"(name = "Gauss, two stages"
 order = 4
 A = [["1/4", "1/4-sqrt(3)/6"],
      ["1/4+sqrt(3)/6", 0.25]]
@@ -50,7 +50,7 @@ class ReadTableau : public ::testing::Test {
     return "nothing";
   }
   static std::string changed(const std::string& from, const std::string& to) {
-    std::string text = gauss;
+    std::string text = two_stages;
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return text.replace(at, from.size(), to);
@@ -65,7 +65,7 @@ class ReadTableau : public ::testing::Test {
 };
 
 TEST_F(ReadTableau, TakesAllKeys) {
-  const Tableau tableau = read(gauss);
+  const Tableau tableau = read(two_stages);
   EXPECT_EQ(tableau.name, "Gauss, two stages");
   EXPECT_EQ(tableau.order, 4);
   EXPECT_EQ(tableau.stages(), 2);
@@ -103,9 +103,9 @@ TEST_F(ReadTableau, RefusesKeys) {
   expect_refusal("b = [1]\n", "1", {"'A' is missing"});
   expect_refusal("", "1", {"'A' is missing"});
   expect_refusal(changed("order", "ordre"), "2", {"unknown key 'ordre'", "did you mean 'order'"});
-  expect_refusal(gauss + "d = 1\n", "7", {"unknown key 'd'"});
-  expect_refusal(gauss + "b = [1, 2]\n", "7", {});
-  expect_refusal(gauss + "[more]\nx = 1\n", "7", {"unknown key 'more'"});
+  expect_refusal(two_stages + "d = 1\n", "7", {"unknown key 'd'"});
+  expect_refusal(two_stages + "b = [1, 2]\n", "7", {});
+  expect_refusal(two_stages + "[more]\nx = 1\n", "7", {"unknown key 'more'"});
 }
 
 TEST_F(ReadTableau, RefusesNamesAndOrders) {
@@ -183,9 +183,9 @@ TEST_F(ReadTableau, ReadsOrRefusesAnyChangedCharacters) {
     } catch (const InputError&) {
     }
   };
-  for (std::size_t length = 0; length < gauss.size(); ++length) read_or_refuse(gauss.substr(0, length));
+  for (std::size_t length = 0; length < two_stages.size(); ++length) read_or_refuse(two_stages.substr(0, length));
   for (int trial = 0; trial < 1'000; ++trial) {
-    std::string text = gauss;
+    std::string text = two_stages;
     for (unsigned changes = 1 + random() % 3; changes > 0; --changes)
       text[random() % text.size()] = characters[random() % characters.size()];
     read_or_refuse(text);

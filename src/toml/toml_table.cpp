@@ -1,8 +1,8 @@
-#include "toml_table.hpp"
+#include "toml/toml_table.hpp"
 
 #include <algorithm>
 
-#include "toml_flaw.hpp"
+#include "toml/toml_flaw.hpp"
 
 namespace hbvm {
 
@@ -134,27 +134,27 @@ std::optional<Expression> TomlTable::optional_number(std::string_view key) {
   return to_number(*node, "'" + std::string(key) + "'");
 }
 
-SceneVector TomlTable::to_vector(const toml::node& node, std::size_t size, const std::string& where) const {
+std::vector<Expression> TomlTable::to_vector(const toml::node& node, std::size_t size, const std::string& where) const {
   const toml::array* const array = node.as_array();
   if (!array) fail(node, where + " must be an array of " + std::to_string(size) + " numbers");
   if (array->size() != size)
     fail(node, where + " has " + std::to_string(array->size()) + " entries instead of " + std::to_string(size));
-  SceneVector result;
+  std::vector<Expression> result;
   for (const toml::node& entry : *array)
     result.push_back(to_number(entry, "entry " + std::to_string(result.size() + 1) + " of " + where));
   return result;
 }
 
-SceneVector TomlTable::vector(std::string_view key, std::size_t size) {
+std::vector<Expression> TomlTable::vector(std::string_view key, std::size_t size) {
   return to_vector(require(key), size, "'" + std::string(key) + "'");
 }
 
-SceneMatrix TomlTable::matrix(std::string_view key, std::size_t size) {
+std::vector<std::vector<Expression>> TomlTable::matrix(std::string_view key, std::size_t size) {
   const toml::node& node = require(key);
   const std::string where = "'" + std::string(key) + "'";
   const toml::array* const array = node.as_array();
   if (!array || array->size() != size) fail(node, where + " must be an array of " + std::to_string(size) + " rows");
-  SceneMatrix result;
+  std::vector<std::vector<Expression>> result;
   for (const toml::node& row : *array)
     result.push_back(to_vector(row, size, "row " + std::to_string(result.size() + 1) + " of " + where));
   return result;

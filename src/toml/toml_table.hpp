@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "hbvm/scalar/expression.hpp"
-#include "hbvm/scene/scene.hpp"
 
 namespace hbvm {
 
@@ -54,14 +53,14 @@ class TomlTable {
   bool is_array(std::string_view key) const;
   Expression number(std::string_view key);
   std::optional<Expression> optional_number(std::string_view key);
-  SceneVector vector(std::string_view key, std::size_t size);
-  SceneMatrix matrix(std::string_view key, std::size_t size);
+  std::vector<Expression> vector(std::string_view key, std::size_t size);
+  std::vector<std::vector<Expression>> matrix(std::string_view key, std::size_t size);
   std::vector<std::string> strings(std::string_view key);
   /// The tables of an array of tables [[key]]; none if it is absent.
   std::vector<const toml::table*> tables(std::string_view key);
 
   Expression to_number(const toml::node& node, const std::string& where) const;
-  SceneVector to_vector(const toml::node& node, std::size_t size, const std::string& where) const;
+  std::vector<Expression> to_vector(const toml::node& node, std::size_t size, const std::string& where) const;
   std::string to_string(const toml::node& node, const std::string& where) const;
 
   /// \throws InputError naming the first unknown key and the nearest known one

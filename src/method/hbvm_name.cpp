@@ -1,4 +1,4 @@
-#include "hbvm/method/method_name.hpp"
+#include "hbvm/method/hbvm_name.hpp"
 
 #include <charconv>
 
@@ -6,16 +6,16 @@
 
 namespace hbvm {
 
-void MethodName::check() const {
+void HbvmName::check() const {
   if (s < 1) throw InputError("method " + text() + ": S must be at least 1");
   if (k != 0 && k < s) throw InputError("method " + text() + ": K must be at least S");
   if (s > max_s) throw InputError("method " + text() + ": S must be at most " + std::to_string(max_s));
   if (k > max_k) throw InputError("method " + text() + ": K must be at most " + std::to_string(max_k));
 }
 
-MethodName MethodName::parse(std::string_view text) {
+HbvmName HbvmName::parse(std::string_view text) {
   constexpr std::string_view prefix = "hbvm:";
-  MethodName name;
+  HbvmName name;
   if (text.starts_with(prefix)) {
     const char* const end = text.data() + text.size();
     constexpr std::string_view automatic = "auto";

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "hbvm/method/hbvm_name.hpp"
+#include "hbvm/method/perturbation.hpp"
+#include "hbvm/step/method.hpp"
+
+namespace hbvm {
+
+/// HBVM(k, s), of order 2s in q and the tangential momentum; hbvm:auto,S as long as its k is not chosen. For an audit
+/// one of its numbers may be wrong.
+class HbvmMethod final : public MethodByTemplate<HbvmMethod> {
+ public:
+  /// \throws InputError as HbvmName::check and perturb do
+  explicit HbvmMethod(HbvmName name, std::optional<Perturbation> perturbation = {});
+
+  const HbvmName& name() const { return name_; }
+  const std::optional<Perturbation>& perturbation() const { return perturbation_; }
+  /// \throws InputError if k is not chosen
+  template <Scalar S>
+  Hbvm<S> coefficients() const;
+
+  std::string text() const override { return name_.text(); }
+  std::string title() const override;
+  std::string key() const override;
+  int order() const override { return 2 * name_.s; }
+  int stages() const override { return name_.s; }
+  int terms() const override { return name_.k + name_.s; }
+  Kept kept() const override;
+  Constants parameters() const override;
+
+  template <Scalar S>
+  StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind solver) const;
+
+ private:
+  HbvmName name_;
+  std::optional<Perturbation> perturbation_;
+};
+
+/// \throws InputError as HbvmName::check does
+MethodPtr hbvm_of(HbvmName name, std::optional<Perturbation> perturbation = {});
+
+/// From "K,S" or "auto,S". \throws InputError
+MethodPtr hbvm_method(std::string_view arguments);
+
+/// The method as one of these, or null.
+const HbvmMethod* as_hbvm(const Method& method);
+
+#define HBVM_DECLARE(S)                                        \
+  extern template Hbvm<S> HbvmMethod::coefficients<S>() const; \
+  extern template StepperMaker<S> HbvmMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

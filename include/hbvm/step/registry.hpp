@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "hbvm/step/method.hpp"
+
+namespace hbvm {
+
+/// One kind of method: its name before the colon, how it is used, and what makes one from the text after the colon.
+struct MethodFamily {
+  std::string_view name, usage;
+  MethodPtr (*make)(std::string_view arguments);
+};
+
+/// All there are.
+const std::vector<MethodFamily>& method_families();
+
+/// \throws InputError for a family or arguments that do not exist, with what there is
+MethodPtr parse_method(std::string_view text);
+
+/// The usage of each family, separated by "; ".
+std::string method_usage();
+
+}  // namespace hbvm

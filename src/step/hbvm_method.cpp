@@ -1,0 +1,64 @@
+#include "hbvm/step/hbvm_method.hpp"
+
+#include "hbvm/step/hbvm_stepper.hpp"
+
+namespace hbvm {
+
+HbvmMethod::HbvmMethod(HbvmName name, std::optional<Perturbation> perturbation)
+    : name_(name), perturbation_(std::move(perturbation)) {
+  name_.check();
+  if (perturbation_) static_cast<void>(coefficients<double>());
+}
+
+template <Scalar S>
+Hbvm<S> HbvmMethod::coefficients() const {
+  Hbvm<S> method = make_hbvm<S>(name_.k, name_.s);
+  if (perturbation_) perturb(method, *perturbation_);
+  return method;
+}
+
+std::string HbvmMethod::title() const {
+  return "HBVM(" + (name_.is_auto() ? "auto" : std::to_string(name_.k)) + "," + std::to_string(name_.s) + ")";
+}
+
+std::string HbvmMethod::key() const {
+  if (!perturbation_) return text();
+  const Perturbation& p = *perturbation_;
+  return text() + "|" + std::to_string(static_cast<int>(p.part)) + (p.hat ? "^" : "") + std::to_string(p.i) + "," +
+         std::to_string(p.j) + "," + p.relative.text();
+}
+
+Kept HbvmMethod::kept() const {
+  return {.energy = true, .momenta = name_.k == name_.s, .constraints = true, .hidden = false, .reversal = true};
+}
+
+Constants HbvmMethod::parameters() const {
+  Constants letters;
+  letters.insert_or_assign("s", Expression::parse(std::to_string(name_.s)));
+  if (!name_.is_auto()) letters.insert_or_assign("k", Expression::parse(std::to_string(name_.k)));
+  return letters;
+}
+
+template <Scalar S>
+StepperMaker<S> HbvmMethod::prepare_in(const Problem<S>& problem, SolverKind solver) const {
+  return [&problem, solver, method = std::make_shared<const Hbvm<S>>(coefficients<S>())] {
+    return std::make_unique<HbvmStepper<S>>(problem, method, solver);
+  };
+}
+
+MethodPtr hbvm_of(HbvmName name, std::optional<Perturbation> perturbation) {
+  return std::make_shared<const HbvmMethod>(name, std::move(perturbation));
+}
+
+MethodPtr hbvm_method(std::string_view arguments) {
+  return std::make_shared<const HbvmMethod>(HbvmName::parse("hbvm:" + std::string(arguments)));
+}
+
+const HbvmMethod* as_hbvm(const Method& method) { return dynamic_cast<const HbvmMethod*>(&method); }
+
+#define HBVM_DEFINE(S)                                  \
+  template Hbvm<S> HbvmMethod::coefficients<S>() const; \
+  template StepperMaker<S> HbvmMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,34 @@
+#include "hbvm/step/registry.hpp"
+
+#include "hbvm/method/method_spec.hpp"
+#include "hbvm/step/composition.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/rattle.hpp"
+#include "hbvm/step/tableau_method.hpp"
+
+namespace hbvm {
+
+const std::vector<MethodFamily>& method_families() {
+  static const std::vector<MethodFamily> families{
+      {"hbvm", "hbvm:K,S with whole numbers K >= S >= 1, as hbvm:5,3, or hbvm:auto,S", hbvm_method},
+      {"rattle", "rattle", rattle_method},
+      {"compose", "compose:rattle,P with an even order P", composition_method},
+      {"tableau", "tableau:FILE, or tableau:FILE+project", tableau_method},
+  };
+  return families;
+}
+
+MethodPtr parse_method(std::string_view text) {
+  const MethodSpec spec = MethodSpec::parse(text);
+  for (const MethodFamily& family : method_families())
+    if (family.name == spec.family) return family.make(spec.arguments);
+  throw InputError("unknown method '" + std::string(text) + "': use " + method_usage());
+}
+
+std::string method_usage() {
+  std::string text;
+  for (const MethodFamily& family : method_families()) text += (text.empty() ? "" : "; ") + std::string(family.usage);
+  return text;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,83 @@
+#include "hbvm/step/tableau_method.hpp"
+
+#include "hbvm/method/read_tableau.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr std::string_view projected = "+project";
+constexpr unsigned digits = 50;
+
+/// What the sums of its conditions may lose.
+Mpfr tolerance() { return 1 / pow(Mpfr(10), digits - 10); }
+
+}  // namespace
+
+TableauMethod::TableauMethod(Tableau tableau, std::string file, OnConstraints on_constraints)
+    : tableau_(std::move(tableau)), file_(std::move(file)), on_constraints_(on_constraints) {}
+
+int TableauMethod::order() const {
+  if (tableau_.order) return *tableau_.order;
+  const PrecisionScope scope(digits);
+  return hbvm::order(make_runge_kutta<Mpfr>(tableau_), tolerance());
+}
+
+Kept TableauMethod::kept() const {
+  if (on_constraints_ == OnConstraints::project)
+    return {.energy = false, .momenta = false, .constraints = true, .hidden = true, .reversal = false};
+  const PrecisionScope scope(digits);
+  const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau_);
+  return {.energy = false,
+          .momenta = symplecticity_defect(method) <= tolerance(),
+          .constraints = false,
+          .hidden = false,
+          .reversal = symmetry_defect(method) <= tolerance()};
+}
+
+std::string TableauMethod::text() const {
+  return "tableau:" + file_ + (on_constraints_ == OnConstraints::project ? std::string(projected) : "");
+}
+
+std::string TableauMethod::title() const {
+  return tableau_.name + (on_constraints_ == OnConstraints::project ? ", projected" : "");
+}
+
+std::string TableauMethod::key() const {
+  std::string key = title();
+  for (const auto& row : tableau_.A)
+    for (const Expression& x : row) key += "," + x.text();
+  for (const Expression& x : tableau_.b) key += "," + x.text();
+  for (const Expression& x : tableau_.c) key += "," + x.text();
+  return key;
+}
+
+Constants TableauMethod::parameters() const {
+  Constants letters;
+  letters.insert_or_assign("s", Expression::parse(std::to_string(stages())));
+  return letters;
+}
+
+template <Scalar S>
+StepperMaker<S> TableauMethod::prepare_in(const Problem<S>& problem, SolverKind) const {
+  return [&problem, method = make_runge_kutta<S>(tableau_), on_constraints = on_constraints_] {
+    return std::make_unique<RungeKuttaStepper<S>>(problem, method, on_constraints);
+  };
+}
+
+MethodPtr tableau_method(std::string_view arguments) {
+  OnConstraints on_constraints = OnConstraints::drift;
+  if (arguments.ends_with(projected)) {
+    on_constraints = OnConstraints::project;
+    arguments.remove_suffix(projected.size());
+  }
+  const std::string file(arguments);
+  if (file.empty()) throw InputError("method tableau: use tableau:FILE, or tableau:FILE+project");
+  return std::make_shared<const TableauMethod>(read_tableau(file), file, on_constraints);
+}
+
+const TableauMethod* as_tableau(const Method& method) { return dynamic_cast<const TableauMethod*>(&method); }
+
+#define HBVM_DEFINE(S) template StepperMaker<S> TableauMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

@@ -1,0 +1,101 @@
+#include "hbvm/step/composition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/rattle.hpp"
+#include "hbvm/step/registry.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class Compositions : public ::testing::Test {
+ protected:
+  PrecisionScope digits{60};
+};
+TYPED_TEST_SUITE(Compositions, AllScalars, ScalarNames);
+
+/// Those of order 4 sum to 1 and their third powers to 0; symmetric in every order.
+TYPED_TEST(Compositions, StepsFulfilTheirConditions) {
+  using S = TypeParam;
+  EXPECT_EQ(composition_steps<S>(2), Vector<S>::Constant(1, S(1)));
+  for (const int order : {4, 6, 8}) {
+    const Vector<S> steps = composition_steps<S>(order);
+    ASSERT_EQ(steps.size(), std::lround(std::pow(5, order / 2 - 1)));
+    S sum = 0, cubes = 0, fifths = 0;
+    for (Index i = 0; i < steps.size(); ++i) {
+      EXPECT_EQ(steps[i], steps[steps.size() - 1 - i]);
+      sum += steps[i];
+      cubes += steps[i] * steps[i] * steps[i];
+      fifths += steps[i] * steps[i] * steps[i] * steps[i] * steps[i];
+    }
+    const S tolerance = S(steps.size()) * epsilon<S>();
+    EXPECT_LE(magnitude(S(sum - 1)), tolerance);
+    EXPECT_LE(magnitude(cubes), tolerance);
+    if (order >= 6) {
+      EXPECT_LE(magnitude(fifths), tolerance);
+    }
+  }
+}
+
+TEST(CompositionSteps, HaveAnEvenOrder) {
+  for (const int order : {-2, 0, 1, 3, 13, 14}) EXPECT_THROW(composition_steps<double>(order), InputError);
+}
+
+/// The error at a fixed time falls by 2^P.
+TEST(Composition, OfRattleHasItsOrder) {
+  const PrecisionScope digits(60);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("double_pendulum"));
+  const auto end = [&](const char* method, long steps) {
+    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
+    State<Mpfr> state(scene.q0, scene.p0);
+    for (long n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / (4 * steps)));
+    return state;
+  };
+  const State<Mpfr> expected = end("hbvm:12,12", 8);
+  for (const auto& [method, order] : {std::pair("compose:rattle,4", 4), {"compose:rattle,6", 6}}) {
+    const Mpfr coarse = distance(end(method, 8).q, expected.q), fine = distance(end(method, 16).q, expected.q);
+    EXPECT_NEAR(std::log2(approximately(Mpfr(coarse / fine))), order, 0.25) << method;
+  }
+}
+
+/// Constraints are kept, and as many steps back lead to the start.
+TYPED_TEST(Compositions, KeepConstraintsAndComeBack) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  const auto stepper = parse_method("compose:rattle,4")->make_stepper(scene.problem, SolverKind::automatic);
+  State<S> state(scene.q0, scene.p0);
+  const S h = S(1) / 32;
+  Point<S> point(scene.problem);
+  for (int n = 0; n < 16; ++n) {
+    stepper->step(state, h);
+    EXPECT_LE(max_norm(point.constraints(state.q)), 16 * epsilon<S>());
+    EXPECT_LE(max_norm(point.hidden_constraints(state.q, state.p)), 64 * epsilon<S>());
+  }
+  state.p = -state.p;
+  for (int n = 0; n < 16; ++n) stepper->step(state, h);
+  EXPECT_LE(distance(state.q, scene.q0), 10'000 * epsilon<S>());
+}
+
+/// A part that cannot be made leaves the state, and the failure says which it was.
+TEST(Composition, ThatFailsLeavesTheState) {
+  const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
+  CompositionStepper<double> stepper(std::make_unique<Rattle<double>>(scene.problem), composition_steps<double>(4));
+  State<double> state(scene.q0, scene.p0);
+  try {
+    stepper.step(state, 100);
+    ADD_FAILURE() << "it was made";
+  } catch (const StageFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("of 5"), std::string::npos) << failure.what();
+  }
+  EXPECT_EQ(state.q, scene.q0);
+  EXPECT_EQ(state.p, scene.p0);
+}
+
+}  // namespace
+}  // namespace hbvm
