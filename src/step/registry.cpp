@@ -3,6 +3,7 @@
 #include "hbvm/method/method_spec.hpp"
 #include "hbvm/step/composition.hpp"
 #include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/lobatto.hpp"
 #include "hbvm/step/rattle.hpp"
 #include "hbvm/step/tableau_method.hpp"
 
@@ -12,6 +13,7 @@ const std::vector<MethodFamily>& method_families() {
   static const std::vector<MethodFamily> families{
       {"hbvm", "hbvm:K,S with whole numbers K >= S >= 1, as hbvm:5,3, or hbvm:auto,S", hbvm_method},
       {"rattle", "rattle", rattle_method},
+      {"lobatto", "lobatto:S with S >= 2, as lobatto:3", lobatto_method},
       {"compose", "compose:rattle,P with an even order P", composition_method},
       {"tableau", "tableau:FILE, or tableau:FILE+project", tableau_method},
   };

@@ -1,0 +1,373 @@
+#include "hbvm/step/lobatto.hpp"
+
+#include <charconv>
+
+#include "add_compensated.hpp"
+#include "copy_state.hpp"
+#include "hbvm/basis/legendre.hpp"
+#include "hbvm/linear/arrays.hpp"
+#include "hbvm/linear/product.hpp"
+#include "hbvm/method/hbvm_name.hpp"
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+namespace {
+
+/// The roots of (1 - x^2) P_N', x = 2c - 1, by Newton's method: the derivative is -N (N + 1) P_N, and the function
+/// itself N (P_{N-1} - x P_N).
+Vector<Mpfr> lobatto_nodes(int s) {
+  const int N = s - 1;
+  const Mpfr pi = 4 * atan(Mpfr(1));
+  const Mpfr ratio = sqrt(Mpfr(2 * N + 1) / (2 * N - 1));  // P_{N-1} and P_N are normed
+  // Convergence is quadratic: what follows so small a change is round-off.
+  const Mpfr small = ldexp(Mpfr(1), -static_cast<int>(mpfr_working_bits()) * 2 / 3);
+  Vector<Mpfr> c(s);
+  c[0] = 0;
+  c[N] = 1;
+  Vector<Mpfr> node(1);
+  for (int i = 1; 2 * i <= N; ++i) {
+    Mpfr& x = node[0];
+    x = (1 - cos(pi * i / N)) / 2;
+    constexpr int most = 100;
+    for (int n = 0; n < most; ++n) {
+      const Matrix<Mpfr> P = legendre_values<Mpfr>(node, s);
+      const Mpfr change = ((2 * x - 1) - ratio * P(0, N - 1) / P(0, N)) / (2 * (N + 1));
+      x -= change;
+      if (abs(change) < small) break;
+    }
+    if (2 * i == N) x = Mpfr(1) / 2;
+    c[i] = x;
+    c[N - i] = 1 - x;
+  }
+  return c;
+}
+
+template <Scalar S, class Array>
+auto rounded(const Array& a) {
+  Eigen::Matrix<S, Array::RowsAtCompileTime, Array::ColsAtCompileTime> r(a.rows(), a.cols());
+  for (Index i = 0; i < a.size(); ++i) r.data()[i] = rounded_to<S>(raw(a.data()[i]));
+  return r;
+}
+
+}  // namespace
+
+template <Scalar S>
+Lobatto<S> make_lobatto(int s) {
+  if (s < 2 || s > max_s)
+    throw InputError("method lobatto:" + std::to_string(s) + ": S is from 2 to " + std::to_string(max_s));
+  const auto digits = static_cast<unsigned>(digits10<S>());
+  const unsigned guard = 20 + static_cast<unsigned>(s);
+  Lobatto<Mpfr> exact;
+  {
+    const PrecisionScope guarded(digits + guard);
+    const int N = s - 1;
+    exact.c = lobatto_nodes(s);
+    const Matrix<Mpfr> P = legendre_values<Mpfr>(exact.c, s), I = legendre_integrals<Mpfr>(exact.c, s);
+    exact.b.resize(s);
+    for (int i = 0; i < s; ++i) exact.b[i] = Mpfr(2 * N + 1) / (N * (N + 1) * P(i, N) * P(i, N));
+    // The formula integrates P_i P_j exactly but for i = j = N, where it finds 2 + 1/N for 1.
+    Matrix<Mpfr> projection(s, s);
+    for (int j = 0; j < s; ++j)
+      for (int i = 0; i < s; ++i) projection(j, i) = exact.b[i] * P(i, j) * (j == N ? Mpfr(N) / (2 * N + 1) : Mpfr(1));
+    exact.A = I.lazyProduct(projection);
+    for (int j = 0; j < s; ++j) {
+      exact.A(0, j) = 0;
+      exact.A(N, j) = exact.b[j];
+    }
+    exact.A_hat.resize(s, s);
+    for (int i = 0; i < s; ++i)
+      for (int j = 0; j < s; ++j)
+        exact.A_hat(i, j) = j == N ? Mpfr(0) : Mpfr(exact.b[j] * (1 - exact.A(j, i) / exact.b[i]));
+    exact.A_A_hat = exact.A.lazyProduct(exact.A_hat);
+  }
+  const PrecisionScope working(digits);
+  return {rounded<S>(exact.c), rounded<S>(exact.b), rounded<S>(exact.A), rounded<S>(exact.A_hat),
+          rounded<S>(exact.A_A_hat)};
+}
+
+template <Scalar S>
+LobattoStepper<S>::LobattoStepper(const Problem<S>& problem, std::shared_ptr<const Lobatto<S>> method)
+    : problem_(problem),
+      method_(std::move(method)),
+      b_(method_->b.transpose()),
+      potential_(problem.potential, method_->s()),
+      gradient_(problem, method_->s()),
+      projection_(problem),
+      P_(Matrix<S>::Zero(method_->s(), problem.m())),
+      P_before_(P_),
+      Q_(P_),
+      V_(P_),
+      F_(P_),
+      lambda_(Matrix<S>::Zero(method_->s(), problem.nu())),
+      pull_(lambda_),
+      g_(lambda_),
+      coupling_(method_->s(), method_->s()),
+      rhs_((method_->s() - 1) * problem.nu()),
+      position_change_(Matrix<S>::Zero(1, problem.m())),
+      momentum_change_(position_change_),
+      extrapolation_(method_->s(), problem.m() + problem.nu()),
+      sequence_(method_->s() * (problem.m() + problem.nu())),
+      position_scale_(problem),
+      positions_(problem.m()),
+      // The lengths of the sums of one sweep, and 4 for what they are passed through.
+      rule_(problem.m(), static_cast<long>(4 * (3 * method_->s() + problem.m() + method_->s() * problem.nu()))),
+      before_(Vector<S>::Zero(problem.m()), Vector<S>::Zero(problem.m())),
+      multiplier_(Vector<S>::Zero(problem.nu())) {
+  std::vector<std::pair<Index, Index>> entries;
+  for (const auto& pair : gradient_.couplings()) entries.emplace_back(pair.a, pair.b);
+  order_ = order_for_band(problem.nu(), entries);
+  const Index blocks = method_->s() - 1;
+  system_.resize(blocks * problem.nu(), blocks * (order_.half_bandwidth + 1) - 1);
+  describe_parts();
+}
+
+template <Scalar S>
+void LobattoStepper<S>::describe_parts() {
+  const Index s = method_->s(), m = problem_.m(), nu = problem_.nu();
+  parts_ = {{"stages"},           {"constraint gradients at stages"},
+            {"matrix at stages"}, {"factors at stages"},
+            {"multipliers"},      {"sums over stages"}};
+  OperationCounts& stage = parts_[stages].per_call;
+  stage = static_cast<std::uint64_t>(s) * problem_.mass.operations();
+  stage.add_dots(2 * m * s, s);
+  stage.add(Op::multiply, 2 * m * s);
+  stage.add(Op::add, 2 * m * s);
+  stage.add_products(s * gradient_.stored());
+  parts_[gradients].per_call = gradient_.operations();
+  for (const auto& pair : gradient_.couplings()) {
+    parts_[matrix].per_call.add_dots(s * s, static_cast<Index>(pair.terms.size()));
+    parts_[matrix].per_call.add(Op::multiply, (s - 1) * (s - 1));
+  }
+  parts_[factors].per_call = system_.factor_operations();
+  parts_[solution].per_call = system_.solve_operations();
+  parts_[solution].per_call.add(Op::add, (s - 1) * nu);
+  parts_[sums].per_call.add_dots(2 * m, s);
+  parts_[sums].per_call.add(Op::multiply, 2 * m);
+  parts_[sums].per_call.add(Op::add, 2 * m);
+}
+
+template <Scalar S>
+SolverCounts LobattoStepper<S>::counts() const {
+  SolverCounts now{potential_.counts(), parts_};
+  now.parts.insert(now.parts.end(), projection_.part_counts().begin(), projection_.part_counts().end());
+  return sum_of(earlier_, now, problem_);
+}
+
+template <Scalar S>
+void LobattoStepper<S>::measure_time() {
+  timed_ = true;
+  potential_.measure_time();
+  projection_.measure_time();
+}
+
+template <Scalar S>
+void LobattoStepper<S>::remember(Archive& archive) {
+  archive(h_, extrapolation_, multiplier_);
+  this->remember_counts(archive, earlier_);
+}
+
+template <Scalar S>
+bool LobattoStepper<S>::correct_multipliers() {
+  // The matrix at nodes near the solution serves all sweeps: it multiplies a residual that goes to 0.
+  constexpr long near = 3;
+  const Index s = method_->s();
+  if (rule_.sweeps() < near) {
+    {
+      const PartCall counted = call(matrix);
+      system_.set_zero();
+      for (const auto& pair : gradient_.couplings()) {
+        gradient_.coupling(pair, gradient_, coupling_.data());
+        for (Index j = 0; j + 1 < s; ++j)
+          for (Index i = 1; i < s; ++i)
+            set_product(system_.entry(place(pair.a) + i - 1, place(pair.b) + j), coupling_(i, j),
+                        method_->A_A_hat(i, j));
+      }
+    }
+    const PartCall counted = call(factors);
+    if (!system_.factor()) return false;
+  }
+  const PartCall counted = call(solution);
+  for (Index a = 0; a < g_.cols(); ++a)
+    for (Index i = 1; i < s; ++i) {
+      S& r = rhs_[place(a) + i - 1];
+      set_quotient(r, g_(i, a), h_);
+      set_quotient(r, r, h_);
+    }
+  system_.solve(rhs_);
+  for (Index a = 0; a < g_.cols(); ++a)
+    for (Index j = 0; j + 1 < s; ++j) set_sum(lambda_(j, a), lambda_(j, a), rhs_[place(a) + j]);
+  return true;
+}
+
+template <Scalar S>
+bool LobattoStepper<S>::sweep(const State<S>& state) {
+  const auto shift = [&](Matrix<S>& x, const Vector<S>& base) {
+    for (Index j = 0; j < x.cols(); ++j)
+      for (Index i = 0; i < x.rows(); ++i) {
+        set_product(x(i, j), h_, x(i, j));
+        set_sum(x(i, j), base[j], x(i, j));
+      }
+  };
+  {
+    const PartCall counted = call(stages);
+    problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
+    product(Q_, method_->A, V_);
+    shift(Q_, state.q);
+  }
+  potential_.force(lanes(std::as_const(Q_)), F_);
+  if (problem_.nu() > 0) {
+    {
+      const PartCall counted = call(gradients);
+      gradient_.update(lanes(std::as_const(Q_)), g_);
+    }
+    if (!correct_multipliers()) return false;
+    for (Index i = 0; i < lambda_.size(); ++i) set_negative(pull_.data()[i], lambda_.data()[i]);
+    gradient_.add_times(pull_, lanes(F_));
+  }
+  P_.swap(P_before_);
+  product(P_, method_->A_hat, F_);
+  shift(P_, state.p);
+  return true;
+}
+
+template <Scalar S>
+long LobattoStepper<S>::iterate(const State<S>& state) {
+  using Verdict = typename StoppingRule<S>::Verdict;
+  rule_.start(state.p, positions_);
+  for (;;) {
+    if (!sweep(state))
+      throw StageFailure(FailureCause::near_singular_constraints,
+                         "the linear system for the multipliers of the stages is singular", "0", rule_.sweeps() + 1);
+    rule_.show_change(P_, P_before_);
+    if (rule_.is_coarse()) {
+      rule_.show_terms(P_);
+      rule_.show_terms(F_, &h_);
+    }
+    const Verdict verdict = rule_.judge();
+    if (verdict == Verdict::go_on) continue;
+    if (verdict == Verdict::converged) return rule_.sweeps();
+    throw StageFailure(FailureCause::stage_equations_diverge,
+                       verdict == Verdict::not_finite ? "an iterate is not finite"
+                       : rule_.grows()                ? "the increments grow"
+                                                      : "the increments stagnate",
+                       to_scientific(rule_.relative_change(), 3), rule_.sweeps());
+  }
+}
+
+template <Scalar S>
+long LobattoStepper<S>::solve(const State<S>& state) {
+  position_scale_.evaluate(state.q, h_, positions_);
+  long sweeps = 0;
+  const Index of_P = P_.size();
+  if (!extrapolation_.empty()) {
+    try {
+      extrapolation_.predict(sequence_.data());
+      for (Index i = 0; i < of_P; ++i) set(P_.data()[i], sequence_[i]);
+      for (Index i = 0; i < lambda_.size(); ++i) set(lambda_.data()[i], sequence_[of_P + i]);
+      sweeps = iterate(state);
+    } catch (const StageFailure& failure) {
+      sweeps = failure.sweeps();
+      extrapolation_.clear();
+    }
+  }
+  if (extrapolation_.empty()) {
+    set_zero(lambda_);
+    for (Index j = 0; j < P_.cols(); ++j)
+      for (Index i = 0; i < P_.rows(); ++i) set(P_(i, j), state.p[j]);
+    sweeps += iterate(state);
+  }
+  for (Index i = 0; i < of_P; ++i) set(sequence_[i], P_.data()[i]);
+  for (Index i = 0; i < lambda_.size(); ++i) set(sequence_[of_P + i], lambda_.data()[i]);
+  extrapolation_.add(sequence_.data());
+  return sweeps;
+}
+
+template <Scalar S>
+void LobattoStepper<S>::update(State<S>& state, long sweeps) {
+  {
+    const PartCall counted = call(sums);
+    problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
+    product(position_change_, b_, V_);
+    product(momentum_change_, b_, F_);
+    for (Matrix<S>* change : {&position_change_, &momentum_change_}) {
+      set_product(*change, h_, *change);
+      set_max_norm(size_, *change);
+      if (!is_finite(size_))
+        throw StageFailure(FailureCause::stage_equations_diverge, "a stage is not finite", to_scientific(size_, 3),
+                           sweeps);
+    }
+    for (Index j = 0; j < problem_.m(); ++j) {
+      add_compensated(state.q[j], state.q_carry[j], position_change_(0, j), s_, t_);
+      add_compensated(state.p[j], state.p_carry[j], momentum_change_(0, j), s_, t_);
+    }
+  }
+  if (problem_.nu() == 0) return;
+  projection_.set_position(state.q);
+  const Matrix<S>& mu = projection_.make_tangential(state.p);
+  set_product(s_, h_, b_(0, b_.cols() - 1));
+  for (Index a = 0; a < multiplier_.size(); ++a) set_quotient(multiplier_[a], mu.data()[a], s_);
+}
+
+template <Scalar S>
+long LobattoStepper<S>::step(State<S>& state, const S& h) {
+  if (h != h_) {
+    set(h_, h);
+    extrapolation_.clear();
+  }
+  const long sweeps = solve(state);
+  copy_state(before_, state);
+  try {
+    update(state, sweeps);
+  } catch (const StageFailure&) {
+    copy_state(state, before_);
+    throw;
+  }
+  return sweeps;
+}
+
+namespace {
+
+class LobattoMethod final : public MethodByTemplate<LobattoMethod> {
+ public:
+  explicit LobattoMethod(int s) : s_(s) { static_cast<void>(make_lobatto<double>(s)); }
+
+  std::string text() const override { return "lobatto:" + std::to_string(s_); }
+  std::string title() const override { return "Lobatto IIIA-IIIB(" + std::to_string(s_) + ")"; }
+  int order() const override { return 2 * s_ - 2; }
+  int stages() const override { return s_; }
+  int terms() const override { return 2 * s_; }
+  Kept kept() const override {
+    return {.energy = false, .momenta = true, .constraints = true, .hidden = true, .reversal = true};
+  }
+  Constants parameters() const override {
+    Constants letters;
+    letters.insert_or_assign("s", Expression::parse(std::to_string(s_)));
+    return letters;
+  }
+  template <Scalar S>
+  StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind) const {
+    return [&problem, method = std::make_shared<const Lobatto<S>>(make_lobatto<S>(s_))] {
+      return std::make_unique<LobattoStepper<S>>(problem, method);
+    };
+  }
+
+ private:
+  int s_;
+};
+
+}  // namespace
+
+MethodPtr lobatto_method(std::string_view arguments) {
+  int s = 0;
+  const auto read = std::from_chars(arguments.data(), arguments.data() + arguments.size(), s);
+  if (arguments.empty() || read.ec != std::errc() || read.ptr != arguments.data() + arguments.size())
+    throw InputError("method lobatto:" + std::string(arguments) + ": use lobatto:S with a whole number S >= 2");
+  return std::make_shared<const LobattoMethod>(s);
+}
+
+#define HBVM_DEFINE(S)                      \
+  template Lobatto<S> make_lobatto<S>(int); \
+  template class LobattoStepper<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm
