@@ -26,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct AuditArguments {
-  std::optional<std::string> claims, method, out, until;
+  std::optional<std::string> claims, method, out, until, shard;
+  std::vector<std::string> merge;
   double limit = AuditOptions().limit;
   bool quick = false, full = false, json = false;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -97,37 +98,31 @@ void audit_command(const AuditArguments& o) {
   if (o.claims) command += " --claims '" + *o.claims + "'";
   if (o.full || o.quick) command += o.full ? " --full" : " --quick";
   if (o.until) command += " --until '" + *o.until + "'";
+  if (o.shard) command += " --shard " + *o.shard;
   if (o.limit != AuditArguments().limit) command += fmt::format(" --limit {}", o.limit);
 
   const std::optional<fs::path> folder = folder_of(o);
-  std::map<std::string, Finding> known;
-  std::ofstream store;
-  // The paper's claims alone: files that others name may have changed.
-  if (folder && o.full && !o.method && !(o.claims && fs::is_regular_file(*o.claims))) {
-    const std::string path = (*folder / "findings.jsonl").string();
-    known = read_lines(path);
-    store.open(path, std::ios::app);
-    // The last line may have been cut off.
-    store << std::endl;
-    if (!store) throw InputError("--out: cannot write to '" + folder->string() + "'");
-  }
-
   AuditOptions options;
+  std::optional<CellStore> store;
+  if (o.shard) options.shard = Shard::parse(*o.shard);
+  if (!folder && (o.shard || !o.merge.empty())) throw InputError("--out is needed: the folder for findings.jsonl");
+  if (o.full || o.shard || !o.merge.empty())
+    options.store = folder ? &store.emplace(*folder / "findings.jsonl") : nullptr;
+  for (const std::string& file : o.merge) store->merge(file);
+
   options.jobs = o.jobs;
   options.starts = o.full ? 3 : 2;
   options.limit = o.limit;
   if (o.until) options.until = time_from(*o.until);
-  options.known = [&](const std::string& key) -> const Finding* {
-    const auto place = known.find(std::to_string(options.starts) + key);
-    return place == known.end() ? nullptr : &place->second;
-  };
-  options.found = [&](const Finding& finding) {
-    if (store.is_open()) store << to_line(finding, std::to_string(options.starts) + key_of(finding.claim)) << std::endl;
-  };
   std::vector<Finding> findings;
   {
     ProgressBar bar("audit");
-    options.progress = [&](long done, long total) { bar.update(done, total); };
+    options.progress = [&](long done, long total) {
+      if (!o.merge.empty() && done < total)
+        throw InputError(
+            fmt::format("--merge: {} of {} pieces of work are in none of these files", total - done, total));
+      bar.update(done, total);
+    };
     findings = audit(claims, options);
   }
   Table table = audit_table(findings);
@@ -184,6 +179,14 @@ void add_audit_command(CLI::App& app) {
           "their runs share their time")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  auto* const shard =
+      command->add_option("--shard", o->shard,
+                          "I/N: every N-th piece of the work, from the I-th on, for one of N computers; "
+                          "its findings go to findings.jsonl in --out");
+  command
+      ->add_option("--merge", o->merge,
+                   "The findings.jsonl of all shards, of the same claims and options: the same table as of one run")
+      ->excludes(shard);
   command->add_option("--jobs", o->jobs, "Threads")->check(CLI::Number)->capture_default_str();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(

@@ -17,17 +17,21 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::update(long done, long total) {
   if (!terminal_) return;
+  if (first_ < 0) first_ = done;
   const auto now = Clock::now();
   if (now - start_ < std::chrono::seconds(1) || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   shown_ = true;
   constexpr long width = 40;
-  const long filled = total > 0 ? width * (done / 1000) / (total / 1000 + 1) : 0;
-  std::string bar(static_cast<std::size_t>(filled), '#');
+  const double part = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0;
+  std::string bar(static_cast<std::size_t>(width * part), '#');
   bar.resize(width, '.');
-  const auto elapsed = std::chrono::duration_cast<std::chrono::seconds>(now - start_).count();
-  std::fprintf(stderr, "\r\033[K%s [%s] %ld of %ld, %lld s", what_.c_str(), bar.c_str(), done, total,
-               static_cast<long long>(elapsed));
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  std::fprintf(stderr, "\r\033[K%s [%s] %ld of %ld, %.0f s", what_.c_str(), bar.c_str(), done, total, elapsed);
+  // What was there from the start took no time.
+  if (done > first_)
+    std::fprintf(stderr, ", %.0f s left",
+                 elapsed * static_cast<double>(total - done) / static_cast<double>(done - first_));
   std::fflush(stderr);
 }
 

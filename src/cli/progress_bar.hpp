@@ -15,6 +15,7 @@ class ProgressBar {
  private:
   std::string what_;
   bool terminal_, shown_ = false;
+  long first_ = -1;  ///< done when it was first shown
   std::chrono::steady_clock::time_point start_, last_;
 };
 

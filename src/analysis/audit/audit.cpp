@@ -1,24 +1,22 @@
 #include "hbvm/analysis/audit/audit.hpp"
 
-#include <atomic>
-#include <exception>
 #include <map>
-#include <mutex>
-#include <thread>
 
 #include "auditor.hpp"
+#include "hbvm/analysis/audit/report.hpp"
+#include "hbvm/checksum.hpp"
+#include "hbvm/error.hpp"
 
 namespace hbvm {
 namespace {
 
 std::string subject_key(const Claim& claim) { return claim.problem + "|" + claim.method->key(); }
 
-std::vector<Auditor::Unit> units_of(const std::vector<Claim>& claims, const std::vector<bool>& skip) {
+std::vector<Auditor::Unit> units_of(const std::vector<Claim>& claims) {
   using Kind = Auditor::Kind;
   std::vector<Auditor::Unit> units;
   std::map<std::pair<Kind, std::string>, std::size_t> places;
   for (std::size_t i = 0; i < claims.size(); ++i) {
-    if (skip[i]) continue;
     const Kind kind = Auditor::kind_of(claims[i]);
     std::string key = subject_key(claims[i]);
     if (kind == Kind::special) key += "|" + std::to_string(i);
@@ -27,6 +25,39 @@ std::vector<Auditor::Unit> units_of(const std::vector<Claim>& claims, const std:
     units[place->second].members.push_back(i);
   }
   return units;
+}
+
+/// Of the scenes themselves, not of their names: files may change.
+class SceneSums {
+ public:
+  const std::string& of(const std::string& problem) {
+    const auto [place, is_new] = known_.try_emplace(problem);
+    if (!is_new || problem == "tableau") return place->second;
+    try {
+      place->second = Checksum(write_scene(load_scene(problem))).text();
+    } catch (const Error&) {
+      place->second = "none";
+    }
+    return place->second;
+  }
+
+ private:
+  std::map<std::string, std::string> known_;
+};
+
+/// All that a unit's findings depend on.
+std::string key_of(const std::vector<Claim>& claims, const Auditor::Unit& unit, const AuditOptions& options,
+                   SceneSums& scenes) {
+  const Claim& subject = claims[unit.members.front()];
+  std::string key = subject_key(subject) + "|" + scenes.of(subject.problem);
+  for (const long number :
+       {static_cast<long>(unit.kind), static_cast<long>(options.starts), static_cast<long>(options.first_start),
+        static_cast<long>(options.log2_interval), options.most_steps, static_cast<long>(options.coefficient_digits)})
+    key += "|" + std::to_string(number);
+  key += "|" + std::to_string(options.limit) + "|" + (options.until ? options.until->text() : "");
+  Checksum members;
+  for (const std::size_t i : unit.members) members.add(key_of(claims[i]) + "\n");
+  return key + "|" + members.text();
 }
 
 }  // namespace
@@ -40,50 +71,41 @@ std::string key_of(const Claim& claim) {
 
 std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions& options) {
   std::vector<Finding> findings(claims.size());
-  std::vector<bool> skip(claims.size(), false);
-  long decided = 0;
-  for (std::size_t i = 0; i < claims.size(); ++i) {
-    const Finding* const known = options.known ? options.known(key_of(claims[i])) : nullptr;
-    if (known) {
-      findings[i] = *known;
-      skip[i] = true;
-      ++decided;
-    }
-    findings[i].claim = claims[i];
-  }
-  const std::vector<Auditor::Unit> units = units_of(claims, skip);
-  const long total = static_cast<long>(claims.size());
-  if (options.progress) options.progress(decided, total);
-
+  for (std::size_t i = 0; i < claims.size(); ++i) findings[i].claim = claims[i];
+  const std::vector<Auditor::Unit> units = units_of(claims);
   Motions motions;
-  std::atomic<std::size_t> next{0};
-  std::mutex reporting;
-  std::exception_ptr error;
-  const auto work = [&] {
-    for (std::size_t u = next++; u < units.size(); u = next++) {
-      try {
-        Auditor(claims, units[u], options, motions, findings).work();
-      } catch (...) {
-        const std::lock_guard lock(reporting);
-        if (!error) error = std::current_exception();
-        next = units.size();
-        break;
-      }
-      const std::lock_guard lock(reporting);
-      for (const std::size_t i : units[u].members)
-        if (options.found) options.found(findings[i]);
-      decided += static_cast<long>(units[u].members.size());
-      if (options.progress) options.progress(decided, total);
-    }
-    mpfr_free_cache();
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (int i = 1; i < options.jobs; ++i) threads.emplace_back(work);
-    work();
+  SceneSums scenes;
+  std::vector<WorkCell> cells;
+  std::vector<std::string> keys;
+  for (const Auditor::Unit& unit : units) {
+    keys.push_back(key_of(claims, unit, options, scenes));
+    cells.push_back({keys.back(), [&] {
+                       Auditor(claims, unit, options, motions, findings).work();
+                       std::vector<Finding> own;
+                       for (const std::size_t i : unit.members) own.push_back(findings[i]);
+                       return to_result(own);
+                     }});
   }
-  if (error) std::rethrow_exception(error);
-  return findings;
+  const auto results = run_cells(cells, {options.jobs, options.shard, options.store, options.progress});
+  if (options.store) options.store->put_in_order(keys);
+
+  std::vector<bool> decided(claims.size(), false);
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    if (!results[u] || !options.shard.has(u)) continue;
+    const std::vector<Finding> own = read_result(*results[u]);
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      Finding& finding = findings[units[u].members.at(n)];
+      Finding read = own[n];
+      read.claim = finding.claim;
+      read.seconds = finding.seconds;
+      finding = std::move(read);
+      decided[units[u].members[n]] = true;
+    }
+  }
+  std::vector<Finding> all;
+  for (std::size_t i = 0; i < claims.size(); ++i)
+    if (decided[i]) all.push_back(std::move(findings[i]));
+  return all;
 }
 
 }  // namespace hbvm

@@ -56,6 +56,19 @@ Json evidence_of(const Finding& finding) {
   return evidence;
 }
 
+/// All that does not depend on when and where it was measured.
+Json measured_of(const Finding& f) {
+  return {{"measured", json_number(f.measured)},
+          {"uncertainty", json_number(f.uncertainty)},
+          {"precision", f.precision},
+          {"coefficients_to", f.coefficients_to > 0 ? Json(f.coefficients_to) : Json(nullptr)},
+          {"interval", f.interval ? Json{f.interval->from, f.interval->to} : Json(nullptr)},
+          {"verdict", name_of(f.verdict)},
+          {"reason", f.reason},
+          {"reference", f.reference},
+          {"evidence", evidence_of(f)}};
+}
+
 Json json_of(const Finding& f) {
   const Claim& c = f.claim;
   const HbvmMethod* const hbvm = as_hbvm(*c.method);
@@ -68,20 +81,12 @@ Json json_of(const Finding& f) {
             {"over", name_of(c.span)},
             {"form", name_of(c.form)},
             {"predicted", c.predicted},
-            {"measured", json_number(f.measured)},
-            {"uncertainty", json_number(f.uncertainty)},
-            {"precision", f.precision},
-            {"coefficients_to", f.coefficients_to > 0 ? Json(f.coefficients_to) : Json(nullptr)},
-            {"interval", f.interval ? Json{f.interval->from, f.interval->to} : Json(nullptr)},
-            {"seconds", f.seconds},
-            {"verdict", hbvm::name_of(f.verdict)},
-            {"reason", f.reason},
-            {"reference", f.reference}};
-  json["evidence"] = evidence_of(f);
+            {"seconds", json_number(f.seconds)}};
+  json.update(measured_of(f));
   return json;
 }
 
-/// What json_of wrote, but the claim.
+/// What measured_of wrote.
 Finding finding_of(const Json& j) {
   Finding f;
   f.measured = number_of(j.at("measured"));
@@ -92,7 +97,6 @@ Finding finding_of(const Json& j) {
   if (const Json& digits = j.at("coefficients_to"); !digits.is_null()) f.coefficients_to = digits;
   if (const Json& interval = j.at("interval"); !interval.is_null())
     f.interval = Interval{interval.at(0), interval.at(1)};
-  f.seconds = number_of(j.at("seconds"));
   const std::string verdict_text = j.at("verdict");
   for (const Verdict verdict :
        {Verdict::holds, Verdict::fails, Verdict::undecidable, Verdict::degenerate, Verdict::not_run})
@@ -158,14 +162,20 @@ std::string to_json(const std::vector<Finding>& findings, const std::string& com
   return dumped({{"version", version()}, {"command", command}, {"summary", summary(findings)}, {"claims", claims}}, 1);
 }
 
-std::string to_line(const Finding& finding, const std::string& key) { return finding_line(key, json_of(finding)); }
+std::string to_result(const std::vector<Finding>& findings) {
+  Json result = Json::array();
+  for (const Finding& f : findings) result.push_back(measured_of(f));
+  return dumped(result, -1);
+}
 
-std::map<std::string, Finding> read_lines(const std::string& path) {
-  std::map<std::string, Finding> result;
-  std::ifstream file(path);
-  read_finding_lines(
-      file, [&](const std::string& key, const Json& finding) { result.insert_or_assign(key, finding_of(finding)); });
-  return result;
+std::vector<Finding> read_result(const std::string& text) {
+  try {
+    std::vector<Finding> findings;
+    for (const Json& finding : Json::parse(text)) findings.push_back(finding_of(finding));
+    return findings;
+  } catch (const Json::exception& error) {
+    throw InputError(std::string("this is no result of an audit: ") + error.what());
+  }
 }
 
 }  // namespace hbvm

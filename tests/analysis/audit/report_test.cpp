@@ -45,53 +45,36 @@ Finding of_tableau(const std::string& name) {
   return f;
 }
 
-class Lines : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = fs::temp_directory_path() / (std::string("hbvm_lines_") + test->name());
-    fs::remove(path_);
+void expect_same(const Finding& a, const Finding& b) {
+  const auto expect_number = [](double x, double y, const char* what) {
+    EXPECT_TRUE(x == y || (std::isnan(x) && std::isnan(y))) << what << ": " << x << " and " << y;
+  };
+  EXPECT_EQ(a.verdict, b.verdict);
+  expect_number(a.measured, b.measured, "measured");
+  expect_number(a.uncertainty, b.uncertainty, "uncertainty");
+  EXPECT_EQ(a.precision, b.precision);
+  EXPECT_EQ(a.reference, b.reference);
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.coefficients_to, b.coefficients_to);
+  ASSERT_EQ(a.interval.has_value(), b.interval.has_value());
+  if (a.interval) {
+    expect_number(a.interval->from, b.interval->from, "from");
+    expect_number(a.interval->to, b.interval->to, "to");
   }
-  void TearDown() override { fs::remove(path_); }
-
-  std::map<std::string, Finding> read(const std::string& text) const {
-    std::ofstream(path_, std::ios::binary) << text;
-    return read_lines(path_.string());
-  }
-  static void expect_same(const Finding& a, const Finding& b) {
-    const auto expect_number = [](double x, double y, const char* what) {
-      EXPECT_TRUE(x == y || (std::isnan(x) && std::isnan(y))) << what << ": " << x << " and " << y;
-    };
-    EXPECT_EQ(a.verdict, b.verdict);
-    expect_number(a.measured, b.measured, "measured");
-    expect_number(a.uncertainty, b.uncertainty, "uncertainty");
-    EXPECT_EQ(a.precision, b.precision);
-    EXPECT_EQ(a.reference, b.reference);
-    EXPECT_EQ(a.reason, b.reason);
-    EXPECT_EQ(a.coefficients_to, b.coefficients_to);
-    ASSERT_EQ(a.interval.has_value(), b.interval.has_value());
-    if (a.interval) {
-      expect_number(a.interval->from, b.interval->from, "from");
-      expect_number(a.interval->to, b.interval->to, "to");
-    }
-    expect_number(a.seconds, b.seconds, "seconds");
-    ASSERT_EQ(a.evidence.size(), b.evidence.size());
-    for (std::size_t n = 0; n < a.evidence.size(); ++n) {
-      EXPECT_EQ(a.evidence[n].precision, b.evidence[n].precision);
-      ASSERT_EQ(a.evidence[n].rungs.size(), b.evidence[n].rungs.size());
-      for (std::size_t r = 0; r < a.evidence[n].rungs.size(); ++r) {
-        const Rung &x = a.evidence[n].rungs[r], &y = b.evidence[n].rungs[r];
-        expect_number(x.step, y.step, "step");
-        expect_number(x.error, y.error, "error");
-        expect_number(x.floor, y.floor, "floor");
-      }
+  ASSERT_EQ(a.evidence.size(), b.evidence.size());
+  for (std::size_t n = 0; n < a.evidence.size(); ++n) {
+    EXPECT_EQ(a.evidence[n].precision, b.evidence[n].precision);
+    ASSERT_EQ(a.evidence[n].rungs.size(), b.evidence[n].rungs.size());
+    for (std::size_t r = 0; r < a.evidence[n].rungs.size(); ++r) {
+      const Rung &x = a.evidence[n].rungs[r], &y = b.evidence[n].rungs[r];
+      expect_number(x.step, y.step, "step");
+      expect_number(x.error, y.error, "error");
+      expect_number(x.floor, y.floor, "floor");
     }
   }
+}
 
-  fs::path path_;
-};
-
-TEST_F(Lines, AreReadBackToTheLastBit) {
+TEST(AuditResults, AreReadBackToTheLastBit) {
   Finding round_off = finding();
   round_off.measured = round_off.uncertainty = nan_value;
   round_off.verdict = Verdict::holds;
@@ -100,106 +83,45 @@ TEST_F(Lines, AreReadBackToTheLastBit) {
   open.evidence.clear();
   open.coefficients_to = 0;
   open.interval.reset();
-  const std::vector<std::pair<std::string, Finding>> findings{
-      {"first", finding()}, {"round-off", round_off}, {"a \"key\", with \\ and\nlines \xC3\xA9", open}};
-  std::string text;
-  for (const auto& [key, f] : findings) {
-    const std::string line = to_line(f, key);
-    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-    text += line + "\n";
-  }
-  const auto found = read(text);
-  ASSERT_EQ(found.size(), findings.size());
-  for (const auto& [key, f] : findings) {
-    ASSERT_TRUE(found.contains(key)) << key;
-    expect_same(found.at(key), f);
-  }
+  const std::vector<Finding> findings{finding(), round_off, open};
+  const std::string text = to_result(findings);
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  const std::vector<Finding> read = read_result(text);
+  ASSERT_EQ(read.size(), findings.size());
+  for (std::size_t i = 0; i < read.size(); ++i) expect_same(read[i], findings[i]);
 }
 
-/// A program that was stopped may have written any part of its last line.
-TEST_F(Lines, ThatAreCutOffAreLeftOut) {
-  const std::string whole = to_line(finding(), "whole") + "\n", last = to_line(finding(), "last");
-  for (std::size_t length = 0; length < last.size(); ++length) {
-    const auto found = read(whole + last.substr(0, length));
-    EXPECT_EQ(found.size(), 1u) << length;
-    EXPECT_TRUE(found.contains("whole")) << length;
-  }
-  EXPECT_EQ(read(whole + last).size(), 2u) << "a line that lacks only its end is whole";
+/// It depends on no clock.
+TEST(AuditResults, HoldNoTime) {
+  Finding slow = finding();
+  slow.seconds = 1'000;
+  EXPECT_EQ(to_result({slow}), to_result({finding()}));
 }
 
-TEST_F(Lines, AfterOneThatWasCutOffAreRead) {
-  const std::string line = to_line(finding(), "key");
-  EXPECT_TRUE(read(line.substr(0, line.size() / 2) + "\n" + line + "\n").contains("key"));
-}
-
-TEST_F(Lines, LastOfOneKeyCounts) {
-  Finding later = finding();
-  later.measured = 9;
-  const auto found = read(to_line(finding(), "key") + "\n" + to_line(later, "key") + "\n");
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found.at("key").measured, 9);
-}
-
-TEST_F(Lines, OfAnotherVersionAreLeftOut) {
-  Json line = Json::parse(to_line(finding(), "key"));
-  EXPECT_EQ(read(line.dump()).size(), 1u);
-  line["version"] = "0.0.0-other";
-  EXPECT_TRUE(read(line.dump()).empty());
-  line["version"] = 1;
-  EXPECT_TRUE(read(line.dump()).empty());
-  line.erase("version");
-  EXPECT_TRUE(read(line.dump()).empty());
-}
-
-TEST_F(Lines, OfWrongTypesAreLeftOut) {
-  const Json good = Json::parse(to_line(finding(), "key"));
-  const auto expect_left_out = [&](const Json& line) { EXPECT_TRUE(read(line.dump()).empty()) << line.dump(); };
-  for (const Json& other : {Json(), Json(1), Json("text"), Json::array(), Json::array({1}), Json::object()}) {
-    expect_left_out(other);
-    Json line = good;
-    line["finding"] = other;
-    expect_left_out(line);
-  }
-  Json line = good;
-  line["key"] = 5;
-  expect_left_out(line);
-  for (const char* const key : {"precision", "reason", "reference", "verdict"}) {
-    line = good;
-    line["finding"][key] = 5;
-    expect_left_out(line);
-  }
-  for (const char* const key : {"measured", "uncertainty"}) {
-    line = good;
-    line["finding"][key] = "5";
-    expect_left_out(line);
-  }
-  line = good;
-  line["finding"]["evidence"] = 5;
-  expect_left_out(line);
-  for (const char* const key : {"log2_h", "log2_error", "log2_floor"}) {
-    line = good;
-    line["finding"]["evidence"][0][key] = "text";
-    expect_left_out(line);
-    line["finding"]["evidence"][0][key] = Json::array({"-1", "-2", "-3"});
-    expect_left_out(line);
-    line["finding"]["evidence"][0].erase(key);
-    expect_left_out(line);
-  }
-  line = good;
-  line["finding"]["evidence"][0]["log2_error"].erase(2);
-  expect_left_out(line);
-}
-
-TEST_F(Lines, EachKeyIsNeeded) {
+TEST(AuditResults, OfWrongTypesAreRefused) {
+  const Json good = Json::parse(to_result({finding()}));
+  EXPECT_NO_THROW(read_result(good.dump()));
+  const auto expect_refused = [&](const Json& result) {
+    EXPECT_THROW(read_result(result.dump()), InputError) << result;
+  };
+  for (const Json& other : {Json(1), Json("text"), Json::array({1})}) expect_refused(other);
   for (const char* const key : {"measured", "uncertainty", "precision", "reason", "reference", "verdict", "evidence",
-                                "coefficients_to", "interval", "seconds"}) {
-    Json line = Json::parse(to_line(finding(), "key"));
-    line["finding"].erase(key);
-    EXPECT_TRUE(read(line.dump()).empty()) << key;
+                                "coefficients_to", "interval"}) {
+    Json result = good;
+    result[0].erase(key);
+    expect_refused(result);
+  }
+  for (const char* const key : {"precision", "reason", "reference", "verdict", "evidence"}) {
+    Json result = good;
+    result[0][key] = 5;
+    expect_refused(result);
+  }
+  for (const char* const key : {"log2_h", "log2_error", "log2_floor"}) {
+    Json result = good;
+    result[0]["evidence"][0][key] = "text";
+    expect_refused(result);
   }
 }
-
-TEST_F(Lines, OfNoFileAreNone) { EXPECT_TRUE(read_lines((path_ / "none").string()).empty()); }
 
 TEST(AuditJson, HasTheFieldsOfEachClaim) {
   const Json json = Json::parse(to_json({finding(), finding()}, "hbvm audit --full"));
@@ -259,7 +181,7 @@ TEST(AuditJson, IsJsonWhateverTheNames) {
   for (const char* const name : {"\xFF.toml", "a\"b\\c\n", "\x01"}) {
     const std::string text = to_json({finding("ord2s", name)}, name);
     EXPECT_EQ(Json::parse(text).at("claims").size(), 1u);
-    EXPECT_TRUE(Json::accept(to_line(finding("ord2s", name), name)));
+    EXPECT_TRUE(Json::accept(to_result({finding("ord2s", name)})));
   }
 }
 

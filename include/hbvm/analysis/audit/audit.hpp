@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hbvm/analysis/audit/claim.hpp"
+#include "hbvm/analysis/cells.hpp"
 #include "hbvm/scalar/expression.hpp"
 
 namespace hbvm {
@@ -21,10 +22,9 @@ struct AuditOptions {
   double limit = 120;       ///< seconds of processor time a claim may take; 0: any
   /// In which the coefficients are held against their conditions; 0: not at all.
   int coefficient_digits = 1'000;
-  /// Findings known from before, by their claims' keys, and what is told of new ones (by one thread at a time).
-  std::function<const Finding*(const std::string& key)> known;
-  std::function<void(const Finding&)> found;
-  std::function<void(long, long)> progress;  ///< (claims decided, of)
+  Shard shard{};
+  CellStore* store = nullptr;                ///< findings known from before, and new ones; in order in the end
+  std::function<void(long, long)> progress;  ///< (pieces of work done, of)
 };
 
 /// What makes two claims the same: everything but the label.
@@ -36,7 +36,7 @@ std::string key_of(const Claim& claim);
 /// to be exact is looked at in as many digits as an error of the method would need to show. Steps and intervals are
 /// parts of the motion's own time scale. The error is measured against a closed form or a run with at least four more
 /// stages, by another solver, in 24 more digits, whose own error is estimated. \return a finding a claim, in order:
-/// what cannot be run is found to be so
+/// what cannot be run is found to be so. Of a shard, the findings of its claims alone
 std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions& options);
 
 }  // namespace hbvm

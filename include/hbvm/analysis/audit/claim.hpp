@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -109,8 +110,9 @@ struct Finding {
   std::string reason;                    ///< of the verdict; of one that "holds", what proves it, if anything does
   std::optional<Interval> interval{};    ///< looked at; none of coefficients
   int coefficients_to = 0;               ///< digits to which the coefficients were seen to be right; 0: not looked at
-  double seconds = 0;                    ///< processor time of the runs that this claim shared with others
-  std::vector<Ladder> evidence;          ///< precision after precision
+  /// Processor time of the runs that this claim shared with others; NaN of what was known from before.
+  double seconds = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Ladder> evidence;  ///< precision after precision
 };
 
 /// Whether a measured rate bears a claim out. It fails as soon as the interval value +- uncertainty excludes the

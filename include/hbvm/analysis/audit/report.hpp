@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -22,10 +21,11 @@ std::string to_json(const std::vector<Finding>& findings, const std::string& com
 /// "523 claims: 523 hold, 0 fail, 0 undecidable, 0 of degenerate motions, 0 not run".
 std::string summary(const std::vector<Finding>& findings);
 
-/// A finding as one line of text under its key, and the findings of such lines, of this version of the program alone: a
-/// line that was cut off is left out.
-std::string to_line(const Finding& finding, const std::string& key);
-std::map<std::string, Finding> read_lines(const std::string& path);
+/// What was found, without the claims and the time it took: JSON that says the same whenever it is measured, and reads
+/// back to the last bit.
+std::string to_result(const std::vector<Finding>& findings);
+/// \throws InputError if it is none
+std::vector<Finding> read_result(const std::string& text);
 
 /// The figure that explains the audit, with its data in files of this folder: the same errors in double, quad and 50
 /// digits, and the components of one run, with triangles that show the slopes.

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hbvm {
+
+/// A piece of long work under a key that no other has. Its result is JSON, the same whenever, wherever and beside
+/// whatever it is made.
+struct WorkCell {
+  std::string key;
+  std::function<std::string()> run;
+};
+
+/// The part of a list of cells that one of several computers does: every N-th.
+struct Shard {
+  int index = 1, of = 1;
+
+  /// "3/7", counted from 1. \throws InputError
+  static Shard parse(std::string_view text);
+  bool has(std::size_t cell) const {
+    return cell % static_cast<std::size_t>(of) + 1 == static_cast<std::size_t>(index);
+  }
+  std::string text() const { return std::to_string(index) + "/" + std::to_string(of); }
+};
+
+/// A file of results, a line a cell, {"key", "version", "result", "checksum"}. It grows as they come, so that a run
+/// that was ended at any moment goes on from it; put in order it is the same file however the work was divided.
+class CellStore {
+ public:
+  /// With what the file holds, if it is there. Lines that were cut off or damaged, or that another version of the
+  /// program wrote, are left out. \throws InputError if it cannot be written to
+  explicit CellStore(std::filesystem::path file);
+
+  /// The result under a key, or null.
+  const std::string* find(const std::string& key) const;
+  /// Appends a result, from any thread. \throws InputError if it cannot be written
+  void add(const std::string& key, const std::string& result);
+
+  /// Takes over another store's results. \throws InputError with file and line for one that is damaged, or of another
+  /// version, and if there is no such file
+  void merge(const std::filesystem::path& other);
+  /// Writes the file anew, at once: the results of these keys in this order, then the others by their keys.
+  /// \throws InputError if it cannot be written
+  void put_in_order(const std::vector<std::string>& keys);
+
+ private:
+  std::filesystem::path file_;
+  std::map<std::string, std::string> results_;
+  std::mutex adding_;
+};
+
+struct CellOptions {
+  int jobs = 1;  ///< threads
+  Shard shard{};
+  CellStore* store = nullptr;                ///< results known from before, to which new ones are added
+  std::function<void(long, long)> progress;  ///< (cells done, of those of the shard)
+};
+
+/// Runs the cells of the shard that the store does not know. The first exception of one ends all once those at work are
+/// done, and is thrown; what was made before is in the store.
+/// \return a result a cell, in order; none for cells of other shards that the store does not know either
+std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options);
+
+}  // namespace hbvm
