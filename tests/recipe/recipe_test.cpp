@@ -1,0 +1,47 @@
+// The README's "A new effect", with the two lines it asks for: compiled in place of the library's own list of effects.
+#include <gtest/gtest.h>
+
+#include "hbvm/problem/effect/term.hpp"
+
+namespace hbvm {
+namespace {
+
+/// The force is that of its formula: differences of U in 60 digits, where that of a pair is -strength Q Q exp(-r/l)/r.
+TEST(Recipe, GivesTheForceOfItsFormula) {
+  const PrecisionScope digits(60);
+  EffectUse<Mpfr> use;
+  use.kind = "yukawa";
+  use.dimension = 2;
+  use.numbers = {{"strength", Mpfr(3) / 8}, {"length", Mpfr(5) / 4}};
+  use.instances.resize(1);
+  use.instances[0].x.blocks = {{0, Mpfr(1)}};
+  use.instances[0].mass_matrix = Matrix<Mpfr>::Identity(2, 2);  // of no use to a pair
+  use.instances[0].charges[0] = Mpfr(7) / 4;
+  use.instances[0].charges[1] = -Mpfr(1) / 2;
+  Potential<Mpfr> potential;
+  potential.dimension = 2;
+  potential.m = 2;
+  potential.terms = {make_term(use)};
+  PotentialEvaluator<Mpfr> evaluator(potential, 1);
+  const Mpfr QQ = use.instances[0].charges[0] * use.instances[0].charges[1];
+  const auto U = [&](const Vector<Mpfr>& q) {
+    const Mpfr r = sqrt(Mpfr(q[0] * q[0] + q[1] * q[1]));
+    return Mpfr(-use.numbers["strength"] * QQ * exp(Mpfr(-r / use.numbers["length"])) / r);
+  };
+  Vector<Mpfr> q(2), value(1);
+  q << Mpfr(3) / 4, Mpfr(-5) / 8;
+  Matrix<Mpfr> force;
+  evaluator.force(lanes(q), force);
+  evaluator.values(lanes(q), value);
+  EXPECT_LE(magnitude(Mpfr(value[0] - U(q))), 16 * epsilon<Mpfr>());
+  const Mpfr h = ldexp(Mpfr(1), -60);
+  for (Index j = 0; j < 2; ++j) {
+    Vector<Mpfr> up = q, down = q;
+    up[j] += h;
+    down[j] -= h;
+    EXPECT_LE(magnitude(Mpfr(force(0, j) - (U(up) - U(down)) / (2 * h))), 4 * h * h);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
