@@ -52,12 +52,11 @@ void HealthWatch<S>::report_energy(Health& health, const Method& method) {
   const S relative = error == 0 ? S(0) : S(error / size);
   health.worst_e_H = to_scientific(relative, 3);
   const S rounding = energy_.rounding() + h_ * hidden_.power();
-  if (!(error > walked_round_off<S>(steps_) * rounding)) return;
+  if (!method.kept().energy || !(error > walked_round_off<S>(steps_) * rounding)) return;
   const HbvmMethod* const hbvm = as_hbvm(method);
-  if (!hbvm) return;  // whose energy errors are no accident
-  const auto [k, s] = hbvm->name();
+  const auto [k, s] = hbvm ? hbvm->name() : HbvmName{};
   const std::optional<int> degree = degree_of_U(problem_);
-  const bool exact = degree && 2 * k >= *degree * s;
+  const bool exact = !hbvm || (degree && 2 * k >= *degree * s);
   health.warnings.push_back(
       {"energy_lost",
        fmt::format(

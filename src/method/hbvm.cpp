@@ -5,17 +5,10 @@
 #include "hbvm/basis/gauss_legendre.hpp"
 #include "hbvm/basis/legendre.hpp"
 #include "hbvm/error.hpp"
+#include "linear/rounded.hpp"
 
 namespace hbvm {
 namespace {
-
-/// A matrix or vector, rounded. (Not by way of a Matrix<Mpfr>: the copy would take the digits of the scope.)
-template <Scalar S, class Array>
-auto rounded(const Array& a) {
-  Eigen::Matrix<S, Array::RowsAtCompileTime, Array::ColsAtCompileTime> r(a.rows(), a.cols());
-  for (Index i = 0; i < a.size(); ++i) r.data()[i] = rounded_to<S>(raw(a.data()[i]));
-  return r;
-}
 
 /// P^T diag(b).
 Matrix<Mpfr> projection_of(const Matrix<Mpfr>& P, const Vector<Mpfr>& b) {

@@ -101,6 +101,7 @@ long FixedPoint<S>::check_root(long sweeps) {
 
 template <Scalar S>
 long FixedPoint<S>::iterate() {
+  using Verdict = typename StoppingRule<S>::Verdict;
   const bool papers = order_ == Order::paper;
   rule_.start(equations_.p0(), positions_);
   for (;;) {
@@ -114,25 +115,10 @@ long FixedPoint<S>::iterate() {
       rule_.show_terms(x_.gamma);
       rule_.show_terms(x_.psi, &h_);
     }
-    const auto fail = [&](const char* what) {
-      const FailureCause cause = FailureCause::stage_equations_diverge;
-      throw StageFailure(cause, what, to_scientific(rule_.relative_change(), 3), rule_.sweeps());
-    };
-    switch (rule_.judge()) {
-      case StoppingRule<S>::Verdict::converged:
-        return rule_.sweeps();
-      case StoppingRule<S>::Verdict::not_finite:
-        fail("an iterate is not finite");
-        break;
-      case StoppingRule<S>::Verdict::stagnant:
-        if (!conditioned()) fail(rule_.grows() ? "the increments grow" : "the increments stagnate");
-        break;
-      case StoppingRule<S>::Verdict::endless:
-        fail("the increments fall too slowly");
-        break;
-      case StoppingRule<S>::Verdict::go_on:
-        break;
-    }
+    const Verdict verdict = rule_.judge();
+    if (verdict == Verdict::converged) return rule_.sweeps();
+    if (verdict == Verdict::go_on || (verdict == Verdict::stagnant && conditioned())) continue;
+    throw rule_.failure(verdict);
   }
 }
 

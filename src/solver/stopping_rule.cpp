@@ -6,6 +6,7 @@
 
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/in_place.hpp"
+#include "hbvm/scalar/text.hpp"
 
 namespace hbvm {
 namespace {
@@ -218,6 +219,15 @@ bool StoppingRule<S>::grows() const {
     if (!settled_[static_cast<std::size_t>(j)] && (risen_[static_cast<std::size_t>(j)] > 1 || last_[j] > 2 * least_[j]))
       return true;
   return false;
+}
+
+template <Scalar S>
+StageFailure StoppingRule<S>::failure(Verdict verdict) const {
+  const char* const what = verdict == Verdict::not_finite ? "an iterate is not finite"
+                           : verdict == Verdict::endless  ? "the increments fall too slowly"
+                           : grows()                      ? "the increments grow"
+                                                          : "the increments stagnate";
+  return {FailureCause::stage_equations_diverge, what, to_scientific(relative_change(), 3), sweeps_};
 }
 
 template <Scalar S>

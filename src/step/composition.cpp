@@ -4,6 +4,7 @@
 
 #include "copy_state.hpp"
 #include "hbvm/step/registry.hpp"
+#include "linear/rounded.hpp"
 
 namespace hbvm {
 namespace {
@@ -66,9 +67,7 @@ Vector<S> composition_steps(int order) {
     append_steps(steps, order, Mpfr(1));
   }
   const PrecisionScope working(digits);
-  Vector<S> rounded(static_cast<Index>(steps.size()));
-  for (std::size_t i = 0; i < steps.size(); ++i) rounded[static_cast<Index>(i)] = rounded_to<S>(raw(steps[i]));
-  return rounded;
+  return rounded<S>(Eigen::Map<const Vector<Mpfr>>(steps.data(), static_cast<Index>(steps.size())));
 }
 
 template <Scalar S>

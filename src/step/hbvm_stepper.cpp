@@ -1,7 +1,7 @@
 #include "hbvm/step/hbvm_stepper.hpp"
 
-#include "add_compensated.hpp"
 #include "hbvm/scalar/in_place.hpp"
+#include "hbvm/step/add_compensated.hpp"
 
 namespace hbvm {
 

@@ -2,13 +2,12 @@
 
 #include <charconv>
 
-#include "add_compensated.hpp"
 #include "copy_state.hpp"
 #include "hbvm/basis/legendre.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/method/hbvm_name.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "linear/rounded.hpp"
 
 namespace hbvm {
 namespace {
@@ -40,13 +39,6 @@ Vector<Mpfr> lobatto_nodes(int s) {
     c[N - i] = 1 - x;
   }
   return c;
-}
-
-template <Scalar S, class Array>
-auto rounded(const Array& a) {
-  Eigen::Matrix<S, Array::RowsAtCompileTime, Array::ColsAtCompileTime> r(a.rows(), a.cols());
-  for (Index i = 0; i < a.size(); ++i) r.data()[i] = rounded_to<S>(raw(a.data()[i]));
-  return r;
 }
 
 }  // namespace
@@ -89,7 +81,6 @@ template <Scalar S>
 LobattoStepper<S>::LobattoStepper(const Problem<S>& problem, std::shared_ptr<const Lobatto<S>> method)
     : problem_(problem),
       method_(std::move(method)),
-      b_(method_->b.transpose()),
       potential_(problem.potential, method_->s()),
       gradient_(problem, method_->s()),
       projection_(problem),
@@ -103,8 +94,7 @@ LobattoStepper<S>::LobattoStepper(const Problem<S>& problem, std::shared_ptr<con
       g_(lambda_),
       coupling_(method_->s(), method_->s()),
       rhs_((method_->s() - 1) * problem.nu()),
-      position_change_(Matrix<S>::Zero(1, problem.m())),
-      momentum_change_(position_change_),
+      stage_sums_(method_->b, problem.m()),
       extrapolation_(method_->s(), problem.m() + problem.nu()),
       sequence_(method_->s() * (problem.m() + problem.nu())),
       position_scale_(problem),
@@ -201,18 +191,11 @@ bool LobattoStepper<S>::correct_multipliers() {
 
 template <Scalar S>
 bool LobattoStepper<S>::sweep(const State<S>& state) {
-  const auto shift = [&](Matrix<S>& x, const Vector<S>& base) {
-    for (Index j = 0; j < x.cols(); ++j)
-      for (Index i = 0; i < x.rows(); ++i) {
-        set_product(x(i, j), h_, x(i, j));
-        set_sum(x(i, j), base[j], x(i, j));
-      }
-  };
   {
     const PartCall counted = call(stages);
     problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
     product(Q_, method_->A, V_);
-    shift(Q_, state.q);
+    scale_and_shift(Q_, h_, state.q);
   }
   potential_.force(lanes(std::as_const(Q_)), F_);
   if (problem_.nu() > 0) {
@@ -226,32 +209,17 @@ bool LobattoStepper<S>::sweep(const State<S>& state) {
   }
   P_.swap(P_before_);
   product(P_, method_->A_hat, F_);
-  shift(P_, state.p);
+  scale_and_shift(P_, h_, state.p);
   return true;
 }
 
 template <Scalar S>
 long LobattoStepper<S>::iterate(const State<S>& state) {
-  using Verdict = typename StoppingRule<S>::Verdict;
-  rule_.start(state.p, positions_);
-  for (;;) {
+  return iterate_stages(rule_, state.p, positions_, h_, P_, P_before_, F_, [&] {
     if (!sweep(state))
       throw StageFailure(FailureCause::near_singular_constraints,
                          "the linear system for the multipliers of the stages is singular", "0", rule_.sweeps() + 1);
-    rule_.show_change(P_, P_before_);
-    if (rule_.is_coarse()) {
-      rule_.show_terms(P_);
-      rule_.show_terms(F_, &h_);
-    }
-    const Verdict verdict = rule_.judge();
-    if (verdict == Verdict::go_on) continue;
-    if (verdict == Verdict::converged) return rule_.sweeps();
-    throw StageFailure(FailureCause::stage_equations_diverge,
-                       verdict == Verdict::not_finite ? "an iterate is not finite"
-                       : rule_.grows()                ? "the increments grow"
-                                                      : "the increments stagnate",
-                       to_scientific(rule_.relative_change(), 3), rule_.sweeps());
-  }
+  });
 }
 
 template <Scalar S>
@@ -287,25 +255,13 @@ void LobattoStepper<S>::update(State<S>& state, long sweeps) {
   {
     const PartCall counted = call(sums);
     problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
-    product(position_change_, b_, V_);
-    product(momentum_change_, b_, F_);
-    for (Matrix<S>* change : {&position_change_, &momentum_change_}) {
-      set_product(*change, h_, *change);
-      set_max_norm(size_, *change);
-      if (!is_finite(size_))
-        throw StageFailure(FailureCause::stage_equations_diverge, "a stage is not finite", to_scientific(size_, 3),
-                           sweeps);
-    }
-    for (Index j = 0; j < problem_.m(); ++j) {
-      add_compensated(state.q[j], state.q_carry[j], position_change_(0, j), s_, t_);
-      add_compensated(state.p[j], state.p_carry[j], momentum_change_(0, j), s_, t_);
-    }
+    stage_sums_.add_to(state, h_, V_, F_, sweeps);
   }
   if (problem_.nu() == 0) return;
   projection_.set_position(state.q);
   const Matrix<S>& mu = projection_.make_tangential(state.p);
-  set_product(s_, h_, b_(0, b_.cols() - 1));
-  for (Index a = 0; a < multiplier_.size(); ++a) set_quotient(multiplier_[a], mu.data()[a], s_);
+  set_product(t_, h_, method_->b[method_->s() - 1]);
+  for (Index a = 0; a < multiplier_.size(); ++a) set_quotient(multiplier_[a], mu.data()[a], t_);
 }
 
 template <Scalar S>

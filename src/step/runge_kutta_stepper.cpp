@@ -1,11 +1,10 @@
 #include "hbvm/step/runge_kutta_stepper.hpp"
 
-#include "add_compensated.hpp"
 #include "copy_state.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "hbvm/step/stage_iteration.hpp"
 
 namespace hbvm {
 namespace {
@@ -18,16 +17,6 @@ bool is_strictly_lower(const Matrix<S>& A) {
   return true;
 }
 
-/// x = base + h x in every lane.
-template <Scalar S>
-void scale_and_shift(Matrix<S>& x, const S& h, const Vector<S>& base) {
-  for (Index j = 0; j < x.cols(); ++j)
-    for (Index i = 0; i < x.rows(); ++i) {
-      set_product(x(i, j), h, x(i, j));
-      set_sum(x(i, j), base[j], x(i, j));
-    }
-}
-
 }  // namespace
 
 template <Scalar S>
@@ -35,7 +24,6 @@ RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKu
                                         OnConstraints on_constraints)
     : problem_(problem),
       A_(method.A),
-      b_(method.b.transpose()),
       explicit_(is_strictly_lower(method.A)),
       potential_(problem.potential, explicit_ ? Index(1) : method.b.size()),
       P_(Matrix<S>::Zero(method.b.size(), problem.m())),
@@ -47,8 +35,7 @@ RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKu
       p_(problem.m()),
       v_(problem.m()),
       force_(Matrix<S>::Zero(1, problem.m())),
-      position_change_(force_),
-      momentum_change_(force_),
+      stage_sums_(method.b, problem.m()),
       extrapolation_(P_.rows(), P_.cols()),
       position_scale_(problem),
       positions_(problem.m()),
@@ -69,7 +56,7 @@ RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKu
 
 template <Scalar S>
 void RungeKuttaStepper<S>::describe_parts() {
-  const Index s = b_.cols(), m = problem_.m(), used = (A_.array() != 0).count();
+  const Index s = A_.rows(), m = problem_.m(), used = (A_.array() != 0).count();
   parts_ = {{"stages"}, {"sums over stages"}};
   OperationCounts& stage = parts_[stages].per_call;
   stage = static_cast<std::uint64_t>(s) * problem_.mass.operations();
@@ -176,24 +163,7 @@ void RungeKuttaStepper<S>::sweep(const State<S>& state) {
 
 template <Scalar S>
 long RungeKuttaStepper<S>::iterate(const State<S>& state) {
-  using Verdict = typename StoppingRule<S>::Verdict;
-  rule_.start(state.p, positions_);
-  for (;;) {
-    sweep(state);
-    rule_.show_change(P_, P_before_);
-    if (rule_.is_coarse()) {
-      rule_.show_terms(P_);
-      rule_.show_terms(F_, &h_);
-    }
-    const Verdict verdict = rule_.judge();
-    if (verdict == Verdict::go_on) continue;
-    if (verdict == Verdict::converged) return rule_.sweeps();
-    throw StageFailure(FailureCause::stage_equations_diverge,
-                       verdict == Verdict::not_finite ? "an iterate is not finite"
-                       : rule_.grows()                ? "the increments grow"
-                                                      : "the increments stagnate",
-                       to_scientific(rule_.relative_change(), 3), rule_.sweeps());
-  }
+  return iterate_stages(rule_, state.p, positions_, h_, P_, P_before_, F_, [&] { sweep(state); });
 }
 
 template <Scalar S>
@@ -226,24 +196,6 @@ void RungeKuttaStepper<S>::settle(State<S>& state) {
 }
 
 template <Scalar S>
-void RungeKuttaStepper<S>::update(State<S>& state, long sweeps) {
-  const PartCall counted = call(sums);
-  product(position_change_, b_, V_);
-  product(momentum_change_, b_, F_);
-  for (Matrix<S>* change : {&position_change_, &momentum_change_}) {
-    set_product(*change, h_, *change);
-    set_max_norm(size_, *change);
-    if (!is_finite(size_))
-      throw StageFailure(FailureCause::stage_equations_diverge, "a stage is not finite", to_scientific(size_, 3),
-                         sweeps);
-  }
-  for (Index j = 0; j < problem_.m(); ++j) {
-    add_compensated(state.q[j], state.q_carry[j], position_change_(0, j), s_, t_);
-    add_compensated(state.p[j], state.p_carry[j], momentum_change_(0, j), s_, t_);
-  }
-}
-
-template <Scalar S>
 long RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
   if (h != h_) {
     set(h_, h);
@@ -256,7 +208,10 @@ long RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
     sweeps = solve(state);
   if (point_) copy_state(before_, state);
   try {
-    update(state, sweeps);
+    {
+      const PartCall counted = call(sums);
+      stage_sums_.add_to(state, h_, V_, F_, sweeps);
+    }
     settle(state);
   } catch (const StageFailure&) {
     if (point_) copy_state(state, before_);

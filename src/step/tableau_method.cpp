@@ -64,16 +64,19 @@ StepperMaker<S> TableauMethod::prepare_in(const Problem<S>& problem, SolverKind)
   };
 }
 
-MethodPtr tableau_method(std::string_view arguments) {
-  OnConstraints on_constraints = OnConstraints::drift;
-  if (arguments.ends_with(projected)) {
-    on_constraints = OnConstraints::project;
-    arguments.remove_suffix(projected.size());
-  }
-  const std::string file(arguments);
+TableauArguments TableauArguments::parse(std::string_view text) {
+  const bool project = text.ends_with(projected);
+  if (project) text.remove_suffix(projected.size());
+  return {std::string(text), project ? OnConstraints::project : OnConstraints::drift};
+}
+
+MethodPtr tableau_method(const TableauArguments& arguments) {
+  const auto& [file, on_constraints] = arguments;
   if (file.empty()) throw InputError("method tableau: use tableau:FILE, or tableau:FILE+project");
   return std::make_shared<const TableauMethod>(read_tableau(file), file, on_constraints);
 }
+
+MethodPtr tableau_method(std::string_view arguments) { return tableau_method(TableauArguments::parse(arguments)); }
 
 const TableauMethod* as_tableau(const Method& method) { return dynamic_cast<const TableauMethod*>(&method); }
 

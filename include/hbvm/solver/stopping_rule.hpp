@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
+#include "hbvm/solver/stage_failure.hpp"
 
 namespace hbvm {
 
@@ -69,11 +70,13 @@ class StoppingRule {
   long sweeps() const { return sweeps_; }
   /// The greatest change of the last sweep over its scale.
   S relative_change() const;
-  bool grows() const;
+  /// Of a verdict that is neither go_on nor converged, with what was seen.
+  StageFailure failure(Verdict verdict) const;
   /// Whether all the coordinates that are not settled would be, were kappa so large; and how large it would have to be.
   double condition_wanted() const;
 
  private:
+  bool grows() const;
   void take_scales();
   void find_rate();
   /// C epsilon max(scale_j, positions_j).

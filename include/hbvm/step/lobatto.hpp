@@ -1,12 +1,10 @@
 #pragma once
 
-#include <optional>
-
 #include "hbvm/solver/extrapolation.hpp"
 #include "hbvm/solver/position_scale.hpp"
-#include "hbvm/solver/stopping_rule.hpp"
 #include "hbvm/step/constraint_projection.hpp"
 #include "hbvm/step/method.hpp"
+#include "hbvm/step/stage_iteration.hpp"
 
 namespace hbvm {
 
@@ -67,26 +65,25 @@ class LobattoStepper final : public Stepper<S> {
 
   const Problem<S>& problem_;
   std::shared_ptr<const Lobatto<S>> method_;
-  Matrix<S> b_;  // 1 x s
-  S h_ = 0;      ///< of the last step
+  S h_ = 0;  ///< of the last step
   PotentialEvaluator<S> potential_;
   ConstraintGradient<S> gradient_;
   ConstraintProjection<S> projection_;  ///< of the end of the step
   Ordering order_;
   Lu<S> system_;
-  Matrix<S> P_, P_before_, Q_, V_, F_;           // s x m; F_ with the constraints' forces
-  Matrix<S> lambda_, pull_, g_;                  // s x nu; the last row of lambda_ is 0
-  Matrix<S> coupling_;                           // s x s
-  Vector<S> rhs_;                                // (s - 1) nu
-  Matrix<S> position_change_, momentum_change_;  // 1 x m
-  Extrapolation<S> extrapolation_;               ///< of P and lambda
-  Vector<S> sequence_;                           // s (m + nu)
+  Matrix<S> P_, P_before_, Q_, V_, F_;  // s x m; F_ with the constraints' forces
+  Matrix<S> lambda_, pull_, g_;         // s x nu; the last row of lambda_ is 0
+  Matrix<S> coupling_;                  // s x s
+  Vector<S> rhs_;                       // (s - 1) nu
+  StageSums<S> stage_sums_;
+  Extrapolation<S> extrapolation_;  ///< of P and lambda
+  Vector<S> sequence_;              // s (m + nu)
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;
   State<S> before_;
   Vector<S> multiplier_;
-  S size_ = 0, s_ = 0, t_ = 0;
+  S t_ = 0;
   std::vector<PartCount> parts_;
   bool timed_ = false;
   SolverCounts earlier_;  ///< those of a run that this one continues

@@ -6,8 +6,8 @@
 #include "hbvm/problem/point.hpp"
 #include "hbvm/solver/extrapolation.hpp"
 #include "hbvm/solver/position_scale.hpp"
-#include "hbvm/solver/stopping_rule.hpp"
 #include "hbvm/step/constraint_projection.hpp"
+#include "hbvm/step/stage_iteration.hpp"
 #include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
@@ -64,26 +64,26 @@ class RungeKuttaStepper final : public Stepper<S> {
   void sweep(const State<S>& state);
   /// Adds -grad g lambda of (Q_i, P_i) to the force on it, in row `row`.
   void add_constraint_force(const Vector<S>& Q, const Vector<S>& P, Matrix<S>& force, Index row);
-  void update(State<S>& state, long sweeps);
   /// The state onto the constraints, if it is to be projected; sets the multiplier.
   void settle(State<S>& state);
 
   const Problem<S>& problem_;
-  S h_ = 0;          ///< of the last step
-  Matrix<S> A_, b_;  ///< s x s and 1 x s
+  S h_ = 0;  ///< of the last step
+  Matrix<S> A_;
   bool explicit_;
   PotentialEvaluator<S> potential_;
   std::optional<Point<S>> point_;  ///< if there are constraints
   std::optional<ConstraintProjection<S>> projection_;
   Matrix<S> P_, P_before_, Q_, V_, F_;  ///< s x m
-  // One stage of an explicit method, and the changes of the state.
+  // One stage of an explicit method.
   Vector<S> q_, p_, v_;
-  Matrix<S> force_, position_change_, momentum_change_;  // 1 x m
-  Extrapolation<S> extrapolation_;                       ///< of P
+  Matrix<S> force_;  // 1 x m
+  StageSums<S> stage_sums_;
+  Extrapolation<S> extrapolation_;  ///< of P
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;
-  S size_ = 0, s_ = 0, t_ = 0;  // kept: creating them allocates
+  S t_ = 0;  // kept: creating it allocates
   Vector<S> multiplier_;
   Matrix<S> pull_, lane_;  // 1 x nu, 1 x m
   State<S> before_;        ///< where a step with constraints began

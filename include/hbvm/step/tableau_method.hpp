@@ -35,7 +35,16 @@ class TableauMethod final : public MethodByTemplate<TableauMethod> {
   OnConstraints on_constraints_;
 };
 
-/// From "FILE" or "FILE+project". \throws InputError as read_tableau does
+/// "FILE" or "FILE+project", taken apart.
+struct TableauArguments {
+  std::string file;
+  OnConstraints on_constraints = OnConstraints::drift;
+
+  static TableauArguments parse(std::string_view text);
+};
+
+/// \throws InputError as read_tableau does
+MethodPtr tableau_method(const TableauArguments& arguments);
 MethodPtr tableau_method(std::string_view arguments);
 
 /// The method as one of these, or null.

@@ -5,21 +5,9 @@
 #include "hbvm/basis/gauss_legendre.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/reference/closed_form.hpp"
+#include "linear/rounded.hpp"
 
 namespace hbvm {
-namespace {
-
-template <Scalar S>
-Vector<S> rounded(const Vector<Mpfr>& x) {
-  Vector<S> result(x.size());
-  for (Index i = 0; i < x.size(); ++i) {
-    const S value = rounded_to<S>(raw(x[i]));
-    set(result[i], value);
-  }
-  return result;
-}
-
-}  // namespace
 
 Laboratory::Laboratory(const Cell& cell) : assembled_(assemble<Mpfr>(load_scene(cell.subject().problem))) {
   point_.emplace(assembled_.problem);

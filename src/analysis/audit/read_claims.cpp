@@ -7,6 +7,7 @@
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/registry.hpp"
+#include "hbvm/step/tableau_method.hpp"
 #include "toml/toml_table.hpp"
 
 namespace hbvm {
@@ -21,15 +22,13 @@ std::string located(const std::string& name, const std::filesystem::path& folder
 
 /// As parse_method has it, with files beside the claims' file first; a name of no family is a file with a tableau.
 MethodPtr method_of(const std::string& text, const std::filesystem::path& folder) {
-  constexpr std::string_view tableau = "tableau:", projected = "+project";
-  const std::string family = MethodSpec::parse(text).family;
+  const MethodSpec spec = MethodSpec::parse(text);
   const bool is_file = std::none_of(method_families().begin(), method_families().end(),
-                                    [&](const MethodFamily& known) { return known.name == family; });
-  if (!is_file && !text.starts_with(tableau)) return parse_method(text);
-  std::string file = is_file ? text : text.substr(tableau.size());
-  const bool project = file.ends_with(projected);
-  if (project) file.resize(file.size() - projected.size());
-  return parse_method(std::string(tableau) + located(file, folder) + (project ? std::string(projected) : ""));
+                                    [&](const MethodFamily& known) { return known.name == spec.family; });
+  if (!is_file && spec.family != "tableau") return parse_method(text);
+  TableauArguments arguments = TableauArguments::parse(is_file ? text : spec.arguments);
+  arguments.file = located(arguments.file, folder);
+  return tableau_method(arguments);
 }
 
 int counted_from_one(TomlTable& reader, const char* key) {
