@@ -30,16 +30,18 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
     }
     weighted_patterns_.push_back({weighted_columns, {reached.begin(), reached.end()}});
     weighted_columns += static_cast<Index>(reached.size());
-    prepare(constraint, patterns_.back());
+    std::visit(
+        [&]<class Form>(const Form& form) {
+          gradients_.emplace_back(std::in_place_type<typename Form::Gradient>, form, problem.dimension, own);
+        },
+        constraint.form);
     prepare_weighing(patterns_.back(), weighted_patterns_.back());
   }
   values_ = Matrix<S>::Zero(lanes, columns);
   weighted_ = Matrix<S>::Zero(lanes, weighted_columns);
 
   for (std::size_t a = 0; a < patterns_.size(); ++a) {
-    if (const auto* plane = std::get_if<Plane<S>>(&problem.constraints[a].form))
-      for (Index j = 0; j < plane->normal.size(); ++j)
-        values_.col(patterns_[a].column(plane->block + j)).setConstant(plane->normal[j]);
+    std::visit([&](const auto& gradient) { gradient.begin(target(a, nullptr)); }, gradients_[a]);
     for (std::size_t b = 0; b < weighted_patterns_.size(); ++b) {
       Coupling pair{static_cast<Index>(a), static_cast<Index>(b), {}};
       for (const Index coordinate : patterns_[a].coordinates)
@@ -49,24 +51,6 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
       if (!pair.terms.empty()) couplings_.push_back(std::move(pair));
     }
   }
-}
-
-template <Scalar S>
-void ConstraintGradient<S>::prepare(const Constraint<S>& constraint, const Pattern& pattern) {
-  std::vector<Share>& shares = shares_.emplace_back();
-  const auto* product = std::get_if<DisplacementProduct<S>>(&constraint.form);
-  if (!product) return;
-  std::set<Index> touched;
-  // d(x.y) = y.dx + x.dy
-  const auto spread = [&](const Displacement<S>& moving, bool of_y) {
-    for (const auto& block : moving.blocks)
-      for (Index j = 0; j < problem_.dimension; ++j) {
-        const Index column = pattern.column(block.offset + j);
-        shares.push_back({column, j, of_y, touched.insert(column).second, block.weight});
-      }
-  };
-  spread(product->x, !product->same);
-  if (!product->same) spread(product->y, false);
 }
 
 template <Scalar S>
@@ -97,74 +81,17 @@ void ConstraintGradient<S>::update(Lanes<const S> q, Matrix<S>& g) {
 }
 
 template <Scalar S>
+GradientTarget<S> ConstraintGradient<S>::target(std::size_t a, S* g) {
+  return {lanes_, values_.data() + patterns_[a].first * lanes_, g, x_, y_, t_};
+}
+
+template <Scalar S>
 void ConstraintGradient<S>::update_all(Lanes<const S> q, Matrix<S>* g) {
   for (std::size_t a = 0; a < patterns_.size(); ++a) {
-    S* const out = g ? g->data() + static_cast<Index>(a) * lanes_ : nullptr;
-    std::visit([&](const auto& form) { update(a, form, q, out); }, problem_.constraints[a].form);
+    const GradientTarget<S> to = target(a, g ? g->data() + static_cast<Index>(a) * lanes_ : nullptr);
+    std::visit([&](const auto& gradient) { gradient.update(q, to); }, gradients_[a]);
   }
   weigh();
-}
-
-template <Scalar S>
-void ConstraintGradient<S>::share(S* column, const S* a, const S& weight, bool first) {
-  if (!first)
-    add_weighted(column, weight, a, lanes_, t_);
-  else if (weight == 1)
-    for (Index i = 0; i < lanes_; ++i) set(column[i], a[i]);
-  else if (weight == -1)
-    for (Index i = 0; i < lanes_; ++i) set_negative(column[i], a[i]);
-  else
-    for (Index i = 0; i < lanes_; ++i) set_product(column[i], weight, a[i]);
-}
-
-template <Scalar S>
-void ConstraintGradient<S>::update(std::size_t a, const DisplacementProduct<S>& form, Lanes<const S> q, S* g) {
-  const Index d = problem_.dimension;
-  displace(form.x, d, q, x_.data(), lanes_);
-  if (!form.same) displace(form.y, d, q, y_.data(), lanes_);
-  if (g) {
-    const S* const y = form.same ? x_.data() : y_.data();
-    for (Index i = 0; i < lanes_; ++i) {
-      set_product(g[i], x_.data()[i], y[i]);
-      for (Index j = 1; j < d; ++j) add_product(g[i], x_.data()[j * lanes_ + i], y[j * lanes_ + i], t_);
-      set_difference(g[i], g[i], form.value);
-    }
-  }
-  if (form.same)
-    for (Index i = 0; i < x_.size(); ++i) set_sum(x_.data()[i], x_.data()[i], x_.data()[i]);
-  for (const Share& to : shares_[a])
-    share(values_.data() + to.column * lanes_, (to.of_y ? y_ : x_).data() + to.source * lanes_, to.weight, to.first);
-}
-
-template <Scalar S>
-void ConstraintGradient<S>::update(std::size_t a, const Quadric<S>& form, Lanes<const S> q, S* g) {
-  const Pattern& pattern = patterns_[a];
-  if (g)
-    for (Index i = 0; i < lanes_; ++i) set(g[i], form.c);
-  for (Index j = 0; j < form.b.size(); ++j) {
-    S* const column = values_.data() + pattern.column(form.offset + j) * lanes_;
-    for (Index i = 0; i < lanes_; ++i) set_zero(column[i]);
-    for (Index l = 0; l < form.b.size(); ++l)
-      if (form.A(j, l) != 0) add_weighted(column, form.A(j, l), q[form.offset + l], lanes_, t_);
-    if (g) {
-      for (Index i = 0; i < lanes_; ++i) {
-        set_sum(t_, column[i], form.b[j]);
-        set_product(t_, t_, q[form.offset + j][i]);
-        set_sum(g[i], g[i], t_);
-      }
-    }
-    for (Index i = 0; i < lanes_; ++i) {
-      set_sum(column[i], column[i], column[i]);
-      set_sum(column[i], column[i], form.b[j]);
-    }
-  }
-}
-
-template <Scalar S>
-void ConstraintGradient<S>::update(std::size_t, const Plane<S>& form, Lanes<const S> q, S* g) {
-  if (!g) return;  // the gradient is constant
-  for (Index i = 0; i < lanes_; ++i) set_negative(g[i], form.offset);
-  for (Index j = 0; j < form.normal.size(); ++j) add_weighted(g, form.normal[j], q[form.block + j], lanes_, t_);
 }
 
 template <Scalar S>
@@ -184,29 +111,8 @@ void ConstraintGradient<S>::weigh() {
 template <Scalar S>
 OperationCounts ConstraintGradient<S>::operations() const {
   OperationCounts counts;
-  const Index d = problem_.dimension;
   for (std::size_t a = 0; a < patterns_.size(); ++a) {
-    const auto& form = problem_.constraints[a].form;
-    if (const auto* product = std::get_if<DisplacementProduct<S>>(&form)) {
-      counts += hbvm::operations(product->x, d);
-      if (product->same)
-        counts.add(Op::add, d);
-      else
-        counts += hbvm::operations(product->y, d);
-      for (const Share& to : shares_[a]) {
-        if (!to.first)
-          counts += weighted_sum(to.weight, 1);
-        else if (to.weight == -1)
-          counts.add(Op::negate, 1);
-        else if (to.weight != 1)
-          counts.add(Op::multiply, 1);
-      }
-    }
-    if (const auto* quadric = std::get_if<Quadric<S>>(&form)) {
-      for (Index i = 0; i < quadric->A.size(); ++i)
-        if (quadric->A.data()[i] != 0) counts.add_products(1);
-      counts.add(Op::add, 2 * quadric->b.size());
-    }
+    counts += std::visit([](const auto& gradient) { return gradient.operations(); }, gradients_[a]);
     for (const auto& block : problem_.mass.blocks()) {
       Index touched = 0;
       for (const Index coordinate : patterns_[a].coordinates)

@@ -49,20 +49,9 @@ Curvature<S>::Curvature(const Problem<S>& problem, Index nodes) : dimension_(pro
     }
   }
   for (Index c = 0; c < problem.nu(); ++c) {
-    const auto& form = problem.constraints[static_cast<std::size_t>(c)].form;
-    if (const auto* product = std::get_if<DisplacementProduct<S>>(&form)) {
-      for (const auto& a : product->x.blocks)
-        for (const auto& b : (product->same ? product->x : product->y).blocks)
-          for (Index i = 0; i < d; ++i) {
-            add(c, a.offset + i, b.offset + i, S(a.weight * b.weight));
-            add(c, b.offset + i, a.offset + i, S(a.weight * b.weight));
-          }
-    }
-    if (const auto* quadric = std::get_if<Quadric<S>>(&form)) {
-      for (Index i = 0; i < quadric->b.size(); ++i)
-        for (Index j = 0; j < quadric->b.size(); ++j)
-          add(c, quadric->offset + i, quadric->offset + j, S(2 * quadric->A(i, j)));
-    }
+    const auto add_entry = [&](Index row, Index column, const S& value) { add(c, row, column, value); };
+    std::visit([&](const auto& form) { form.second_derivatives(d, add_entry); },
+               problem.constraints[static_cast<std::size_t>(c)].form);
   }
   values_ = Matrix<S>::Zero(nodes, static_cast<Index>(pairs_.size()));
 }

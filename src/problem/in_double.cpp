@@ -8,28 +8,6 @@ namespace hbvm {
 namespace {
 
 template <Scalar S>
-Matrix<double> rounded(const Matrix<S>& a) {
-  Matrix<double> result(a.rows(), a.cols());
-  for (Index i = 0; i < a.size(); ++i) result.data()[i] = approximately(a.data()[i]);
-  return result;
-}
-
-template <Scalar S>
-Vector<double> rounded(const Vector<S>& a) {
-  Vector<double> result(a.size());
-  for (Index i = 0; i < a.size(); ++i) result[i] = approximately(a[i]);
-  return result;
-}
-
-template <Scalar S>
-Displacement<double> rounded(const Displacement<S>& x) {
-  Displacement<double> result;
-  for (const auto& block : x.blocks) result.blocks.push_back({block.offset, approximately(block.weight)});
-  result.shift = rounded(x.shift);
-  return result;
-}
-
-template <Scalar S>
 Program<double> rounded(const Program<S>& program) {
   std::vector<double> constants;
   for (const S& value : program.constants()) constants.push_back(approximately(value));
@@ -38,7 +16,8 @@ Program<double> rounded(const Program<S>& program) {
 
 template <Scalar S>
 EffectSymmetry<double> rounded(const EffectSymmetry<S>& symmetry) {
-  EffectSymmetry<double> result{symmetry.kind, symmetry.acts, rounded(symmetry.axes), rounded(symmetry.axis_round_off)};
+  EffectSymmetry<double> result{symmetry.kind, symmetry.acts, in_double(symmetry.axes),
+                                in_double(symmetry.axis_round_off)};
   for (Index i = 0; i < result.axes.size(); ++i)
     result.axis_round_off.data()[i] += epsilon<double>() * magnitude(result.axes.data()[i]);
   return result;
@@ -53,25 +32,12 @@ EffectTerm<double> rounded(const EffectTerm<S>& term) {
                             rounded(term.hessian),
                             term.constant_force,
                             {},
-                            rounded(term.value_coefficients),
-                            rounded(term.gradient_coefficients),
-                            rounded(term.hessian_coefficients),
+                            in_double(term.value_coefficients),
+                            in_double(term.gradient_coefficients),
+                            in_double(term.hessian_coefficients),
                             rounded(term.symmetry)};
-  for (const auto& x : term.displacements) result.displacements.push_back(rounded(x));
+  for (const auto& x : term.displacements) result.displacements.push_back(in_double(x));
   return result;
-}
-
-template <Scalar S>
-DisplacementProduct<double> rounded(const DisplacementProduct<S>& form) {
-  return {rounded(form.x), rounded(form.y), form.same, approximately(form.value)};
-}
-template <Scalar S>
-Quadric<double> rounded(const Quadric<S>& form) {
-  return {form.offset, rounded(form.A), rounded(form.b), approximately(form.c)};
-}
-template <Scalar S>
-Plane<double> rounded(const Plane<S>& form) {
-  return {form.block, rounded(form.normal), approximately(form.offset)};
 }
 
 }  // namespace
@@ -83,14 +49,11 @@ Problem<double> in_double(const Problem<S>& problem) {
   result.blocks = problem.blocks;
   for (const auto& block : problem.mass.blocks()) {
     if (block.full)
-      result.mass.add_full(rounded(block.M));
+      result.mass.add_full(in_double(block.M));
     else
       result.mass.add_scalar(block.size, approximately(block.mass));
   }
-  for (const auto& constraint : problem.constraints) {
-    result.constraints.push_back({constraint.name, {}});
-    std::visit([&](const auto& form) { result.constraints.back().form = rounded(form); }, constraint.form);
-  }
+  for (const auto& constraint : problem.constraints) result.constraints.push_back(in_double(constraint));
   result.potential.dimension = problem.potential.dimension;
   result.potential.m = problem.potential.m;
   for (const auto& term : problem.potential.terms) result.potential.terms.push_back(rounded(term));

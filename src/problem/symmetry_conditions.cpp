@@ -30,8 +30,55 @@ class Conditions {
       if (block.full) kinetic_energy(block.M);
     for (const EffectTerm<S>& term : problem_.potential.terms) effect(term);
     for (const Constraint<S>& constraint : problem_.constraints)
-      std::visit([&](const auto& form) { this->constraint(form); }, constraint.form);
+      std::visit([&](const auto& form) { form.stays(*this); }, constraint.form);
     return std::move(rows_);
+  }
+
+  // What forms of constraints ask for: rows of the motions that keep these values at all q.
+
+  /// x.x.
+  void length_stays(const Displacement<S>& x) {
+    const Place at = place(x);
+    if (!at.weights.empty()) center_stays(at);
+  }
+
+  /// n.x.
+  void component_stays(const Vector<S>& n, const Displacement<S>& x) { component_stays(vector(n), place(x)); }
+
+  /// x.y changes by u_x.y + u_y.x, the rotations of both cancelling: for each block of coordinates
+  /// y_b u_x + x_b u_y = 0, and u_x.(shift of y) + u_y.(shift of x) = 0, where those of w cancel again.
+  void product_stays(const Displacement<S>& first, const Displacement<S>& second) {
+    const Place x = place(first), y = place(second);
+    std::map<Index, std::pair<Uncertain, Uncertain>> blocks;
+    for (const auto& [offset, weight] : x.weights) blocks[offset].first = weight;
+    for (const auto& [offset, weight] : y.weights) blocks[offset].second = weight;
+    for (const auto& [offset, weights] : blocks)
+      for (std::size_t i = 0; i < d_; ++i) {
+        UncertainRow r = row();
+        add_u(r, weights.second, x, i);
+        add_u(r, weights.first, y, i);
+        add(std::move(r));
+      }
+    UncertainRow r = row();
+    for (std::size_t i = 0; i < d_; ++i) t(r, i) = x.translates * y.shift[i] + y.translates * x.shift[i];
+    add(std::move(r));
+  }
+
+  /// q^T A q + b.q changes by q^T (A w - w A) q + q.(2 A t + b x w) + b.t.
+  void quadratic_stays(Index block, const Matrix<S>& A, const Vector<S>& linear) {
+    matrix_stays(A);
+    const UncertainVector b = vector(linear);
+    const bool moves = translates(block);
+    for (std::size_t i = 0; i < d_; ++i) {
+      UncertainRow r = row();
+      for (std::size_t j = 0; moves && j < d_; ++j)
+        t(r, j) = 2 * number(A(static_cast<Index>(i), static_cast<Index>(j)));
+      for (std::size_t k = 0; k < rotations_; ++k) w(r, k) = -turned(k, b)[i];
+      add(std::move(r));
+    }
+    UncertainRow r = row();
+    for (std::size_t i = 0; moves && i < d_; ++i) t(r, i) = b[i];
+    add(std::move(r));
   }
 
  private:
@@ -114,7 +161,7 @@ class Conditions {
   }
 
   /// n.(w x x + u) = 0 at all x.
-  void product_stays(const UncertainVector& n, const Place& x) {
+  void component_stays(const UncertainVector& n, const Place& x) {
     axis_stays(n);
     UncertainRow r = row();
     for (std::size_t i = 0; i < d_; ++i) add_u(r, n[i], x, i);
@@ -166,53 +213,8 @@ class Conditions {
       if (term.symmetry.kind == Symmetry::axial)
         axis_stays(axis);
       else
-        product_stays(axis, x);
+        component_stays(axis, x);
     }
-  }
-
-  /// x.y changes by u_x.y + u_y.x, the rotations of both cancelling: for each block of coordinates
-  /// y_b u_x + x_b u_y = 0, and u_x.(shift of y) + u_y.(shift of x) = 0, where those of w cancel again.
-  void constraint(const DisplacementProduct<S>& form) {
-    const Place x = place(form.x);
-    if (form.same) {
-      if (!x.weights.empty()) center_stays(x);
-      return;
-    }
-    const Place y = place(form.y);
-    std::map<Index, std::pair<Uncertain, Uncertain>> blocks;
-    for (const auto& [offset, weight] : x.weights) blocks[offset].first = weight;
-    for (const auto& [offset, weight] : y.weights) blocks[offset].second = weight;
-    for (const auto& [offset, weights] : blocks)
-      for (std::size_t i = 0; i < d_; ++i) {
-        UncertainRow r = row();
-        add_u(r, weights.second, x, i);
-        add_u(r, weights.first, y, i);
-        add(std::move(r));
-      }
-    UncertainRow r = row();
-    for (std::size_t i = 0; i < d_; ++i) t(r, i) = x.translates * y.shift[i] + y.translates * x.shift[i];
-    add(std::move(r));
-  }
-
-  /// q^T A q + b.q changes by q^T (A w - w A) q + q.(2 A t + b x w) + b.t.
-  void constraint(const Quadric<S>& form) {
-    matrix_stays(form.A);
-    const UncertainVector b = vector(form.b);
-    const bool moves = translates(form.offset);
-    for (std::size_t i = 0; i < d_; ++i) {
-      UncertainRow r = row();
-      for (std::size_t j = 0; moves && j < d_; ++j)
-        t(r, j) = 2 * number(form.A(static_cast<Index>(i), static_cast<Index>(j)));
-      for (std::size_t k = 0; k < rotations_; ++k) w(r, k) = -turned(k, b)[i];
-      add(std::move(r));
-    }
-    UncertainRow r = row();
-    for (std::size_t i = 0; moves && i < d_; ++i) t(r, i) = b[i];
-    add(std::move(r));
-  }
-
-  void constraint(const Plane<S>& form) {
-    product_stays(vector(form.normal), place(Displacement<S>{{{form.block, S(1)}}, {}}));
   }
 
   const Problem<S>& problem_;

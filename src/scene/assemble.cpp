@@ -160,9 +160,11 @@ class Assembler {
       if (center[a] != 0) mass_center.blocks.push_back({offset, center[a]});
       for (Index b = a; b < 3; ++b) {
         const Displacement<S> x{{{offset, S(1)}}, {}}, y{{{origin + 3 * (first + b), S(1)}}, {}};
+        ConstraintForms<S> orthonormal = Rod<S>{x, S(1)};
+        if (b > a) orthonormal = DisplacementProduct<S>{x, y, S(0)};
         problem().constraints.push_back(
             {"directors " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " of '" + body.name + "'",
-             DisplacementProduct<S>{x, y, a == b, S(a == b ? 1 : 0)}});
+             std::move(orthonormal)});
       }
     }
     append(momenta_, Vector<S>::Zero(3 * blocks));
@@ -190,28 +192,51 @@ class Assembler {
   }
 
   void add(const SceneConstraint& c) {
-    const S value = number(*c.number);
-    if (c.kind == "rod") {
-      if (!(value > 0)) throw InputError("the length of a rod must be positive");
-      const Displacement<S> x = difference(c.first[0], c.first[1]);
-      problem().constraints.push_back(
-          {"rod '" + c.first[0] + "'-'" + c.first[1] + "'", DisplacementProduct<S>{x, x, true, S(value * value)}});
-    } else if (c.kind == "angle") {
-      problem().constraints.push_back(
-          {"angle", DisplacementProduct<S>{difference(c.first[0], c.first[1]), difference(c.second[0], c.second[1]),
-                                           false, value}});
-    } else if (c.kind == "quadric") {
-      const Matrix<S> A = symmetric(matrix(c.A), "A");
-      const Vector<S> b = vector(c.vector);
-      if (A == Matrix<S>::Zero(d_, d_)) {  // linear, and treated so
-        problem().constraints.push_back({"quadric of '" + c.body + "'", Plane<S>{*place(c.body).offset, b, S(-value)}});
-        return;
+    ConstraintUse<S> use;
+    use.dimension = d_;
+    std::string name = c.kind;
+    with_constraint_form<S>(c.kind, [&]<class Form>() {
+      for (const ConstraintKey& key : Form::keys) give(c, key, use, name);
+      problem().constraints.push_back({name, form_of(Form::from(use))});
+    });
+  }
+
+  /// The value of a key; whom it names is added to the name of the constraint: "rod 'a'-'b'", "plane of 'a'".
+  void give(const SceneConstraint& c, const ConstraintKey& key, ConstraintUse<S>& use, std::string& name) const {
+    using Takes = ConstraintKey::Takes;
+    switch (key.takes) {
+      case Takes::pair: {
+        const auto& [a, b] = c.pairs.find(key.name)->second;
+        use.pairs.emplace(key.name, difference(a, b));
+        name += (name == c.kind ? " '" : ", '") + a + "'-'" + b + "'";
+        break;
       }
-      problem().constraints.push_back({"quadric of '" + c.body + "'", Quadric<S>{*place(c.body).offset, A, b, value}});
-    } else {
-      problem().constraints.push_back(
-          {"plane of '" + c.body + "'", Plane<S>{*place(c.body).offset, vector(c.vector), value}});
+      case Takes::body: {
+        const std::string& body = c.bodies.find(key.name)->second;
+        use.bodies.emplace(key.name, *place(body).offset);
+        name += (name == c.kind ? " of '" : ", '") + body + "'";
+        break;
+      }
+      case Takes::number:
+        use.numbers.emplace(key.name, number(c.numbers.find(key.name)->second));
+        break;
+      case Takes::vector:
+        use.vectors.emplace(key.name, vector(c.vectors.find(key.name)->second));
+        break;
+      case Takes::symmetric_matrix:
+        use.matrices.emplace(key.name, symmetric(matrix(c.matrices.find(key.name)->second), std::string(key.name)));
+        break;
     }
+  }
+
+  /// A form, or one of several.
+  template <class Form>
+  static ConstraintForms<S> form_of(Form form) {
+    return form;
+  }
+  template <class... Form>
+  static ConstraintForms<S> form_of(std::variant<Form...> form) {
+    return std::visit([](auto& one) -> ConstraintForms<S> { return std::move(one); }, form);
   }
 
   void add(const SceneEffect& effect) {
@@ -328,7 +353,7 @@ class Assembler {
       report(a, "position", at_start.g, S(tolerance * at_start.size));
       S w;
       gradient.transposed_times(a, lanes(v), &w);
-      report(a, "velocity", w, S(tolerance * speed * gradient_size(constraint, result_.q0)));
+      report(a, "velocity", w, S(tolerance * speed * gradient_size(constraint, d_, result_.q0)));
     }
     for (const Dependence<S>& dependence : independence.redundant) check_bending(dependence);
     check_angle(independence);
@@ -388,20 +413,6 @@ class Assembler {
                      "the gradient of " + name(independence.nearest) + " is a combination of those of " +
                      list(independence.near) + " but for an angle of " +
                      to_scientific(S(sqrt(independence.square_of_sine)), 3) + "; take more digits");
-  }
-
-  /// An upper bound of the sum of the magnitudes in grad g.
-  S gradient_size(const Constraint<S>& constraint, const Vector<S>& q) const {
-    const S spread = max_norm(q);
-    if (const auto* f = std::get_if<DisplacementProduct<S>>(&constraint.form)) {
-      S size = spread;
-      raise_to(size, max_norm(f->x.shift));
-      raise_to(size, max_norm(f->y.shift));
-      return S(8 * d_) * size;
-    }
-    if (const auto* f = std::get_if<Quadric<S>>(&constraint.form))
-      return S(d_) * (S(2 * d_) * max_norm(f->A) * spread + max_norm(f->b));
-    return S(d_) * max_norm(std::get<Plane<S>>(constraint.form).normal);
   }
 
   void report(Index a, const std::string& what, const S& residual, const S& tolerance) const {

@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "hbvm/problem/constraint/registry.hpp"
 #include "hbvm/problem/effect/registry.hpp"
 #include "hbvm/scene/scene.hpp"
 #include "toml/toml_table.hpp"
@@ -148,31 +149,44 @@ class SceneReader {
     c.kind = table.string("kind");
     table.rename("constraint " + std::to_string(scene_.constraints.size() + 1) + " (" + c.kind + ")");
     c.line = table.line();
-    if (c.kind == "rod") {
-      c.first = pair(table, "between");
-      if (points_.contains(c.first[0]) && points_.contains(c.first[1])) table.fail("both ends are fixed points");
-      c.number = table.number("length");
-    } else if (c.kind == "quadric") {
-      c.body = table.string("body");
-      check_name(table, c.body, false);
-      c.A = table.matrix("A", d_);
-      c.vector = table.vector("b", d_);
-      c.number = table.number("c");
-    } else if (c.kind == "plane") {
-      c.body = table.string("body");
-      check_name(table, c.body, false);
-      c.vector = table.vector("normal", d_);
-      c.number = table.number("offset");
-    } else if (c.kind == "angle") {
-      c.first = pair(table, "first");
-      c.second = pair(table, "second");
-      c.number = table.number("value");
-    } else {
-      const std::string guess = nearest(c.kind, {"rod", "quadric", "plane", "angle"});
+    const bool known = with_constraint_form<double>(c.kind, [&]<class Form>() {
+      for (const ConstraintKey& key : Form::keys) value(table, key, c);
+    });
+    if (!known) {
+      const std::string guess = nearest(c.kind, constraint_kinds());
       table.fail("unknown kind of constraint" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
     }
+    const auto fixed = [&](const auto& pair) {
+      return points_.contains(pair.second[0]) && points_.contains(pair.second[1]);
+    };
+    if (!c.pairs.empty() && c.bodies.empty() && std::all_of(c.pairs.begin(), c.pairs.end(), fixed))
+      table.fail(c.pairs.size() == 1 ? "both ends are fixed points" : "all ends are fixed points");
     table.finish();
     scene_.constraints.push_back(std::move(c));
+  }
+
+  void value(TomlTable& table, const ConstraintKey& key, SceneConstraint& c) const {
+    using Takes = ConstraintKey::Takes;
+    switch (key.takes) {
+      case Takes::pair:
+        c.pairs.emplace(key.name, pair(table, key.name));
+        break;
+      case Takes::body: {
+        const std::string name = table.string(key.name);
+        check_name(table, name, false);
+        c.bodies.emplace(key.name, name);
+        break;
+      }
+      case Takes::number:
+        c.numbers.emplace(key.name, table.number(key.name));
+        break;
+      case Takes::vector:
+        c.vectors.emplace(key.name, table.vector(key.name, d_));
+        break;
+      case Takes::symmetric_matrix:
+        c.matrices.emplace(key.name, table.matrix(key.name, d_));
+        break;
+    }
   }
 
   void effect(TomlTable table) {

@@ -1,3 +1,4 @@
+#include "hbvm/problem/constraint/registry.hpp"
 #include "hbvm/scene/scene.hpp"
 
 namespace hbvm {
@@ -52,6 +53,23 @@ std::string text(const std::array<std::string, 2>& pair) {
   return text(std::vector<std::string>(pair.begin(), pair.end()));
 }
 
+std::string text(const SceneConstraint& c, const ConstraintKey& key) {
+  using Takes = ConstraintKey::Takes;
+  switch (key.takes) {
+    case Takes::pair:
+      return text(c.pairs.find(key.name)->second);
+    case Takes::body:
+      return quoted(c.bodies.find(key.name)->second);
+    case Takes::number:
+      return text(c.numbers.find(key.name)->second);
+    case Takes::vector:
+      return text(c.vectors.find(key.name)->second);
+    case Takes::symmetric_matrix:
+      return text(c.matrices.find(key.name)->second);
+  }
+  return {};
+}
+
 class Writer {
  public:
   void table(const std::string& name) { out += "\n[[" + name + "]]\n"; }
@@ -103,19 +121,9 @@ std::string write_scene(const Scene& scene) {
   for (const SceneConstraint& c : scene.constraints) {
     w.table("constraint");
     w.key("kind", quoted(c.kind));
-    if (c.kind == "rod") w.key("between", text(c.first));
-    if (c.kind == "angle") {
-      w.key("first", text(c.first));
-      w.key("second", text(c.second));
-    }
-    if (!c.body.empty()) w.key("body", quoted(c.body));
-    if (c.kind == "quadric") w.key("A", text(c.A));
-    if (!c.vector.empty()) w.key(c.kind == "quadric" ? "b" : "normal", text(c.vector));
-    const char* const number = c.kind == "rod"       ? "length"
-                               : c.kind == "quadric" ? "c"
-                               : c.kind == "plane"   ? "offset"
-                                                     : "value";
-    w.optional(number, c.number);
+    with_constraint_form<double>(c.kind, [&]<class Form>() {
+      for (const ConstraintKey& key : Form::keys) w.key(std::string(key.name), text(c, key));
+    });
   }
   for (const SceneEffect& e : scene.effects) {
     w.table("effect");

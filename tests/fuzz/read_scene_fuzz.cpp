@@ -26,7 +26,11 @@ class Evaluation {
     for (const SceneBody& b : scene.bodies) each(b.mass, b.mass_matrix, b.position, b.velocity, b.momentum, b.charge);
     for (const SceneRigidBody& b : scene.rigid_bodies)
       each(b.position, b.velocity, b.mass, b.center, b.second_moment, b.directors, b.angular_velocity);
-    for (const SceneConstraint& c : scene.constraints) each(c.A, c.vector, c.number);
+    for (const SceneConstraint& c : scene.constraints) {
+      all(c.numbers);
+      all(c.vectors);
+      all(c.matrices);
+    }
     for (const SceneEffect& e : scene.effects) {
       all(e.numbers);
       all(e.vectors);

@@ -155,7 +155,7 @@ TYPED_TEST(ConstraintGradientTest, AnAngleToAFixedDirectionIsLinear) {
   problem.mass.add_scalar(2, S(1));
   Vector<S> direction(2);
   direction << S(3), S(-4);
-  problem.constraints = {{"angle", DisplacementProduct<S>{{{{0, S(1)}}, {}}, {{}, direction}, false, S(1)}}};
+  problem.constraints = {{"angle", DisplacementProduct<S>{{{{0, S(1)}}, {}}, {{}, direction}, S(1)}}};
   ConstraintGradient<S> gradient(problem, 1);
   for (int update = 0; update < 3; ++update) {
     const Vector<S> q = this->random.vector(2);
@@ -196,7 +196,7 @@ TYPED_TEST(ConstraintGradientTest, CountsOperationsOfARod) {
   problem.mass.add_scalar(3, S(1));
   problem.mass.add_scalar(3, S(2));
   const Displacement<S> x{{{0, S(1)}, {3, S(-1)}}, {}};
-  problem.constraints = {{"rod", DisplacementProduct<S>{x, x, true, S(1)}}};
+  problem.constraints = {{"rod", Rod<S>{x, S(1)}}};
   // In each lane: x = a - b, grad_a = x + x, grad_b = -grad_a, and W grad_b.
   OperationCounts expected;
   expected.add(Op::subtract, 3);

@@ -88,13 +88,13 @@ Problem<S> constrained_problem(Index d) {
 
   const auto difference = [&](Index a, Index b) { return Displacement<S>{{{a * d, S(1)}, {b * d, S(-1)}}, {}}; };
   const auto rod = [&](const char* name, const Displacement<S>& x, const S& square) {
-    problem.constraints.push_back({name, DisplacementProduct<S>{x, x, true, square}});
+    problem.constraints.push_back({name, Rod<S>{x, square}});
   };
   Displacement<S> to_point{{{0, S(1)}}, Vector<S>(d)};
   for (Index j = 0; j < d; ++j) to_point.shift[j] = S(j + 1) / 4;
   rod("pin", to_point, S(2));
   rod("rod", difference(0, 1), S(9) / 4);
-  problem.constraints.push_back({"angle", DisplacementProduct<S>{difference(0, 1), difference(2, 1), false, S(1) / 2}});
+  problem.constraints.push_back({"angle", DisplacementProduct<S>{difference(0, 1), difference(2, 1), S(1) / 2}});
   Vector<S> linear(d), normal(d);
   for (Index j = 0; j < d; ++j) {
     linear[j] = S(2 * j - 1) / 2;

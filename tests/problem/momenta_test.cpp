@@ -7,7 +7,7 @@
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
-#include "problem/dense.hpp"
+#include "problem/any_constraint.hpp"
 #include "scalar/random_values.hpp"
 #include "scene/scene_text.hpp"
 
@@ -469,6 +469,14 @@ TEST_F(MomentaBySampling, OfEveryConstraintAlone) {
       problem.constraints = {all.constraints[a]};
       expect_same(problem, all.constraints[a].name);
     }
+    for_each_constraint_form<double>([&]<class Form>() {
+      Problem<double> problem = two_bodies(d);
+      problem.mass.add_scalar(d, 1);
+      problem.blocks.push_back({2 * d, true});
+      problem.potential.m = problem.m();
+      problem.constraints = {any_constraint<Form>(d, random)};
+      expect_same(problem, std::string(Form::kind) + " in " + std::to_string(d) + " dimensions");
+    });
   }
 }
 

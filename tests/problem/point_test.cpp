@@ -36,7 +36,7 @@ class PointTest : public ::testing::Test {
     problem.dimension = problem.potential.dimension = problem.potential.m = d;
     problem.mass.add_scalar(d, mass);
     const Displacement<S> x{{{0, S(1)}}, {}};
-    problem.constraints.push_back({"rod", DisplacementProduct<S>{x, x, true, square}});
+    problem.constraints.push_back({"rod", Rod<S>{x, square}});
     problem.potential.terms.push_back(gravity(d, {body(0, Matrix<S>::Identity(d, d) * mass)}));
     return problem;
   }

@@ -36,11 +36,11 @@ class Regularity : public ::testing::Test {
   }
   static void tie(Problem<S>& problem, Index a, Index b) {
     const Displacement<S> x{{{2 * a, S(1)}, {2 * b, S(-1)}}, {}};
-    problem.constraints.push_back({"rod", DisplacementProduct<S>{x, x, true, S(1)}});
+    problem.constraints.push_back({"rod", Rod<S>{x, S(1)}});
   }
   static void pin(Problem<S>& problem, Index body) {
     const Displacement<S> x{{{2 * body, S(1)}}, {}};
-    problem.constraints.push_back({"pin", DisplacementProduct<S>{x, x, true, S(1)}});
+    problem.constraints.push_back({"pin", Rod<S>{x, S(1)}});
   }
 
   static Independence<S> at_rest(const Problem<S>& problem, const Vector<S>& q) {

@@ -101,24 +101,24 @@ TEST_F(ReadScene, Constraints) {
       std::tie(scene.constraints[0], scene.constraints[1], scene.constraints[2], scene.constraints[3]);
   using Names = std::array<std::string, 2>;
   EXPECT_EQ(rod.kind, "rod");
-  EXPECT_EQ(rod.first, (Names{"pivot", "a"}));
-  expect_number(rod.number, "1");
+  EXPECT_EQ(rod.pairs.at("between"), (Names{"pivot", "a"}));
+  expect_number(rod.numbers.at("length"), "1");
 
   EXPECT_EQ(quadric.kind, "quadric");
-  EXPECT_EQ(quadric.body, "b");
-  expect_numbers(quadric.A, {{"1", "1/4", "0"}, {"1/4", "2", "0"}, {"0", "0", "1"}});
-  expect_numbers(quadric.vector, {"1/2", "0", "-1"});
-  expect_number(quadric.number, "-4");
+  EXPECT_EQ(quadric.bodies.at("body"), "b");
+  expect_numbers(quadric.matrices.at("A"), {{"1", "1/4", "0"}, {"1/4", "2", "0"}, {"0", "0", "1"}});
+  expect_numbers(quadric.vectors.at("b"), {"1/2", "0", "-1"});
+  expect_number(quadric.numbers.at("c"), "-4");
 
   EXPECT_EQ(plane.kind, "plane");
-  EXPECT_EQ(plane.body, "c");
-  expect_numbers(plane.vector, {"1", "2", "2"});
-  expect_number(plane.number, "3");
+  EXPECT_EQ(plane.bodies.at("body"), "c");
+  expect_numbers(plane.vectors.at("normal"), {"1", "2", "2"});
+  expect_number(plane.numbers.at("offset"), "3");
 
   EXPECT_EQ(angle.kind, "angle");
-  EXPECT_EQ(angle.first, (Names{"a", "pivot"}));
-  EXPECT_EQ(angle.second, (Names{"c", "b"}));
-  expect_number(angle.number, "4/5");
+  EXPECT_EQ(angle.pairs.at("first"), (Names{"a", "pivot"}));
+  EXPECT_EQ(angle.pairs.at("second"), (Names{"c", "b"}));
+  expect_number(angle.numbers.at("value"), "4/5");
   EXPECT_EQ(angle.line, line_of(every_key, "kind = \"angle\"") - 1);
 }
 

@@ -46,6 +46,13 @@ S max_norm(const Vector<S>& a) {
   return norm;
 }
 
+/// A matrix or vector of |a_i|.
+template <class Array>
+Array magnitudes(Array a) {
+  for (Index i = 0; i < a.size(); ++i) a.data()[i] = magnitude(a.data()[i]);
+  return a;
+}
+
 /// max |a_i - b_i|.
 template <Scalar S>
 S distance(const Vector<S>& a, const Vector<S>& b) {

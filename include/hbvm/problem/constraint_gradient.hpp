@@ -58,32 +58,21 @@ class ConstraintGradient {
  private:
   static void add_times(const std::vector<Pattern>& patterns, const Matrix<S>& values, const Matrix<S>& lambda,
                         Lanes<S> out, S& t);
-  /// One column of a gradient from a displacement: column = weight source, or += if it is not the first.
-  struct Share {
-    Index column, source;
-    bool of_y, first;
-    S weight;
-  };
   /// One column of M^-1 grad g: to = factor from, or += if it is not the first; no factor stands for 1.
   struct Weighing {
     Index to, from;
     bool first;
     const S* factor;
   };
-  void prepare(const Constraint<S>& constraint, const Pattern& pattern);
   void prepare_weighing(const Pattern& from, const Pattern& to);
   void update_all(Lanes<const S> q, Matrix<S>* g);
-  void update(std::size_t a, const DisplacementProduct<S>& form, Lanes<const S> q, S* g);
-  void update(std::size_t a, const Quadric<S>& form, Lanes<const S> q, S* g);
-  void update(std::size_t a, const Plane<S>& form, Lanes<const S> q, S* g);
-  /// column = or += weight a, in every lane.
-  void share(S* column, const S* a, const S& weight, bool first);
+  GradientTarget<S> target(std::size_t a, S* g);
   void weigh();
 
   const Problem<S>& problem_;
   Index lanes_;
   std::vector<Pattern> patterns_, weighted_patterns_;
-  std::vector<std::vector<Share>> shares_;  ///< of each constraint
+  std::vector<typename GradientsOf<ConstraintForms<S>>::type> gradients_;
   std::vector<Weighing> weighings_;
   Matrix<S> values_, weighted_;  // lanes x stored columns
   std::vector<Coupling> couplings_;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hbvm/linear/operation_counts.hpp"
 #include "hbvm/problem/lanes.hpp"
 
 namespace hbvm {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/problem/displacement.hpp"
 #include "hbvm/problem/effect/execution.hpp"
 #include "hbvm/problem/effect/kernel.hpp"
 #include "hbvm/problem/effect/symmetry.hpp"
-#include "hbvm/problem/lanes.hpp"
 
 namespace hbvm {
 

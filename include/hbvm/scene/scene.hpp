@@ -51,13 +51,14 @@ struct SceneRigidBody {
   std::size_t line = 0;
 };
 
+/// A constraint by its kind, which says the keys: see ConstraintForms.
 struct SceneConstraint {
-  std::string kind;                              ///< rod, quadric, plane or angle
-  std::array<std::string, 2> first{}, second{};  ///< rod: first = between; angle: both
-  std::string body;                              ///< quadric, plane
-  SceneMatrix A;                                 ///< quadric
-  SceneVector vector;                            ///< quadric: b; plane: normal
-  std::optional<Expression> number;              ///< rod: length; quadric: c; plane: offset; angle: value
+  std::string kind;
+  std::map<std::string, std::array<std::string, 2>, std::less<>> pairs;
+  std::map<std::string, std::string, std::less<>> bodies;
+  std::map<std::string, Expression, std::less<>> numbers;
+  std::map<std::string, SceneVector, std::less<>> vectors;
+  std::map<std::string, SceneMatrix, std::less<>> matrices;
   std::size_t line = 0;
 };
 

@@ -1,4 +1,4 @@
-#include "hbvm/problem/lanes.hpp"
+#include "hbvm/problem/displacement.hpp"
 
 namespace hbvm {
 

@@ -1,4 +1,4 @@
-#include "hbvm/problem/lanes.hpp"
+#include "hbvm/problem/displacement.hpp"
 
 #include "printing.hpp"
 #include "scalar/random_values.hpp"

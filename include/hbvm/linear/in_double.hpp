@@ -1,0 +1,21 @@
+#pragma once
+
+#include "hbvm/linear/matrix.hpp"
+
+namespace hbvm {
+
+/// The matrix, or the vector, of the doubles next to the entries: for Jacobians and start values, never for a result.
+template <Scalar S>
+Matrix<double> in_double(const Matrix<S>& a) {
+  Matrix<double> result(a.rows(), a.cols());
+  for (Index i = 0; i < a.size(); ++i) result.data()[i] = approximately(a.data()[i]);
+  return result;
+}
+template <Scalar S>
+Vector<double> in_double(const Vector<S>& a) {
+  Vector<double> result(a.size());
+  for (Index i = 0; i < a.size(); ++i) result[i] = approximately(a[i]);
+  return result;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "hbvm/problem/constraint/gradient_target.hpp"
+#include "hbvm/problem/displacement.hpp"
+
+namespace hbvm {
+
+/// How derivatives by displacements spread over the coordinates that these are made of: columns of a gradient as
+/// weighted sums of the components of a vector x, and of another y.
+template <Scalar S>
+class GradientShares {
+ public:
+  enum class Of { x, y };
+
+  /// \param coordinates of the gradient, ascending
+  GradientShares(Index dimension, const std::vector<Index>& coordinates)
+      : dimension_(dimension), coordinates_(coordinates) {}
+
+  /// The columns of what `moving` is made of get its weights times the vector.
+  void add(const Displacement<S>& moving, Of vector) {
+    for (const auto& block : moving.blocks)
+      for (Index j = 0; j < dimension_; ++j) {
+        const auto at = std::lower_bound(coordinates_.begin(), coordinates_.end(), block.offset + j);
+        const auto column = static_cast<Index>(at - coordinates_.begin());
+        shares_.push_back({column, j, vector, touched_.insert(column).second, block.weight});
+      }
+  }
+
+  /// Computes the columns from x and y of the target.
+  void spread(const GradientTarget<S>& to) const {
+    const Index lanes = to.lanes;
+    for (const Share& share : shares_) {
+      const S* const from = (share.vector == Of::x ? to.x : to.y).data() + share.component * lanes;
+      S* const column = to.column(share.column);
+      if (!share.first)
+        add_weighted(column, share.weight, from, lanes, to.t);
+      else if (share.weight == 1)
+        for (Index i = 0; i < lanes; ++i) set(column[i], from[i]);
+      else if (share.weight == -1)
+        for (Index i = 0; i < lanes; ++i) set_negative(column[i], from[i]);
+      else
+        for (Index i = 0; i < lanes; ++i) set_product(column[i], share.weight, from[i]);
+    }
+  }
+
+  /// Of spread(), in one lane.
+  OperationCounts operations() const {
+    OperationCounts counts;
+    for (const Share& share : shares_) {
+      if (!share.first)
+        counts += weighted_sum(share.weight, 1);
+      else if (share.weight == -1)
+        counts.add(Op::negate, 1);
+      else if (share.weight != 1)
+        counts.add(Op::multiply, 1);
+    }
+    return counts;
+  }
+
+ private:
+  /// column = weight component, or += if it is not the first.
+  struct Share {
+    Index column, component;
+    Of vector;
+    bool first;
+    S weight;
+  };
+
+  Index dimension_;
+  std::vector<Index> coordinates_;
+  std::vector<Share> shares_;
+  std::set<Index> touched_;
+};
+
+}  // namespace hbvm

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "hbvm/problem/constraint/displacement_product.hpp"
+#include "hbvm/problem/constraint/form.hpp"
+#include "hbvm/problem/constraint/plane.hpp"
+#include "hbvm/problem/constraint/quadric.hpp"
+#include "hbvm/problem/constraint/rod.hpp"
+
+namespace hbvm {
+
+/// Every form of constraint that a scene can name. A new one is its file, and one line here.
+template <Scalar S>
+using ConstraintForms = std::variant<Rod<S>,      //
+                                     Quadric<S>,  //
+                                     Plane<S>,    //
+                                     DisplacementProduct<S>>;
+
+/// What an evaluator of the gradient of one of them holds.
+template <class Forms>
+struct GradientsOf;
+template <class... F>
+struct GradientsOf<std::variant<F...>> {
+  using type = std::variant<typename F::Gradient...>;
+};
+
+/// Calls f.operator()<Form>() for every form in turn.
+template <Scalar S, class F>
+void for_each_constraint_form(F&& f) {
+  [&]<class... Form>(std::variant<Form...>*) {
+    static_assert((ConstraintForm<Form, S> && ...));
+    (f.template operator()<Form>(), ...);
+  }(static_cast<ConstraintForms<S>*>(nullptr));
+}
+
+/// Calls f.operator()<Form>() for the form of that kind; false if there is none.
+template <Scalar S, class F>
+bool with_constraint_form(std::string_view kind, F&& f) {
+  bool found = false;
+  for_each_constraint_form<S>([&]<class Form>() {
+    if (kind != Form::kind) return;
+    found = true;
+    f.template operator()<Form>();
+  });
+  return found;
+}
+
+/// The kinds as scenes name them.
+inline std::vector<std::string> constraint_kinds() {
+  std::vector<std::string> kinds;
+  for_each_constraint_form<double>([&]<class Form>() { kinds.emplace_back(Form::kind); });
+  return kinds;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "hbvm/problem/constraint.hpp"
+#include "problem/dense.hpp"
+#include "scalar/random_values.hpp"
+
+namespace hbvm {
+
+/// A constraint of this form as a scene would make it, with random numbers: its pairs are bodies 0 and 1, 1 and 2, ...,
+/// its bodies the bodies 1, 2, ... of d coordinates each.
+template <class Form, Scalar S>
+Constraint<S> any_constraint(Index d, RandomValues<S>& random) {
+  ConstraintUse<S> use;
+  use.dimension = d;
+  Index pairs = 0, bodies = 0;
+  for (const ConstraintKey& key : Form::keys) {
+    using Takes = ConstraintKey::Takes;
+    switch (key.takes) {
+      case Takes::pair: {
+        const Index a = pairs++;
+        use.pairs.emplace(key.name, Displacement<S>{{{a * d, S(1)}, {(a + 1) * d, S(-1)}}, random.vector(d)});
+        break;
+      }
+      case Takes::body:
+        use.bodies.emplace(key.name, ++bodies * d);
+        break;
+      case Takes::number:
+        use.numbers.emplace(key.name, S(2 + random.value()));
+        break;
+      case Takes::vector:
+        use.vectors.emplace(key.name, random.vector(d));
+        break;
+      case Takes::symmetric_matrix:
+        use.matrices.emplace(key.name, mass_block<S>(d));
+        break;
+    }
+  }
+  Constraint<S> constraint{std::string(Form::kind), {}};
+  if constexpr (requires { Form::from(use).index(); })
+    std::visit([&](const auto& form) { constraint.form = form; }, Form::from(use));
+  else
+    constraint.form = Form::from(use);
+  return constraint;
+}
+
+/// Three bodies, of which the last two share a block of the mass matrix, under this constraint alone.
+template <Scalar S>
+Problem<S> three_bodies(Index d, Constraint<S> constraint) {
+  Problem<S> problem;
+  problem.dimension = problem.potential.dimension = d;
+  problem.mass.add_scalar(d, S(2));
+  problem.mass.add_full(mass_block<S>(2 * d));
+  problem.potential.m = problem.m();
+  problem.constraints = {std::move(constraint)};
+  return problem;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,23 @@
+#include "hbvm/problem/constraint/quadric.hpp"
+
+#include "problem/constraint/form_test.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+using QuadricTest = FormTest<S>;
+TYPED_TEST_SUITE(QuadricTest, AllScalars, ScalarNames);
+
+TYPED_TEST(QuadricTest, QuadricWithALinearPart) {
+  Matrix<TypeParam> A(2, 2);
+  A << TypeParam(2), TypeParam(-1), TypeParam(-1), TypeParam(3);
+  const Constraint<TypeParam> quadric{"quadric", Quadric<TypeParam>{2, A, this->vector({4, -5}), TypeParam(6)}};
+  const auto q = this->vector({9, 9, 1, -2});
+  EXPECT_EQ(value(quadric, 2, q).g, 2 * 1 - 2 * (-2) + 3 * 4 + 4 * 1 - 5 * (-2) + 6);
+  EXPECT_EQ(curvature(quadric, 2, q), 2 * (2 * 1 - 2 * (-2) + 3 * 4));
+  EXPECT_EQ(coordinates(quadric, 2), (std::vector<Index>{2, 3}));
+}
+
+}  // namespace
+}  // namespace hbvm
