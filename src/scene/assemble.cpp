@@ -9,7 +9,7 @@
 #include <set>
 
 #include "hbvm/problem/constraint_gradient.hpp"
-#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/problem/effect/use.hpp"
 #include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"

@@ -1,6 +1,8 @@
 #include "hbvm/step/tableau_method.hpp"
 
+#include "hbvm/method/order_conditions.hpp"
 #include "hbvm/method/read_tableau.hpp"
+#include "hbvm/method/symmetry_defect.hpp"
 
 namespace hbvm {
 namespace {

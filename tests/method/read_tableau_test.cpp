@@ -8,6 +8,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/scalar/literal.hpp"
+#include "hbvm/method/order_conditions.hpp"
 
 namespace hbvm {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/SVD>
 
-#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/problem/effect/use.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scene/assemble.hpp"

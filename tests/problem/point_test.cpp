@@ -1,7 +1,7 @@
 #include "hbvm/problem/point.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/problem/effect/use.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"

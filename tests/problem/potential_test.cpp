@@ -1,6 +1,6 @@
 #include "hbvm/problem/potential.hpp"
 
-#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/problem/effect/use.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
 

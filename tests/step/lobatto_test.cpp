@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "hbvm/method/order_conditions.hpp"
 #include "hbvm/method/runge_kutta.hpp"
+#include "hbvm/method/symmetry_defect.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/registry.hpp"

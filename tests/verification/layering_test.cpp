@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <map>
+#include <memory>
 #include <regex>
 #include <set>
 
@@ -17,9 +20,8 @@ std::map<std::string, Folders> allowed() {
   std::map<std::string, Folders> result;
   Folders both_chains{""};
   result[""] = {""};
-  for (const std::vector<std::string>& chain :
-       {std::vector<std::string>{"scalar", "linear", "basis", "toml", "method"},
-        {"scalar", "linear", "problem", "toml", "scene"}}) {
+  for (const std::vector<std::string>& chain : {std::vector<std::string>{"scalar", "linear", "basis", "toml", "method"},
+                                                {"scalar", "linear", "problem", "toml", "scene"}}) {
     Folders left{""};
     for (const std::string& folder : chain) {
       left.insert(folder);
@@ -87,6 +89,83 @@ TEST(Layering, IncludesGoOnlyLeftwards) {
     }
   }
   EXPECT_GT(seen, 100u);
+}
+
+/// "problem/effect" for "problem/effect/trace.hpp".
+std::string whole_folder_of(const std::string& file) {
+  return std::filesystem::path(file).parent_path().generic_string();
+}
+
+/// The folder a file of include/hbvm or src is in, and where a line of it that includes another leads.
+std::string whole_folder(const Source& source) {
+  for (const char* root : {"include/hbvm", "src"}) {
+    const auto relative = source.path.lexically_relative(std::filesystem::path(HBVM_SOURCE_DIR) / root);
+    if (!relative.empty() && *relative.begin() != "..") return whole_folder_of(relative.generic_string());
+  }
+  return {};
+}
+std::string target(const Source& source, const std::string& file) {
+  if (file.starts_with("hbvm/")) return whole_folder_of(file.substr(5));
+  const auto beside = std::filesystem::path(whole_folder(source)) / file;
+  if (std::filesystem::exists(source.path.parent_path() / file))
+    return whole_folder_of(beside.lexically_normal().generic_string());
+  return whole_folder_of(file);
+}
+
+/// Folders within folders stand in an order, too: none is reached again from what it includes.
+TEST(Layering, FoldersWithinFoldersFormNoCircle) {
+  std::map<std::string, std::map<std::string, std::string>> includes_of;  // folder, folder: one place
+  for (const Source& source : sources())
+    for (const Include& include : includes(source.text)) {
+      const std::string from = whole_folder(source), to = include.quoted ? target(source, include.file) : from;
+      if (from != to) includes_of[from].emplace(to, source.place(include.line) + " includes " + include.file);
+    }
+  EXPECT_TRUE(includes_of["problem"].contains("problem/effect"));
+  for (const auto& [start, unused] : includes_of) {
+    std::map<std::string, std::string> reached{{start, ""}};
+    for (std::vector<std::string> open{start}; !open.empty();) {
+      const std::string folder = open.back();
+      open.pop_back();
+      for (const auto& [next, place] : includes_of[folder]) {
+        const std::string path = reached[folder] + "\n  " + place;
+        EXPECT_NE(next, start) << "a circle of folders:" << path;
+        if (reached.emplace(next, path).second) open.push_back(next);
+      }
+    }
+  }
+}
+
+/// What is declared to the left is not defined to the right: the symbols that the object of a folder needs are defined
+/// in folders that it may include.
+TEST(Layering, DefinitionsStandWhereTheirDeclarationsDo) {
+  const std::string command = std::string("nm -A \"") + HBVM_LIBRARY + "\"";
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  ASSERT_TRUE(pipe);
+  std::map<std::string, Folders> needed, defined;  // by symbol: folders
+  // libhbvm.a:unity_src_problem_effect_cxx.cxx.o:00000000000000a0 T _ZN4hbvm...
+  static const std::regex line_of(
+      R"(.*:unity_src_([a-z]+)\w*_cxx\.cxx\.o:[0-9a-f ]* ([A-Za-z]) (_ZN?K?\w*4hbvm\w+)\n?)");
+  for (char buffer[1 << 16]; std::fgets(buffer, sizeof buffer, pipe.get());) {
+    std::cmatch match;
+    if (!std::regex_match(buffer, match, line_of)) continue;
+    (match[2] == "U" ? needed : defined)[match[3]].insert(match[1]);
+  }
+  if (needed.empty()) GTEST_SKIP() << "the library's sources are not compiled folder by folder";
+  const auto folders = allowed();
+  std::size_t seen = 0;
+  for (const auto& [symbol, where] : needed) {
+    const auto definition = defined.find(symbol);
+    if (definition == defined.end()) continue;  // of a generated source, or a library
+    for (const std::string& folder : where) {
+      if (!folders.contains(folder)) continue;
+      ++seen;
+      const Folders& left = folders.at(folder);
+      const bool is_left = std::any_of(definition->second.begin(), definition->second.end(),
+                                       [&](const std::string& f) { return left.contains(f); });
+      EXPECT_TRUE(is_left) << folder << " needs " << symbol << ", which " << *definition->second.begin() << " defines";
+    }
+  }
+  EXPECT_GT(seen, 300u);
 }
 
 TEST(Layering, ReportsHoldNoScalarType) {

@@ -7,6 +7,7 @@
 #include "hbvm/integrate/constraint_angles.hpp"
 #include "hbvm/integrate/energy_balance.hpp"
 #include "hbvm/integrate/hidden_cosines.hpp"
+#include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/step/method.hpp"
 
 namespace hbvm {

@@ -4,6 +4,7 @@
 
 #include "hbvm/analysis/account.hpp"
 #include "hbvm/integrate/drift.hpp"
+#include "hbvm/integrate/integrate.hpp"
 #include "hbvm/integrate/watched_stepper.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/backward_stepper.hpp"

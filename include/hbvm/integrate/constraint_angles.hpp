@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/integrate/observer.hpp"
 #include "hbvm/linear/inverse_diagonal.hpp"
 #include "hbvm/linear/ordering.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"

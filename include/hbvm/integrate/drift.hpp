@@ -1,8 +1,9 @@
 #pragma once
 
-#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/integrate/observer.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/problem/redundant_constraints.hpp"
+#include "hbvm/solver/stage_failure.hpp"
 
 namespace hbvm {
 

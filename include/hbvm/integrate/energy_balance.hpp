@@ -2,7 +2,8 @@
 
 #include <deque>
 
-#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/integrate/observer.hpp"
+#include "hbvm/problem/problem.hpp"
 
 namespace hbvm {
 

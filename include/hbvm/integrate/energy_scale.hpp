@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/integrate/observer.hpp"
 #include "hbvm/problem/energy_terms.hpp"
 
 namespace hbvm {

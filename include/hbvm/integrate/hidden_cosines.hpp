@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/integrate/observer.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"
 
 namespace hbvm {

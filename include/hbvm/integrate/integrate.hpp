@@ -1,47 +1,14 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "hbvm/integrate/checkpoint.hpp"
+#include "hbvm/integrate/observer.hpp"
+#include "hbvm/integrate/step_error.hpp"
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/step/stepper.hpp"
 
 namespace hbvm {
-
-/// The solution at one mesh point. `lambda` is (lagmul) of the step that ends there; at n = 0 that of the exact state,
-/// (Theorem lamex).
-template <Scalar S>
-struct Snapshot {
-  long n = 0;
-  S t;
-  Vector<S> q, p, lambda;
-};
-
-/// Looks at every mesh point, in order. What it throws ends the integration.
-template <Scalar S>
-class Observer {
- public:
-  virtual ~Observer() = default;
-  virtual void observe(const Snapshot<S>& snapshot) = 0;
-  /// All that it gathered, for a run that goes on from a checkpoint.
-  virtual void remember(Archive&) { throw InputError("--checkpoint: something that looks at this run cannot be kept"); }
-};
-
-/// A step that could not be made. What was computed before it has been shown to the observers.
-class StepError : public IntegrationError {
- public:
-  StepError(long step, std::string time, const StageFailure& failure);
-  FailureCause cause() const { return cause_; }
-  long step() const { return step_; }
-  const std::string& time() const { return time_; }
-  const std::string& increment() const { return increment_; }
-
- private:
-  FailureCause cause_;
-  long step_;
-  std::string time_, increment_;
-};
 
 template <Scalar S>
 struct Integration {

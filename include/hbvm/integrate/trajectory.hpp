@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/integrate/integrate.hpp"
+#include "hbvm/integrate/observer.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/problem/redundant_constraints.hpp"
 

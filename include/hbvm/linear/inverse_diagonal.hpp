@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "hbvm/linear/matrix.hpp"
+#include "hbvm/linear/index.hpp"
+#include "hbvm/scalar/scalar.hpp"
 
 namespace hbvm {
 

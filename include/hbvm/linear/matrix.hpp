@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <boost/multiprecision/eigen.hpp>
+#include <concepts>
 
+#include "hbvm/linear/index.hpp"
 #include "hbvm/scalar/scalar.hpp"
 
 namespace hbvm {
 
-using Index = Eigen::Index;
+static_assert(std::same_as<Index, Eigen::Index>);
 
 /// Storage only: columns are contiguous. The products and solves of the working precision are in this folder.
 template <Scalar S>

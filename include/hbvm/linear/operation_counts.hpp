@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "hbvm/linear/matrix.hpp"
+#include "hbvm/linear/index.hpp"
 
 namespace hbvm {
 

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "hbvm/linear/matrix.hpp"
+#include "hbvm/linear/index.hpp"
 
 namespace hbvm {
 

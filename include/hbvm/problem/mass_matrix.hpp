@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hbvm/linear/operation_counts.hpp"
-#include "hbvm/problem/lanes.hpp"
+#include "hbvm/problem/space/lanes.hpp"
 
 namespace hbvm {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hbvm/method/order_conditions.hpp"
+#include "hbvm/method/symmetry_defect.hpp"
 #include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/tableau_method.hpp"

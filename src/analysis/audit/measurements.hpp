@@ -3,7 +3,8 @@
 #include <functional>
 
 #include "cell.hpp"
-#include "laboratory.hpp"
+#include "sizes.hpp"
+#include "trial.hpp"
 
 namespace hbvm {
 

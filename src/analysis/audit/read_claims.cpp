@@ -5,6 +5,7 @@
 #include "hbvm/method/method_spec.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/scene.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/registry.hpp"
 #include "hbvm/step/tableau_method.hpp"

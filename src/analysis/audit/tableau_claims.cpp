@@ -1,4 +1,6 @@
 #include "hbvm/analysis/audit/claims.hpp"
+#include "hbvm/method/order_conditions.hpp"
+#include "hbvm/method/symmetry_defect.hpp"
 #include "hbvm/step/tableau_method.hpp"
 
 namespace hbvm {

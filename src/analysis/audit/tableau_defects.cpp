@@ -1,6 +1,8 @@
 #include <algorithm>
 
+#include "hbvm/method/order_conditions.hpp"
 #include "hbvm/method/runge_kutta.hpp"
+#include "hbvm/method/symmetry_defect.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "measurements.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/analysis/audit/claim.hpp"
+#include "hbvm/analysis/audit/finding.hpp"
 #include "hbvm/analysis/cells.hpp"
 #include "hbvm/scalar/expression.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/analysis/audit/claim.hpp"
+#include "hbvm/analysis/audit/finding.hpp"
 #include "hbvm/report/figure.hpp"
 #include "hbvm/report/table.hpp"
 

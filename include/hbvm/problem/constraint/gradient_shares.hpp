@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hbvm/problem/constraint/gradient_target.hpp"
-#include "hbvm/problem/displacement.hpp"
+#include "hbvm/problem/space/displacement.hpp"
 
 namespace hbvm {
 

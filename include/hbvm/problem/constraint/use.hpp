@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "hbvm/problem/displacement.hpp"
+#include "hbvm/problem/space/displacement.hpp"
 
 namespace hbvm {
 

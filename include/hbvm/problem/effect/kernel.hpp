@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "hbvm/problem/effect/program.hpp"
-#include "hbvm/problem/displacement.hpp"
+#include "hbvm/problem/space/displacement.hpp"
 
 namespace hbvm {
 

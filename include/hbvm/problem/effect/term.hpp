@@ -1,34 +1,29 @@
 #pragma once
 
-#include "hbvm/problem/effect/registry.hpp"
-#include "hbvm/problem/effect/trace.hpp"
-#include "hbvm/problem/potential.hpp"
+#include <string>
+#include <vector>
+
+#include "hbvm/problem/effect/program.hpp"
+#include "hbvm/problem/effect/symmetry.hpp"
+#include "hbvm/problem/space/displacement.hpp"
 
 namespace hbvm {
 
-/// The numbers of one use of an effect: its keys, and for each body or pair its parameters in the order mass matrix
-/// (on_each_body only), masses (two for pairs, else one), charges (two, or one and the centre's).
+/// One effect as a scene uses it: a formula for the displacement of a body or pair, and all the bodies or pairs it
+/// holds for. Made by trace_effect from the effect's one definition.
 template <Scalar S>
-struct EffectUse {
+struct EffectTerm {
   std::string kind;
-  Index dimension = 0;
-  std::map<std::string, S, std::less<>> numbers;
-  std::map<std::string, std::vector<S>, std::less<>> vectors;
-  struct Instance {
-    Displacement<S> x;
-    Matrix<S> mass_matrix;  ///< d x d
-    S masses[2] = {S(0), S(0)};
-    S charges[2] = {S(0), S(0)};
-  };
-  std::vector<Instance> instances;
+  int degree = 0;                              ///< of U as a polynomial in q; Trace::not_polynomial if it is none
+  Program<S> value;                            ///< one output, U, from the d displacements and the coefficients
+  Program<S> gradient;                         ///< d outputs, dU/dx
+  Program<S> hessian;                          ///< d (d + 1)/2 outputs, the lower triangle of d2U/dx2 row by row
+  bool constant_force = false;                 ///< dU/dx does not depend on x
+  std::vector<Displacement<S>> displacements;  ///< one an instance
+  Matrix<S> value_coefficients;                ///< instances x coefficients of `value`
+  Matrix<S> gradient_coefficients;
+  Matrix<S> hessian_coefficients;
+  EffectSymmetry<S> symmetry;
 };
-
-/// Evaluates the effect's formula once on Traced values and compiles U and dU/dx.
-template <Scalar S>
-EffectTerm<S> make_term(const EffectUse<S>& use);
-
-#define HBVM_DECLARE(S) extern template EffectTerm<S> make_term<S>(const EffectUse<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm

@@ -10,7 +10,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/problem/effect/kernel.hpp"
-#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/problem/effect/use.hpp"
 
 namespace hbvm {
 namespace {

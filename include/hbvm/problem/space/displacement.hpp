@@ -5,7 +5,7 @@
 
 #include "hbvm/linear/in_double.hpp"
 #include "hbvm/linear/operation_counts.hpp"
-#include "hbvm/problem/lanes.hpp"
+#include "hbvm/problem/space/lanes.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/problem/effect/use.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
 

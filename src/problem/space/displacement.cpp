@@ -1,4 +1,4 @@
-#include "hbvm/problem/displacement.hpp"
+#include "hbvm/problem/space/displacement.hpp"
 
 namespace hbvm {
 

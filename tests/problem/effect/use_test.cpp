@@ -1,4 +1,4 @@
-#include "hbvm/problem/effect/term.hpp"
+#include "hbvm/problem/effect/use.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cstddef>
+
+namespace hbvm {
+
+/// Of rows, columns and coordinates; Eigen's.
+using Index = std::ptrdiff_t;
+
+}  // namespace hbvm

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "hbvm/problem/problem.hpp"
+#include "hbvm/scalar/archive.hpp"
+#include "hbvm/solver/part_count.hpp"
+
+namespace hbvm {
+
+/// By effect and by part of the stage equations, in whatever precision they were evaluated.
+struct SolverCounts {
+  std::vector<EffectCount> effects;
+  std::vector<PartCount> parts;
+
+  void remember(Archive& archive) {
+    archive.sized(effects);
+    archive.sized(parts);
+  }
+};
+
+/// sum += other; a constant force counts once, whatever the number of solvers.
+template <Scalar S>
+void add_counts(SolverCounts& sum, const SolverCounts& other, const Problem<S>& problem) {
+  if (sum.parts.empty()) {
+    sum = other;
+    return;
+  }
+  for (std::size_t t = 0; t < sum.effects.size(); ++t) {
+    if (problem.potential.terms[t].constant_force) continue;
+    sum.effects[t].calls += other.effects[t].calls;
+    sum.effects[t].evaluations += other.effects[t].evaluations;
+    sum.effects[t].seconds += other.effects[t].seconds;
+  }
+  for (std::size_t i = 0; i < other.parts.size(); ++i) {
+    if (i == sum.parts.size()) {
+      sum.parts.push_back(other.parts[i]);
+      continue;
+    }
+    sum.parts[i].calls += other.parts[i].calls;
+    sum.parts[i].seconds += other.parts[i].seconds;
+  }
+}
+
+/// The same as a new value.
+template <Scalar S>
+SolverCounts sum_of(SolverCounts counts, const SolverCounts& other, const Problem<S>& problem) {
+  add_counts(counts, other, problem);
+  return counts;
+}
+
+}  // namespace hbvm
