@@ -23,7 +23,7 @@ S evaluate(const Expression& expression, const Constants& constants = {}) {
   return value;
 }
 
-/// The number written as exact text: literal<S>("0.1"), literal<S>("2^(3/4)*pi/5").
+/// The number written as exact text: `literal<S>("0.1")`, `literal<S>("2^(3/4)*pi/5")`.
 template <Scalar S>
 S literal(std::string_view text) {
   return evaluate<S>(Expression::parse(text));

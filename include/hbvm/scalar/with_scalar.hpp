@@ -7,7 +7,7 @@
 
 namespace hbvm {
 
-/// Calls f.operator()<S>() with the scalar that `precision` names, inside a PrecisionScope of its digits. This is
+/// Calls `f.operator()<S>()` with the scalar that `precision` names, inside a PrecisionScope of its digits. This is
 /// the only place where the choice made at run time becomes a type; what f returns must hold no scalar, so that
 /// nothing outlives its working precision:
 ///

@@ -28,7 +28,7 @@ struct GradientsOf<std::variant<F...>> {
   using type = std::variant<typename F::Gradient...>;
 };
 
-/// Calls f.operator()<Form>() for every form in turn.
+/// Calls `f.operator()<Form>()` for every form in turn.
 template <Scalar S, class F>
 void for_each_constraint_form(F&& f) {
   [&]<class... Form>(std::variant<Form...>*) {
@@ -37,7 +37,7 @@ void for_each_constraint_form(F&& f) {
   }(static_cast<ConstraintForms<S>*>(nullptr));
 }
 
-/// Calls f.operator()<Form>() for the form of that kind; false if there is none.
+/// Calls `f.operator()<Form>()` for the form of that kind; false if there is none.
 template <Scalar S, class F>
 bool with_constraint_form(std::string_view kind, F&& f) {
   bool found = false;

@@ -25,7 +25,7 @@ using Effects = std::tuple<UniformGravity,  //
                            RadialCosine,    //
                            Oblateness>;
 
-/// Calls f.operator()<Effect>() for the effect of that kind; false if there is none.
+/// Calls `f.operator()<Effect>()` for the effect of that kind; false if there is none.
 template <class F, class... E>
 bool with_effect(std::string_view kind, F&& f, std::tuple<E...>*) {
   return ((kind == E::kind && (f.template operator()<E>(), true)) || ...);
