@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "verification/cpp_text.hpp"
 #include "verification/sources.hpp"
 
 namespace hbvm {
@@ -11,7 +12,8 @@ struct Token {
 };
 
 /// The floating literals of C++ code, and the constants of <cmath> that are doubles. Comments and strings hold none.
-std::vector<Token> floating_literals(const std::string& text) {
+std::vector<Token> floating_literals(const std::string& source) {
+  const std::string text = only(CppPart::code, source);
   std::vector<Token> result;
   std::size_t line = 1, at = 0;
   const auto peek = [&](std::size_t ahead) { return at + ahead < text.size() ? text[at + ahead] : '\0'; };
@@ -19,24 +21,10 @@ std::vector<Token> floating_literals(const std::string& text) {
   const auto is_name = [&](char c) {
     return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
   };
-  const auto skip_to = [&](std::size_t end) {
-    for (; at < std::min(end, text.size()); ++at) line += text[at] == '\n';
-  };
   while (at < text.size()) {
     const char c = text[at];
-    if (c == '/' && peek(1) == '/') {
-      skip_to(text.find('\n', at));
-    } else if (c == '/' && peek(1) == '*') {
-      skip_to(text.find("*/", at + 2) + 2);
-    } else if (c == 'R' && peek(1) == '"') {
-      const std::size_t open = text.find('(', at);
-      skip_to(text.find(")" + text.substr(at + 2, open - at - 2) + "\"", open) + (open - at));
-    } else if (c == '"' || c == '\'') {
-      std::size_t end = at + 1;
-      while (end < text.size() && text[end] != c) end += text[end] == '\\' ? 2 : 1;
-      skip_to(end + 1);
-    } else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
-      std::size_t end = at;
+    std::size_t end = at + 1;
+    if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
       const auto signs_exponent = [&] { return std::string("eEpP").find(text[end - 1]) != std::string::npos; };
       while (end < text.size() && (is_name(text[end]) || text[end] == '.' || text[end] == '\'' ||
                                    ((text[end] == '+' || text[end] == '-') && signs_exponent())))
@@ -44,18 +32,15 @@ std::vector<Token> floating_literals(const std::string& text) {
       const std::string number = text.substr(at, end - at);
       const bool hexadecimal = number.starts_with("0x") || number.starts_with("0X");
       if (number.find_first_of(hexadecimal ? ".pP" : ".eE") != std::string::npos) result.push_back({line, number});
-      skip_to(end);
     } else if (is_name(c)) {
-      std::size_t end = at;
       while (end < text.size() && is_name(text[end])) ++end;
       const std::string name = text.substr(at, end - at);
       for (const char* constant :
            {"M_PI", "M_PI_2", "M_PI_4", "M_1_PI", "M_2_PI", "M_E", "M_LN2", "M_LN10", "M_SQRT2", "M_SQRT1_2"})
         if (name == constant) result.push_back({line, name});
-      skip_to(end);
-    } else {
-      skip_to(at + 1);
     }
+    line += c == '\n';
+    at = end;
   }
   return result;
 }
