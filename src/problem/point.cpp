@@ -79,6 +79,7 @@ const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
 
 template <Scalar S>
 void Point<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force) {
+  // (lambda1), where the curvature of g_a along v is v^T nabla^2 g_a v
   gradient_.update(lanes(q));
   problem_.mass.velocity(lanes(force), lanes(acceleration_));
   problem_.mass.velocity(lanes(p), lanes(v_));

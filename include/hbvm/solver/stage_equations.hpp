@@ -22,7 +22,7 @@ struct StageUnknowns {
 /// What is left of the stage equations at some unknowns, 0 at a solution:
 ///
 ///     momentum   = gamma - e_1 p0 - h X_s (psi_hat - zeta)          s x m, (dispro1)
-///     constraint = grad g(u_i)^T M^-1 v_i, v_i = sum_j P_j(c_i) gamma_j   s x nu, what (lam) solves for
+///     constraint = grad g(u_i)^T M^-1 v_i, v_i = sum_j P_j(c_i) gamma_j   s x nu, (azzera), by (lam)
 template <Scalar S>
 struct StageResidual {
   Matrix<S> momentum, constraint;

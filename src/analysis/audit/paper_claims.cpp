@@ -55,7 +55,7 @@ class List {
   std::vector<Claim> claims_;
 };
 
-/// The orders of all components. The statements for k > s have labels of their own.
+/// The orders of all components. The statements for k > s are (ord2sk), (ordlamk) and (normk).
 void orders(List& list, const Witness& witness, int k, int s) {
   const std::string further = k > s ? "k" : "";
   const int r = order(s);
