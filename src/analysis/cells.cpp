@@ -12,7 +12,7 @@
 #include "hbvm/checksum.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
-#include "json_lines.hpp"
+#include "json.hpp"
 
 namespace hbvm {
 namespace {
@@ -83,9 +83,11 @@ const std::string* CellStore::find(const std::string& key) const {
 
 void CellStore::add(const std::string& key, const std::string& result) {
   const std::lock_guard lock(adding_);
-  std::ofstream store(file_, std::ios::app | std::ios::binary);
-  store << line_of(key, result) + '\n';
-  refuse_unless(static_cast<bool>(store.flush()), file_);
+  if (!file_.empty()) {
+    std::ofstream store(file_, std::ios::app | std::ios::binary);
+    store << line_of(key, result) + '\n';
+    refuse_unless(static_cast<bool>(store.flush()), file_);
+  }
   results_.insert_or_assign(key, result);
 }
 
@@ -106,6 +108,7 @@ void CellStore::merge(const fs::path& other) {
 }
 
 void CellStore::put_in_order(const std::vector<std::string>& keys) {
+  if (file_.empty()) return;
   fs::path anew = file_;
   anew += ".new";
   std::ofstream store(anew, std::ios::binary | std::ios::trunc);
@@ -122,7 +125,8 @@ void CellStore::put_in_order(const std::vector<std::string>& keys) {
   refuse_unless(!failure, file_);
 }
 
-std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options) {
+std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options,
+                                                  const CellRunner& runner) {
   std::vector<std::optional<std::string>> results(cells.size());
   std::vector<std::size_t> open;
   long done = 0;
@@ -138,33 +142,45 @@ std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& c
   const long total = done + static_cast<long>(open.size());
   if (options.progress) options.progress(done, total);
 
-  std::atomic<std::size_t> next{0};
-  std::mutex reporting;
-  std::exception_ptr error;
-  const auto work = [&] {
-    for (std::size_t n = next++; n < open.size(); n = next++) {
-      const WorkCell& cell = cells[open[n]];
-      try {
-        results[open[n]] = cell.run();
-        if (options.store) options.store->add(cell.key, *results[open[n]]);
-      } catch (...) {
-        const std::lock_guard lock(reporting);
-        if (!error) error = std::current_exception();
-        next = open.size();
-        break;
-      }
-      const std::lock_guard lock(reporting);
-      if (options.progress) options.progress(++done, total);
-    }
-    mpfr_free_cache();
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (int i = 1; i < options.jobs; ++i) threads.emplace_back(work);
-    work();
+  std::mutex taking;
+  runner(open, [&](std::size_t i, std::string result) {
+    if (options.store) options.store->add(cells[i].key, result);
+    const std::lock_guard lock(taking);
+    results[i] = std::move(result);
+    if (options.progress) options.progress(++done, total);
+  });
+  if (options.store) {
+    std::vector<std::string> keys;
+    for (const WorkCell& cell : cells) keys.push_back(cell.key);
+    options.store->put_in_order(keys);
   }
-  if (error) std::rethrow_exception(error);
   return results;
+}
+
+std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options) {
+  return run_cells(cells, options, [&](const std::vector<std::size_t>& open, const TakeResult& take) {
+    std::atomic<std::size_t> next{0};
+    std::mutex failing;
+    std::exception_ptr error;
+    const auto work = [&] {
+      for (std::size_t n = next++; n < open.size(); n = next++) {
+        try {
+          take(open[n], cells[open[n]].run());
+        } catch (...) {
+          const std::lock_guard lock(failing);
+          if (!error) error = std::current_exception();
+          next = open.size();
+        }
+      }
+      mpfr_free_cache();
+    };
+    {
+      std::vector<std::jthread> threads;
+      for (int i = 1; i < options.jobs; ++i) threads.emplace_back(work);
+      work();
+    }
+    if (error) std::rethrow_exception(error);
+  });
 }
 
 }  // namespace hbvm

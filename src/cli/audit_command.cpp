@@ -7,7 +7,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "commands.hpp"
 #include "hbvm/analysis/audit/audit.hpp"
@@ -17,7 +16,7 @@
 #include "hbvm/method/read_tableau.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/version.hpp"
-#include "progress_bar.hpp"
+#include "long_work.hpp"
 #include "write_text.hpp"
 
 namespace hbvm {
@@ -26,11 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct AuditArguments {
-  std::optional<std::string> claims, method, out, until, shard;
-  std::vector<std::string> merge;
+  std::optional<std::string> claims, method, until;
   double limit = AuditOptions().limit;
   bool quick = false, full = false, json = false;
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  WorkArguments work{"findings.jsonl"};
 };
 
 std::string lower(std::string text) {
@@ -71,10 +69,8 @@ std::vector<Claim> claims_of(const AuditArguments& o) {
 
 /// Where results go; with --json nowhere unless it is said.
 std::optional<fs::path> folder_of(const AuditArguments& o) {
-  if (o.json && !o.out) return std::nullopt;
-  const fs::path folder = o.out.value_or("audit-results");
-  std::error_code failure;
-  fs::create_directories(folder, failure);
+  if (o.json && !o.work.out) return std::nullopt;
+  const fs::path folder = make_out_folder(o.work.out.value_or("audit-results"));
   write_text(folder / "audit.csv", "# this audit is not finished\n");
   return folder;
 }
@@ -91,38 +87,24 @@ Expression time_from(const std::string& text) {
 }
 
 void audit_command(const AuditArguments& o) {
-  check_jobs(o.jobs);
   const std::vector<Claim> claims = claims_of(o);
   std::string command = "hbvm audit";
   if (o.method) command += " --method " + *o.method;
   if (o.claims) command += " --claims '" + *o.claims + "'";
   if (o.full || o.quick) command += o.full ? " --full" : " --quick";
   if (o.until) command += " --until '" + *o.until + "'";
-  if (o.shard) command += " --shard " + *o.shard;
+  command += o.work.provenance();
   if (o.limit != AuditArguments().limit) command += fmt::format(" --limit {}", o.limit);
 
   const std::optional<fs::path> folder = folder_of(o);
   AuditOptions options;
-  std::optional<CellStore> store;
-  if (o.shard) options.shard = Shard::parse(*o.shard);
-  if (!folder && (o.shard || !o.merge.empty())) throw InputError("--out is needed: the folder for findings.jsonl");
-  if (o.full || o.shard || !o.merge.empty())
-    options.store = folder ? &store.emplace(*folder / "findings.jsonl") : nullptr;
-  for (const std::string& file : o.merge) store->merge(file);
-
-  options.jobs = o.jobs;
   options.starts = o.full ? 3 : 2;
   options.limit = o.limit;
   if (o.until) options.until = time_from(*o.until);
   std::vector<Finding> findings;
   {
-    ProgressBar bar("audit");
-    options.progress = [&](long done, long total) {
-      if (!o.merge.empty() && done < total)
-        throw InputError(
-            fmt::format("--merge: {} of {} pieces of work are in none of these files", total - done, total));
-      bar.update(done, total);
-    };
+    LongWork work(o.work, o.full || o.work.is_divided() ? folder : std::nullopt, "audit");
+    work.set(options);
     findings = audit(claims, options);
   }
   Table table = audit_table(findings);
@@ -163,11 +145,12 @@ void add_audit_command(CLI::App& app) {
   command->add_flag("--full", o->full, "s = 1 .. 8, 12 and 20, every problem: a third of an hour, see --out")
       ->excludes(quick);
   command->add_option("--method", o->method, "Audit the Runge-Kutta tableau in this TOML file: A, b, c as exact text");
-  command->add_option(
-      "--out", o->out,
+  o->work.add_to(
+      *command,
       "Folder for the table (CSV, Markdown, LaTeX) and, of all the paper's claims, a figure; audit-results if absent "
       "(with --json: none); "
-      "--full goes on from what it finds there");
+      "--full goes on from what it finds there",
+      "Threads");
   command->add_option(
       "--until", o->until,
       "Look at all of the motion up to this time, in the scene's units (if absent, at half of the time in "
@@ -179,15 +162,6 @@ void add_audit_command(CLI::App& app) {
           "their runs share their time")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  auto* const shard =
-      command->add_option("--shard", o->shard,
-                          "I/N: every N-th piece of the work, from the I-th on, for one of N computers; "
-                          "its findings go to findings.jsonl in --out");
-  command
-      ->add_option("--merge", o->merge,
-                   "The findings.jsonl of all shards, of the same claims and options: the same table as of one run")
-      ->excludes(shard);
-  command->add_option("--jobs", o->jobs, "Threads")->check(CLI::Number)->capture_default_str();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
       "Exit code 0 if all claims hold, 1 if one fails, 4 if none fails but some are undecidable, of a degenerate "

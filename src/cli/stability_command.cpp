@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "commands.hpp"
 #include "hbvm/analysis/stability/collection.hpp"
@@ -14,7 +12,7 @@
 #include "hbvm/analysis/stability/stability.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
-#include "progress_bar.hpp"
+#include "long_work.hpp"
 #include "write_text.hpp"
 
 namespace hbvm {
@@ -23,13 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 
 struct StabilityArguments {
-  std::optional<std::string> out, cases;
+  std::optional<std::string> cases;
   bool quick = false, full = false, json = false, figures = false;
-  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  WorkArguments work{"results.jsonl"};
+
+  Collection collection() const { return full ? Collection::full : Collection::quick; }
 };
 
 std::vector<HardCase> cases_of(const StabilityArguments& o) {
-  std::vector<HardCase> cases = hard_cases(o.full ? Collection::full : Collection::quick);
+  std::vector<HardCase> cases = hard_cases(o.collection());
   if (!o.cases) return cases;
   std::string families;
   for (const HardCase& c : cases)
@@ -42,53 +42,31 @@ std::vector<HardCase> cases_of(const StabilityArguments& o) {
 }
 
 void stability_command(const StabilityArguments& o) {
-  check_jobs(o.jobs);
-  if (o.figures && !o.out) throw InputError("--figures needs a folder: --out FOLDER");
+  if (o.figures && !o.work.out) throw InputError("--figures needs a folder: --out FOLDER");
   const std::vector<HardCase> cases = cases_of(o);
   std::string command = std::string("hbvm stability") + (o.full ? " --full" : " --quick");
   if (o.cases) command += " --cases '" + *o.cases + "'";
 
-  std::map<std::string, CaseFinding> known;
-  std::ofstream store;
-  if (o.out) {
-    std::error_code failure;
-    fs::create_directories(*o.out, failure);
-    const std::string path = (fs::path(*o.out) / "results.jsonl").string();
-    std::ifstream lines(path);
-    known = read_case_lines(lines);
-    store.open(path, std::ios::app);
-    // The last line may have been cut off.
-    store << std::endl;
-    if (!store) throw InputError("--out: cannot write to '" + *o.out + "'");
-  }
-
-  // A case of the same name runs longer in the full collection.
-  const std::string extent = o.full ? "full|" : "quick|";
+  command += o.work.provenance();
+  std::optional<fs::path> folder;
+  if (o.work.out) folder = make_out_folder(*o.work.out);
   StabilityOptions options;
-  options.jobs = o.jobs;
-  options.known = [&](const std::string& key) -> const CaseFinding* {
-    const auto place = known.find(extent + key);
-    return place == known.end() ? nullptr : &place->second;
-  };
-  options.found = [&](const std::string& key, const CaseFinding& finding) {
-    if (store.is_open()) store << to_line(finding, extent + key) << std::endl;
-  };
+  options.collection = o.collection();
   std::vector<CaseFinding> findings;
   {
-    ProgressBar bar("stability");
-    options.progress = [&](long done, long total) { bar.update(done, total); };
+    LongWork work(o.work, folder, "stability");
+    work.set(options);
     findings = stability(cases, options);
   }
   Table table = stability_table(findings);
   table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
-  if (o.out) {
-    const fs::path folder(*o.out);
-    write_text(folder / "stability.csv", to_csv(table));
-    write_text(folder / "stability.md", to_markdown(table));
-    write_text(folder / "stability.json", to_json(findings, command) + "\n");
+  if (folder) {
+    write_text(*folder / "stability.csv", to_csv(table));
+    write_text(*folder / "stability.md", to_markdown(table));
+    write_text(*folder / "stability.json", to_json(findings, command) + "\n");
     if (o.figures)
-      for (const Figure& figure : stability_figures(*o.out, *o.out))
-        draw(figure, (folder / (figure.name + ".svg")).string());
+      for (const Figure& figure : stability_figures(folder->string(), folder->string()))
+        draw(figure, (*folder / (figure.name + ".svg")).string());
   }
   if (o.json) {
     std::cout << to_json(findings, command) << std::endl;
@@ -98,7 +76,7 @@ void stability_command(const StabilityArguments& o) {
       if (f.verdict == CaseVerdict::not_as_expected)
         fmt::print("not as expected: {}, {}, {}: {}\n", f.name, f.parameter, f.precision, f.reason);
     fmt::print("{}\n", summary(findings));
-    if (o.out) fmt::print("written to {}\n", *o.out);
+    if (folder) fmt::print("written to {}\n", folder->string());
     std::fflush(stdout);
   }
   if (std::any_of(findings.begin(), findings.end(),
@@ -116,12 +94,13 @@ void add_stability_command(CLI::App& app) {
   command->add_flag("--full", o->full, "All, in double, quad and 50 digits, up to 10^7 steps: hours; see --out")
       ->excludes(quick);
   command->add_option("--cases", o->cases, "Only cases whose family, name, parameter or precision holds this text");
-  command->add_option("--out", o->out,
-                      "Folder for the table (CSV, Markdown, JSON) and results.jsonl, from which an interrupted run "
-                      "goes on");
-  command->add_flag("--figures", o->figures,
-                    "Also draw the study's figures there, beside what an earlier program gave (*_before.csv)");
-  command->add_option("--jobs", o->jobs, "Processes")->check(CLI::Number)->capture_default_str();
+  o->work.add_to(*command,
+                 "Folder for the table (CSV, Markdown, JSON) and results.jsonl, from which an interrupted run goes on",
+                 "Processes");
+  command
+      ->add_flag("--figures", o->figures,
+                 "Also draw the study's figures there, beside what an earlier program gave (*_before.csv)")
+      ->excludes("--shard");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
       "Exit code 1 if a case does not end as expected. See studies/stability.\n"

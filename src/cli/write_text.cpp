@@ -13,8 +13,4 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   if (!file) throw InputError("--out: cannot write '" + path.string() + "'");
 }
 
-void check_jobs(int jobs) {
-  if (jobs < 1 || jobs > 1024) throw InputError("--jobs " + std::to_string(jobs) + " is not between 1 and 1024");
-}
-
 }  // namespace hbvm

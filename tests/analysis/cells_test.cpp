@@ -53,7 +53,6 @@ class Cells : public ::testing::Test {
     CellOptions options;
     options.store = &store;
     run_cells(cells, options);
-    store.put_in_order(keys(cells));
     return text("expected");
   }
 
@@ -108,7 +107,6 @@ TEST_F(Cells, GoOnFromAFileCutAnywhere) {
     const auto lines = std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length), '\n');
     EXPECT_LE(runs_, 12 - lines);
     EXPECT_GE(runs_, 12 - lines - 1);
-    store.put_in_order(keys(cells));
     EXPECT_EQ(text("cut"), whole) << length;
   }
 }
@@ -184,6 +182,39 @@ TEST_F(Cells, OfAnotherVersionAreNotTaken) {
   options.store = &store;
   run_cells(cells, options);
   EXPECT_EQ(runs_, 1);
+}
+
+/// A runner hands over what it likes, when it likes.
+TEST_F(Cells, CanBeRunByOtherThanThreads) {
+  const auto cells = squares(7);
+  const std::string whole = expected(cells);
+  runs_ = 0;
+  CellStore store(path("store"));
+  CellOptions options;
+  options.store = &store;
+  options.shard = Shard::parse("2/2");
+  long last = 0;
+  options.progress = [&](long done, long) { last = done; };
+  const auto results = run_cells(cells, options, [&](const std::vector<std::size_t>& open, const TakeResult& take) {
+    EXPECT_EQ(open, (std::vector<std::size_t>{1, 3, 5}));
+    for (auto i = open.rbegin(); i != open.rend(); ++i) take(*i, cells[*i].run());
+  });
+  EXPECT_EQ(last, 3);
+  EXPECT_EQ(runs_, 3);
+  for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(results[i].has_value(), i % 2 == 1);
+  options.shard = {};
+  run_cells(cells, options);
+  EXPECT_EQ(text("store"), whole);
+}
+
+TEST_F(Cells, CanBeStoredWithoutAFile) {
+  const auto cells = squares(3);
+  CellStore store;
+  CellOptions options;
+  options.store = &store;
+  for (int n = 0; n < 2; ++n) run_cells(cells, options);
+  EXPECT_EQ(runs_, 3);
+  EXPECT_NE(store.find(cells[2].key), nullptr);
 }
 
 TEST_F(Cells, RefuseFilesThatCannotBe) {

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.hpp"
+#include "hbvm/checksum.hpp"
 
 namespace hbvm {
 namespace {
@@ -36,21 +37,50 @@ TEST(StabilityCommand, GoesOnFromWhatItFound) {
   const std::string store = folder / "out/results.jsonl", all = text_of(store);
   std::ofstream(store, std::ios::binary) << all.substr(0, all.size() / 2);
   EXPECT_EQ(hbvm(arguments).out, first.out);
-  // What it found counts: a case that is wrong ends the program with 1.
-  std::string wrong = text_of(store);
+  EXPECT_EQ(text_of(store), all);
+  // A line that was changed is not believed.
+  std::string wrong = all;
   const std::string holds = "\"verdict\":\"holds\"";
   ASSERT_NE(wrong.find(holds), std::string::npos);
   wrong.replace(wrong.find(holds), holds.size(), "\"verdict\":\"not as expected\"");
   std::ofstream(store, std::ios::binary) << wrong;
+  EXPECT_EQ(hbvm(arguments).code, 0);
+  EXPECT_EQ(text_of(store), all);
+  // What it found counts: a case that is wrong ends the program with 1.
+  const std::string line = wrong.substr(0, wrong.find(",\"checksum\":"));
+  std::ofstream(store, std::ios::binary) << line << ",\"checksum\":\"" << Checksum(line).text() << "\"}\n";
   const Outcome third = hbvm(arguments);
   EXPECT_EQ(third.code, 1) << third.err;
   EXPECT_NE(third.out.find("8 hold, 0 fail as expected, 0 warn as expected, 1 is not as expected"), std::string::npos)
       << third.out;
 }
 
+TEST(StabilityCommand, MergesShardsToTheSameFiles) {
+  const Folder folder;
+  Arguments merged = sure + Arguments{"--out", folder / "merged", "--merge"};
+  for (const char* const shard : {"1/2", "2/2"}) {
+    const std::string out = folder / (std::string("shard") + shard[0]);
+    const Outcome outcome = hbvm(sure + Arguments{"--shard", shard, "--out", out});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(shard[0] == '1' ? "5 cases: 5 hold" : "4 cases: 4 hold"), std::string::npos)
+        << outcome.out;
+    expect_refused(sure + Arguments{"--out", folder / "part", "--merge", out + "/results.jsonl"},
+                   {"in none of these files"});
+    merged.push_back(out + "/results.jsonl");
+  }
+  const Outcome all = hbvm(merged), one = hbvm(sure + Arguments{"--jobs", "1", "--out", folder / "one"});
+  EXPECT_EQ(all.code, 0) << all.err;
+  for (const char* const name : {"results.jsonl", "stability.csv", "stability.md"})
+    EXPECT_EQ(text_of(folder / ("merged/" + std::string(name))), text_of(folder / ("one/" + std::string(name))))
+        << name;
+}
+
 TEST(StabilityCommand, RefusesBadInput) {
   expect_refused({"stability", "--quick", "--full"}, {"--full"});
   expect_refused({"stability", "--jobs", "0"}, {"--jobs"});
+  expect_refused({"stability", "--shard", "3/2", "--out", "/proc/nowhere"}, {"--shard", "3/2"});
+  expect_refused({"stability", "--shard", "1/2"}, {"--out", "results.jsonl"});
+  expect_refused({"stability", "--merge", "absent", "--shard", "1/2"}, {"--merge"});
   expect_refused({"stability", "--cases", "no such case"}, {"no such case", "separatrix"});
   expect_refused({"stability", "--out", "/proc/nowhere"}, {"/proc/nowhere"});
 }

@@ -34,6 +34,8 @@ struct Shard {
 /// that was ended at any moment goes on from it; put in order it is the same file however the work was divided.
 class CellStore {
  public:
+  /// Without a file.
+  CellStore() = default;
   /// With what the file holds, if it is there. Lines that were cut off or damaged, or that another version of the
   /// program wrote, are left out. \throws InputError if it cannot be written to
   explicit CellStore(std::filesystem::path file);
@@ -51,21 +53,28 @@ class CellStore {
   void put_in_order(const std::vector<std::string>& keys);
 
  private:
-  std::filesystem::path file_;
+  std::filesystem::path file_;  ///< empty: none
   std::map<std::string, std::string> results_;
   std::mutex adding_;
 };
 
 struct CellOptions {
-  int jobs = 1;  ///< threads
+  int jobs = 1;  ///< threads, or processes
   Shard shard{};
   CellStore* store = nullptr;                ///< results known from before, to which new ones are added
   std::function<void(long, long)> progress;  ///< (cells done, of those of the shard)
 };
 
-/// Runs the cells of the shard that the store does not know. The first exception of one ends all once those at work are
-/// done, and is thrown; what was made before is in the store.
+/// Makes the results of these cells, by their places in the list, and hands over each as it comes, from any thread.
+using TakeResult = std::function<void(std::size_t cell, std::string result)>;
+using CellRunner = std::function<void(const std::vector<std::size_t>& cells, const TakeResult& take)>;
+
+/// Runs the cells of the shard that the store does not know, in threads. The first exception of one ends all once those
+/// at work are done, and is thrown; what was made before is in the store, which is put in order in the end.
 /// \return a result a cell, in order; none for cells of other shards that the store does not know either
 std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options);
+/// The same by something else than threads, which minds the number of jobs itself.
+std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options,
+                                                  const CellRunner& runner);
 
 }  // namespace hbvm

@@ -76,18 +76,15 @@ std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions&
   Motions motions;
   SceneSums scenes;
   std::vector<WorkCell> cells;
-  std::vector<std::string> keys;
   for (const Auditor::Unit& unit : units) {
-    keys.push_back(key_of(claims, unit, options, scenes));
-    cells.push_back({keys.back(), [&] {
+    cells.push_back({key_of(claims, unit, options, scenes), [&] {
                        Auditor(claims, unit, options, motions, findings).work();
                        std::vector<Finding> own;
                        for (const std::size_t i : unit.members) own.push_back(findings[i]);
                        return to_result(own);
                      }});
   }
-  const auto results = run_cells(cells, {options.jobs, options.shard, options.store, options.progress});
-  if (options.store) options.store->put_in_order(keys);
+  const auto results = run_cells(cells, options);
 
   std::vector<bool> decided(claims.size(), false);
   for (std::size_t u = 0; u < units.size(); ++u) {

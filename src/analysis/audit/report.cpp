@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "analysis/json_lines.hpp"
+#include "analysis/json.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/version.hpp"
 
@@ -169,13 +169,11 @@ std::string to_result(const std::vector<Finding>& findings) {
 }
 
 std::vector<Finding> read_result(const std::string& text) {
-  try {
+  return read_json(text, "an audit", [](const Json& all) {
     std::vector<Finding> findings;
-    for (const Json& finding : Json::parse(text)) findings.push_back(finding_of(finding));
+    for (const Json& finding : all) findings.push_back(finding_of(finding));
     return findings;
-  } catch (const Json::exception& error) {
-    throw InputError(std::string("this is no result of an audit: ") + error.what());
-  }
+  });
 }
 
 }  // namespace hbvm

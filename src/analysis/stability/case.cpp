@@ -22,7 +22,7 @@ double reach(const Criterion& c) {
 }
 
 CaseFinding finding_of(const HardCase& c) {
-  return {c.family, c.name, c.parameter, c.precision, c.expected.text(), CaseVerdict::not_as_expected, {}, {}, 0};
+  return {c.family, c.name, c.parameter, c.precision, c.expected.text(), CaseVerdict::not_as_expected, {}, {}, {}};
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/json_lines.hpp"
+#include "analysis/json.hpp"
 #include "hbvm/version.hpp"
 
 namespace hbvm {
@@ -22,7 +22,8 @@ std::vector<std::string> decision(const CaseFinding& f) {
   return c ? std::vector{c->what, short_text(c->value), short_text(c->bound)} : std::vector<std::string>(3, "---");
 }
 
-Json json_of(const CaseFinding& f) {
+/// All that does not depend on when and where it was measured.
+Json measured_of(const CaseFinding& f) {
   const Criterion* const c = f.deciding();
   Json json{{"case", f.name},
             {"parameter", f.parameter},
@@ -36,8 +37,7 @@ Json json_of(const CaseFinding& f) {
             {"failure", f.result.failure},
             {"message", f.result.message},
             {"warnings", f.result.warnings},
-            {"reason", f.reason},
-            {"cpu_seconds", json_number(f.cpu_seconds)}};
+            {"reason", f.reason}};
   json["criteria"] = Json::array();
   for (const Criterion& all : f.result.criteria)
     json["criteria"].push_back(
@@ -45,17 +45,10 @@ Json json_of(const CaseFinding& f) {
   return json;
 }
 
-/// What json_of wrote. \throws nlohmann's exceptions
+/// What measured_of wrote. \throws nlohmann's exceptions
 CaseFinding finding_of(const Json& j) {
-  CaseFinding f{j.at("family"),
-                j.at("case"),
-                j.at("parameter"),
-                j.at("precision"),
-                j.at("expected"),
-                {},
-                {},
-                j.at("reason"),
-                number_of(j.at("cpu_seconds"))};
+  CaseFinding f{
+      j.at("family"), j.at("case"), j.at("parameter"), j.at("precision"), j.at("expected"), {}, {}, j.at("reason"), {}};
   f.result.failure = j.at("failure");
   f.result.message = j.at("message");
   for (const Json& warning : j.at("warnings")) f.result.warnings.push_back(warning);
@@ -94,17 +87,17 @@ std::string summary(const std::vector<CaseFinding>& findings) {
 
 std::string to_json(const std::vector<CaseFinding>& findings, const std::string& command) {
   Json cases = Json::array();
-  for (const CaseFinding& f : findings) cases.push_back(json_of(f));
+  for (const CaseFinding& f : findings) {
+    cases.push_back(measured_of(f));
+    cases.back()["cpu_seconds"] = f.cpu_seconds ? json_number(*f.cpu_seconds) : Json(nullptr);
+  }
   return dumped({{"version", version()}, {"command", command}, {"summary", summary(findings)}, {"cases", cases}}, 1);
 }
 
-std::string to_line(const CaseFinding& finding, const std::string& key) { return finding_line(key, json_of(finding)); }
+std::string to_result(const CaseFinding& finding) { return dumped(measured_of(finding), -1); }
 
-std::map<std::string, CaseFinding> read_case_lines(std::istream& lines) {
-  std::map<std::string, CaseFinding> result;
-  read_finding_lines(
-      lines, [&](const std::string& key, const Json& finding) { result.insert_or_assign(key, finding_of(finding)); });
-  return result;
+CaseFinding read_case_result(const std::string& text) {
+  return read_json(text, "a hard case", [](const Json& json) { return finding_of(json); });
 }
 
 }  // namespace hbvm

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <list>
-#include <sstream>
+#include <optional>
 
 #include "apart.hpp"
 #include "hbvm/analysis/stability/report.hpp"
@@ -19,8 +19,7 @@ struct Running {
   std::size_t index;
   Apart process;
 
-  Running(std::size_t i, const HardCase& c)
-      : index(i), process([&c] { return to_line(judge(c, c.run()), c.key()); }, c.seconds) {}
+  Running(std::size_t i, const std::function<std::string()>& work, double seconds) : index(i), process(work, seconds) {}
 };
 
 /// Waits until a process has something to say, and takes it from all that do. \return those that ended
@@ -40,43 +39,35 @@ std::vector<std::list<Running>::iterator> wait_for(std::list<Running>& running) 
 }  // namespace
 
 std::vector<CaseFinding> stability(const std::vector<HardCase>& cases, const StabilityOptions& options) {
-  std::vector<CaseFinding> findings(cases.size());
-  std::vector<std::size_t> open;
-  long decided = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const CaseFinding* const known = options.known ? options.known(cases[i].key()) : nullptr;
-    if (known)
-      findings[i] = *known;
-    else
-      open.push_back(i);
-    decided += known != nullptr;
-  }
-  const auto report = [&] {
-    if (options.progress) options.progress(decided, static_cast<long>(cases.size()));
-  };
-  report();
+  const std::string collection = options.collection == Collection::full ? "full|" : "quick|";
+  std::vector<WorkCell> cells;
+  for (const HardCase& c : cases)
+    cells.push_back({collection + c.key(), [&c] { return to_result(judge(c, c.run())); }});
 
-  std::list<Running> running;
-  for (auto next = open.begin(); next != open.end() || !running.empty();) {
-    while (next != open.end() && running.size() < static_cast<std::size_t>(std::max(1, options.jobs))) {
-      running.emplace_back(*next, cases[*next]);
-      ++next;
-    }
-    for (const auto& place : wait_for(running)) {
-      const HardCase& c = cases[place->index];
-      CaseFinding& finding = findings[place->index];
-      if (place->process.failure().empty()) {
-        std::istringstream line(place->process.text());
-        finding = read_case_lines(line).at(c.key());
-      } else {
-        finding = lost(c, place->process.failure());
+  std::vector<std::optional<double>> cpu_seconds(cases.size());
+  const auto in_processes = [&](const std::vector<std::size_t>& open, const TakeResult& take) {
+    std::list<Running> running;
+    for (auto next = open.begin(); next != open.end() || !running.empty();) {
+      while (next != open.end() && running.size() < static_cast<std::size_t>(std::max(1, options.jobs))) {
+        running.emplace_back(*next, cells[*next].run, cases[*next].seconds);
+        ++next;
       }
-      finding.cpu_seconds = place->process.cpu_seconds();
-      running.erase(place);
-      if (options.found) options.found(c.key(), finding);
-      ++decided;
-      report();
+      for (const auto& place : wait_for(running)) {
+        const std::size_t i = place->index;
+        const Apart& process = place->process;
+        cpu_seconds[i] = process.cpu_seconds();
+        take(i, process.failure().empty() ? process.text() : to_result(lost(cases[i], process.failure())));
+        running.erase(place);
+      }
     }
+  };
+  const auto results = run_cells(cells, options, in_processes);
+
+  std::vector<CaseFinding> findings;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!options.shard.has(i)) continue;
+    findings.push_back(read_case_result(*results[i]));
+    findings.back().cpu_seconds = cpu_seconds[i];
   }
   return findings;
 }

@@ -4,7 +4,8 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
+
+#include "hbvm/error.hpp"
 
 namespace hbvm {
 namespace {
@@ -25,38 +26,33 @@ CaseFinding failure() {
   return f;
 }
 
-std::map<std::string, CaseFinding> read(const std::string& text) {
-  std::istringstream lines(text);
-  return read_case_lines(lines);
-}
-
-TEST(CaseLines, AreReadBackToTheLastBit) {
+TEST(CaseResults, AreReadBackToTheLastBit) {
+  const auto read = [](const CaseFinding& finding) { return read_case_result(to_result(finding)); };
   CaseFinding odd = finding(CaseVerdict::not_as_expected);
   odd.result.criteria[0].value = std::numeric_limits<double>::quiet_NaN();
-  const auto found = read(to_line(finding(), "a") + "\n" + to_line(failure(), "b") + "\n" + to_line(odd, "c") + "\n");
-  ASSERT_EQ(found.size(), 3u);
-  const CaseFinding& a = found.at("a");
+  const CaseFinding a = read(finding()), b = read(failure()), c = read(odd);
   EXPECT_EQ(a.verdict, CaseVerdict::holds);
   EXPECT_EQ(a.result.criteria.at(0).value, double{10} / 3);
   EXPECT_EQ(a.result.criteria.at(1).bound, 50);
   EXPECT_EQ(a.result.warnings, finding().result.warnings);
   EXPECT_EQ(a.result.message, finding().result.message);
   EXPECT_EQ(a.family + a.name + a.parameter + a.precision + a.expected, "familya casemass 1e-8quadholds");
-  EXPECT_EQ(found.at("b").verdict, CaseVerdict::typed_failure);
-  EXPECT_EQ(found.at("b").result.failure, "stage_equations_diverge");
-  EXPECT_EQ(found.at("b").result.message, failure().result.message);
-  EXPECT_EQ(found.at("b").reason, "why");
-  EXPECT_EQ(found.at("c").verdict, CaseVerdict::not_as_expected);
-  EXPECT_FALSE(found.at("c").result.criteria.at(0).holds());
+  EXPECT_EQ(b.verdict, CaseVerdict::typed_failure);
+  EXPECT_EQ(b.result.failure, "stage_equations_diverge");
+  EXPECT_EQ(b.result.message, failure().result.message);
+  EXPECT_EQ(b.reason, "why");
+  EXPECT_EQ(c.verdict, CaseVerdict::not_as_expected);
+  EXPECT_FALSE(c.result.criteria.at(0).holds());
 }
 
-TEST(CaseLines, ThatAreCutOffOrOfAnotherVersionAreLeftOut) {
-  const std::string whole = to_line(finding(), "whole") + "\n", last = to_line(finding(), "last");
-  for (std::size_t length = 0; length < last.size(); length += 7)
-    EXPECT_EQ(read(whole + last.substr(0, length) + "\n" + whole).size(), 1u) << length;
-  std::string other = to_line(finding(), "other");
-  other.replace(other.find("\"version\":\"") + 11, 1, "x");
-  EXPECT_TRUE(read(other).empty());
+TEST(CaseResults, SayNothingOfTheTimeItTook) {
+  CaseFinding other = finding();
+  other.cpu_seconds = 4;
+  EXPECT_EQ(to_result(other), to_result(finding()));
+}
+
+TEST(CaseResults, ThatAreNoneAreRefused) {
+  for (const char* const text : {"", "{}", "[]", "{\"family\":1}"}) EXPECT_THROW(read_case_result(text), InputError);
 }
 
 TEST(StabilityReport, JsonHasTheFigureThatDecides) {
@@ -70,6 +66,7 @@ TEST(StabilityReport, JsonHasTheFigureThatDecides) {
   EXPECT_EQ(cases[0].at("verdict"), "holds");
   EXPECT_EQ(cases[0].at("figure"), double{10} / 3);
   EXPECT_EQ(cases[0].at("bound"), 40);
+  EXPECT_EQ(cases[0].at("cpu_seconds"), 3);
   EXPECT_EQ(cases[1].at("verdict"), "typed failure, as expected");
   EXPECT_TRUE(cases[1].at("figure").is_null());
   EXPECT_TRUE(cases[1].at("bound").is_null());

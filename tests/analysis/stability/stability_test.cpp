@@ -1,14 +1,19 @@
 #include "hbvm/analysis/stability/stability.hpp"
 
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <random>
 #include <set>
 #include <stdexcept>
 
 #include "analysis/stability/measured.hpp"
 #include "hbvm/analysis/stability/collection.hpp"
+#include "hbvm/analysis/stability/report.hpp"
 
 namespace hbvm {
 namespace {
@@ -26,6 +31,11 @@ CaseResult of_a_hang() {
   while (waiting) {
   }
   return measured(0);
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST(Stability, FindingsStandInTheOrderOfTheCases) {
@@ -59,18 +69,58 @@ TEST(Stability, ACrashAHangAndAnExceptionTakeNoOtherCaseWithThem) {
 }
 
 TEST(Stability, WhatIsKnownIsNotRunAgain) {
-  CaseFinding known;
-  known.name = "known";
-  known.verdict = CaseVerdict::typed_failure;
-  std::vector<std::string> told;
+  CellStore store;
+  store.add("quick|family|a||double", to_result(judge(hard_case("a", of_a_crash), measured(3))));
   StabilityOptions options;
-  options.known = [&](const std::string& key) { return key == "family|a||double" ? &known : nullptr; };
-  options.found = [&](const std::string& key, const CaseFinding&) { told.push_back(key); };
-  const auto findings = stability({hard_case("a", of_a_crash), hard_case("b", [] { return measured(1); })}, options);
-  EXPECT_EQ(findings[0].name, "known");
-  EXPECT_EQ(findings[0].verdict, CaseVerdict::typed_failure);
+  options.store = &store;
+  const std::vector<HardCase> cases{hard_case("a", of_a_crash), hard_case("b", [] { return measured(1); })};
+  const auto findings = stability(cases, options);
+  EXPECT_EQ(findings[0].deciding()->value, 3);
+  EXPECT_FALSE(findings[0].cpu_seconds) << "it took none";
   EXPECT_EQ(findings[1].verdict, CaseVerdict::holds);
-  EXPECT_EQ(told, std::vector<std::string>{"family|b||double"});
+  EXPECT_TRUE(findings[1].cpu_seconds);
+  EXPECT_EQ(read_case_result(*store.find("quick|family|b||double")).deciding()->value, 1);
+  options.collection = Collection::full;
+  EXPECT_EQ(stability(cases, options)[0].reason.find("a crash"), 0u) << "of another collection";
+}
+
+/// In shards, by any number of processes, with a store that was cut off anywhere.
+TEST(Stability, EndsInTheSameFileHoweverItIsDivided) {
+  std::string folder = (std::filesystem::temp_directory_path() / "hbvm_stability_test_XXXXXX").string();
+  ASSERT_TRUE(mkdtemp(folder.data()));
+  const auto path = [&](const std::string& name) { return folder + "/" + name; };
+  std::vector<HardCase> cases;
+  for (int i = 0; i < 9; ++i) cases.push_back(hard_case(std::to_string(i), [i] { return measured(i / double{3}); }));
+  cases.push_back(hard_case("crash", of_a_crash));
+  const auto run = [&](const std::string& name, int jobs, const Shard& shard) {
+    CellStore store(path(name));
+    StabilityOptions options;
+    options.jobs = jobs;
+    options.shard = shard;
+    options.store = &store;
+    return stability(cases, options);
+  };
+  run("one", 1, {});
+  const std::string whole = text_of(path("one"));
+  CellStore merged(path("merged"));
+  for (const int i : {2, 3, 1}) {
+    const std::string name = "shard" + std::to_string(i);
+    EXPECT_EQ(run(name, i, {i, 3}).size(), i == 1 ? 4u : 3u);
+    merged.merge(path(name));
+  }
+  StabilityOptions options;
+  options.store = &merged;
+  options.progress = [](long done, long total) { EXPECT_EQ(done, total) << "nothing is left to do"; };
+  EXPECT_EQ(stability(cases, options).size(), cases.size());
+  EXPECT_EQ(text_of(path("merged")), whole);
+  std::mt19937 random(11);
+  for (int n = 0; n < 20; ++n) {
+    const std::size_t length = random() % (whole.size() + 1);
+    std::ofstream(path("cut"), std::ios::binary | std::ios::trunc) << whole.substr(0, length);
+    run("cut", 3, {});
+    EXPECT_EQ(text_of(path("cut")), whole) << length;
+  }
+  std::filesystem::remove_all(folder);
 }
 
 /// A resumed run finds cases by their keys.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +10,7 @@
 
 namespace hbvm {
 
-struct AuditOptions {
-  int jobs = 1;            ///< threads
+struct AuditOptions : CellOptions {
   int starts = 2;          ///< consistent states over which the greatest error is taken
   int first_start = 0;     ///< which states: 0, 1, … lie on the motion one after the other
   int log2_interval = -1;  ///< errors over an interval are those over 2^log2_interval of the motion's time scale
@@ -22,9 +20,6 @@ struct AuditOptions {
   double limit = 120;       ///< seconds of processor time a claim may take; 0: any
   /// In which the coefficients are held against their conditions; 0: not at all.
   int coefficient_digits = 1'000;
-  Shard shard{};
-  CellStore* store = nullptr;                ///< findings known from before, and new ones; in order in the end
-  std::function<void(long, long)> progress;  ///< (pieces of work done, of)
 };
 
 /// What makes two claims the same: everything but the label.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,8 +60,8 @@ struct CaseFinding {
   std::string family, name, parameter, precision, expected;
   CaseVerdict verdict = CaseVerdict::not_as_expected;
   CaseResult result;
-  std::string reason;      ///< of a verdict that is not "holds"
-  double cpu_seconds = 0;  ///< that it took
+  std::string reason;                 ///< of a verdict that is not "holds"
+  std::optional<double> cpu_seconds;  ///< that it took, unless it was known from before
 
   /// The criterion that is worst off, value over bound. \return null if there is none
   const Criterion* deciding() const;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <iosfwd>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -15,8 +13,8 @@ namespace hbvm {
 Table stability_table(const std::vector<CaseFinding>& findings);
 
 /// {"cases": [{"case", "parameter", "precision", "expected", "verdict", "figure", "bound", "unit", "family", "failure",
-/// "warnings", "reason", "cpu_seconds", "criteria"}, …]}, after version, command and summary. Figure and bound are
-/// those of the criterion that decides, null if there is none.
+/// "message", "warnings", "reason", "criteria", "cpu_seconds"}, …]}, after version, command and summary. Figure and
+/// bound are those of the criterion that decides, null if there is none; the time is null if it was known from before.
 std::string to_json(const std::vector<CaseFinding>& findings, const std::string& command);
 
 /// "200 cases: 180 hold, 15 fail as expected, 4 warn as expected, 1 is not as expected".
@@ -28,9 +26,9 @@ std::string summary(const std::vector<CaseFinding>& findings);
 /// \throws InputError if the folder cannot be written to, StepError
 std::vector<Figure> stability_figures(const std::string& folder, const std::string& before);
 
-/// A finding as one line of text under its case's key, and the findings of such lines, of this version of the program
-/// alone: a line that was cut off is left out.
-std::string to_line(const CaseFinding& finding, const std::string& key);
-std::map<std::string, CaseFinding> read_case_lines(std::istream& lines);
+/// A finding without the time it took: JSON that reads back to the last bit.
+std::string to_result(const CaseFinding& finding);
+/// \throws InputError if it is none
+CaseFinding read_case_result(const std::string& text);
 
 }  // namespace hbvm

@@ -1,24 +1,22 @@
 #pragma once
 
-#include <functional>
-#include <string>
 #include <vector>
 
+#include "hbvm/analysis/cells.hpp"
 #include "hbvm/analysis/stability/case.hpp"
+#include "hbvm/analysis/stability/collection.hpp"
 
 namespace hbvm {
 
-struct StabilityOptions {
-  int jobs = 1;  ///< processes
-  /// Findings known from before, by their cases' keys, and what is told of new ones.
-  std::function<const CaseFinding*(const std::string& key)> known;
-  std::function<void(const std::string& key, const CaseFinding&)> found;
-  std::function<void(long, long)> progress;  ///< (cases decided, of)
+struct StabilityOptions : CellOptions {
+  Collection collection = Collection::quick;  ///< that the cases are of: in the full one they run longer
 };
 
 /// Runs and judges each case, in a process of its own: one that crashes or finds no end is not as expected, and takes
 /// no other with it. To be called while the program has a single thread.
-/// \return a finding a case, in order \throws Error if a process cannot be started
+/// \return a finding a case, in order; of a shard, those of its cases alone. The same whatever the number of processes
+/// and shards, but for the time it took, and for a case that comes to its end just within its seconds or not
+/// \throws Error if a process cannot be started
 std::vector<CaseFinding> stability(const std::vector<HardCase>& cases, const StabilityOptions& options);
 
 }  // namespace hbvm

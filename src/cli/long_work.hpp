@@ -1,0 +1,50 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hbvm/analysis/cells.hpp"
+#include "progress_bar.hpp"
+
+namespace hbvm {
+
+/// What a user says of long work, in the same words for every command.
+struct WorkArguments {
+  std::string store;  ///< name of the file of results in --out
+  std::optional<std::string> out, shard;
+  std::vector<std::string> merge;
+  int jobs;
+
+  explicit WorkArguments(std::string file);
+
+  /// Adds --out with this help, --shard, --merge and --jobs, of threads or processes.
+  void add_to(CLI::App& command, const std::string& help_of_out, const std::string& workers);
+  bool is_divided() const { return shard || !merge.empty(); }
+  /// What of these options is told of results: " --shard 3/7", or nothing.
+  std::string provenance() const { return shard ? " --shard " + *shard : ""; }
+};
+
+/// Makes the folder that --out says. \throws InputError if that cannot be done
+std::filesystem::path make_out_folder(const std::string& out);
+
+/// Long work as its arguments ask for it, with a progress bar as long as this lives.
+class LongWork {
+ public:
+  /// \param folder where results are kept and found again; if absent they are not \throws InputError
+  LongWork(const WorkArguments& arguments, const std::optional<std::filesystem::path>& folder,
+           const std::string& title);
+  LongWork(const LongWork&) = delete;
+
+  /// Threads, shard, store and progress, for as long as this lives.
+  void set(CellOptions& options);
+
+ private:
+  const WorkArguments& arguments_;
+  std::optional<CellStore> store_;
+  ProgressBar bar_;
+};
+
+}  // namespace hbvm
