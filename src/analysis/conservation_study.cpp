@@ -1,11 +1,32 @@
+#include <algorithm>
+#include <memory>
+
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "hbvm/analysis/conservation.hpp"
+#include "json.hpp"
 
 namespace hbvm {
 namespace {
 
 using Kind = ConservedQuantity::Kind;
+
+std::string to_result(const Conservation& found) {
+  OrderedJson quantities = OrderedJson::array();
+  for (const ConservedQuantity& q : found.quantities)
+    quantities.push_back(
+        {{"kind", static_cast<int>(q.kind)}, {"name", q.name}, {"drift", q.drift}, {"ulps", json_number(q.ulps)}});
+  return dumped({{"k", found.method.k}, {"s", found.method.s}, {"steps", found.steps}, {"quantities", quantities}}, -1);
+}
+Conservation read_conservation(const std::string& text) {
+  return read_json(text, "a study of conservation", [](const OrderedJson& j) {
+    Conservation found{{j.at("k"), j.at("s")}, j.at("steps"), {}};
+    for (const OrderedJson& q : j.at("quantities"))
+      found.quantities.push_back(
+          {static_cast<Kind>(q.at("kind").get<int>()), q.at("name"), q.at("drift"), number_of(q.at("ulps"))});
+    return found;
+  });
+}
 
 struct Row {
   std::string scene, nodes;
@@ -58,30 +79,44 @@ Agreement check(const Experiment& experiment, const std::vector<Row>& rows) {
   return agreement;
 }
 
-}  // namespace
+constexpr std::pair<Nodes, const char*> both[] = {{Nodes::s, "k = s"}, {Nodes::more, "k > s"}};
 
-/// Every built-in scene with k = s and with more nodes.
-Findings conservation_study(const Experiment& experiment, TomlTable& top) {
-  const Expression step = top.number("step"), until = top.number("until");
-  const int s = static_cast<int>(top.integer("s"));
-  HbvmName{s, s}.check();
+Findings conclude(const Experiment& experiment, const std::vector<std::string>& results) {
   Findings findings;
   findings.table.columns = {"scene", "nodes", "k", "e_H", "e_g", "e_P", "e_L", "momenta", "kept", "lost"};
   findings.table.groups.emplace_back();
-  const auto& scenes = built_in_scenes();
   std::vector<Row> rows;
-  for (const auto& [name, text] : scenes) {
-    const Scene scene = read_scene(text, name);
-    for (const auto& [nodes, label] : {std::pair(Nodes::s, "k = s"), std::pair(Nodes::more, "k > s")}) {
-      const Conservation found = conservation({&scene, s, nodes, step, until}, experiment.precision);
+  for (const auto& [name, text] : built_in_scenes()) {
+    for (const auto& [nodes, label] : both) {
       Row row{name, label, {}, {}};
-      findings.table.groups.back().rows.push_back(cells(found, row));
+      findings.table.groups.back().rows.push_back(cells(read_conservation(results[rows.size()]), row));
       rows.push_back(std::move(row));
-      experiment.progress(static_cast<long>(rows.size()), static_cast<long>(2 * scenes.size()));
     }
   }
   if (experiment.check) findings.agreement = check(experiment, rows);
   return findings;
+}
+
+}  // namespace
+
+/// Every built-in scene with k = s and with more nodes.
+Part<Findings> conservation_study(const Experiment& experiment, TomlTable& top) {
+  const Expression step = top.number("step"), until = top.number("until");
+  const int s = static_cast<int>(top.integer("s"));
+  HbvmName{s, s}.check();
+  Part<Findings> part;
+  for (const auto& [name, text] : built_in_scenes()) {
+    const auto scene = std::make_shared<const Scene>(read_scene(text, name));
+    for (const auto& [nodes, label] : both) {
+      part.cells.push_back(
+          {experiment.key("conservation", *scene, label, step, until, "s = " + std::to_string(s)),
+           [&experiment, scene, s, nodes = nodes, step, until] {
+             return to_result(conservation({scene.get(), s, nodes, step, until}, experiment.precision));
+           }});
+    }
+  }
+  part.conclude = [&experiment](const auto& results) { return conclude(experiment, results); };
+  return part;
 }
 
 }  // namespace hbvm

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "hbvm/analysis/cells.hpp"
 #include "hbvm/analysis/study.hpp"
 #include "hbvm/report/table.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -12,13 +13,25 @@
 
 namespace hbvm {
 
-/// What the kinds of a study are run with. Each kind takes its own keys of study.toml.
+/// What the parts of a study are read with. Outlives them.
 struct Experiment {
   std::filesystem::path folder;
   Scene scene;  ///< empty for a study of all scenes
   Precision precision;
-  bool check;                                ///< compare with expected.csv
-  std::function<void(long, long)> progress;  ///< (runs done, runs in all)
+  bool check;                           ///< compare with expected.csv
+  std::vector<std::string> provenance;  ///< of tables and trajectories
+  std::filesystem::path results;        ///< the folder that files go to
+
+  /// The key of a run: all that its result depends on. \param further of this kind of run
+  std::string key(const std::string& kind, const Scene& of, const std::string& method, const Expression& step,
+                  const Expression& until, const std::string& further) const;
+};
+
+/// What a part of a study has to run, and what it makes of the results, which stand in the same order.
+template <class Outcome>
+struct Part {
+  std::vector<WorkCell> cells;
+  std::function<Outcome(const std::vector<std::string>& results)> conclude;
 };
 
 /// What comes out: columns and groups of the table, and the comparison.
@@ -27,9 +40,10 @@ struct Findings {
   Agreement agreement;
 };
 
-Findings halving_study(const Experiment& experiment, TomlTable& top);
-Findings long_run_study(const Experiment& experiment, TomlTable& top);
-Findings conservation_study(const Experiment& experiment, TomlTable& top);
+/// The kinds of a study. Each takes its own keys of study.toml.
+Part<Findings> halving_study(const Experiment& experiment, TomlTable& top);
+Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top);
+Part<Findings> conservation_study(const Experiment& experiment, TomlTable& top);
 
 /// The method that a table of study.toml names.
 inline MethodPtr stated_method(TomlTable& reader) {
@@ -38,6 +52,9 @@ inline MethodPtr stated_method(TomlTable& reader) {
   if (hbvm && hbvm->name().is_auto()) reader.fail("a study states its k");
   return method;
 }
+
+/// \throws InputError
+void write_file(const std::filesystem::path& path, const std::string& text);
 
 /// A number of the method's name, by its letter; "---" if it has none.
 inline std::string letter(const MethodPtr& method, const std::string& letter) {

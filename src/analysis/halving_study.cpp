@@ -13,6 +13,18 @@ namespace {
 struct Block {
   HalvingRequest request;
   std::vector<HalvingRow> rows;
+
+  int runs() const { return request.last - request.first + 2; }
+};
+
+/// What a table of step halvings shows and is held against.
+struct HalvingTable {
+  std::string group;  ///< k or s
+  std::vector<std::string> columns;
+  std::vector<Block> blocks;
+  std::string above_round_off;
+  std::vector<std::string> round_off;
+  std::map<std::string, Expression> orders;
 };
 
 /// Every printed figure above round-off, to all printed digits; beyond double also that what was round-off in double
@@ -67,23 +79,15 @@ Agreement check(const Experiment& experiment, const std::vector<Block>& blocks, 
   return agreement;
 }
 
-}  // namespace
-
-/// The paper's tables.
-Findings halving_study(const Experiment& experiment, TomlTable& top) {
-  Findings findings;
-  Table& table = findings.table;
+HalvingTable read_table(const Experiment& experiment, TomlTable& top) {
+  HalvingTable table;
   const Expression step = top.number("step"), until = top.number("until");
-  const std::string group = top.string("group");
-  if (group != "k" && group != "s") top.fail("'group' must be \"k\" or \"s\"");
-  table.key_columns = {"k", "s"};
-  table.columns = {"i"};
+  table.group = top.string("group");
+  if (table.group != "k" && table.group != "s") top.fail("'group' must be \"k\" or \"s\"");
   for (const std::string& column : top.strings("columns")) {
     HalvingRow().cell(column);  // refuses what is none
     table.columns.push_back(column);
   }
-  std::vector<Block> blocks;
-  long runs = 0, done = 0;
   for (const toml::table* entry : top.tables("block")) {
     TomlTable reader(top.source(), *entry, "block");
     HalvingRequest request{&experiment.scene,
@@ -96,34 +100,62 @@ Findings halving_study(const Experiment& experiment, TomlTable& top) {
     if (request.first < 0 || request.last < request.first || request.last > 40)
       reader.fail("'first' and 'last' must be 0 <= first <= last <= 40");
     reader.finish();
-    runs += request.last - request.first + 2;
-    blocks.push_back({request, {}});
+    table.blocks.push_back({request, {}});
   }
-  for (Block& block : blocks) {
-    block.rows = step_halving(block.request, experiment.precision, [&] { experiment.progress(++done, runs); });
-    const std::string k = letter(block.request.method, "k"), s = letter(block.request.method, "s");
-    Table::Group rows{group + " = " + (group == "k" ? k : s), {k, s}, {}};
-    for (const HalvingRow& row : block.rows) {
-      std::vector<std::string> cells;
-      for (const std::string& column : table.columns) cells.push_back(row.cell(column));
-      rows.rows.push_back(std::move(cells));
-    }
-    table.groups.push_back(std::move(rows));
-  }
-  const std::vector<std::string> round_off = top.strings("round_off");
-  for (const std::string& column : round_off)
+  table.round_off = top.strings("round_off");
+  for (const std::string& column : table.round_off)
     if (column != "e_lambda" && column != "e_hid" && column != "e_g" && column != "e_H")
       top.fail(top.require("round_off"), "'round_off' has no column '" + column + "'");
-  std::map<std::string, Expression> orders;
   if (const toml::node* const node = top.take("orders")) {
     if (!node->is_table()) top.fail(*node, "'orders' must be a table");
     for (const auto& [column, order] : *node->as_table())
-      orders.emplace(column.str(), top.to_number(order, "an order"));
+      table.orders.emplace(column.str(), top.to_number(order, "an order"));
   }
-  const Expression above_round_off = top.number("compare_above");
+  table.above_round_off = top.number("compare_above").text();
+  return table;
+}
+
+Findings conclude(const Experiment& experiment, HalvingTable table, const std::vector<std::string>& results) {
+  Findings findings;
+  findings.table.key_columns = {"k", "s"};
+  findings.table.columns = {"i"};
+  for (const std::string& column : table.columns) findings.table.columns.push_back(column);
+  auto result = results.begin();
+  for (Block& block : table.blocks) {
+    std::vector<HalvingRun> runs;
+    for (int n = 0; n < block.runs(); ++n) runs.push_back(read_halving_run(*result++));
+    block.rows = halving_rows(block.request, runs, experiment.precision);
+    const std::string k = letter(block.request.method, "k"), s = letter(block.request.method, "s");
+    Table::Group rows{table.group + " = " + (table.group == "k" ? k : s), {k, s}, {}};
+    for (const HalvingRow& row : block.rows) {
+      std::vector<std::string> cells;
+      for (const std::string& column : findings.table.columns) cells.push_back(row.cell(column));
+      rows.rows.push_back(std::move(cells));
+    }
+    findings.table.groups.push_back(std::move(rows));
+  }
   if (experiment.check)
-    findings.agreement = check(experiment, blocks, value_of(above_round_off.text()), round_off, orders);
+    findings.agreement =
+        check(experiment, table.blocks, value_of(table.above_round_off), table.round_off, table.orders);
   return findings;
+}
+
+}  // namespace
+
+/// The paper's tables: a run for each k, s and h.
+Part<Findings> halving_study(const Experiment& experiment, TomlTable& top) {
+  const HalvingTable table = read_table(experiment, top);
+  Part<Findings> part;
+  for (const Block& block : table.blocks) {
+    const HalvingRequest& request = block.request;
+    for (int i = request.first; i < request.first + block.runs(); ++i)
+      part.cells.push_back(
+          {experiment.key("step halving", experiment.scene, request.method->key(), request.step, request.until,
+                          std::to_string(i)),
+           [&experiment, request, i] { return to_result(halving_run(request, i, experiment.precision)); }});
+  }
+  part.conclude = [&experiment, table](const auto& results) { return conclude(experiment, table, results); };
+  return part;
 }
 
 }  // namespace hbvm

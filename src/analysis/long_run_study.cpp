@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "hbvm/analysis/run.hpp"
+#include "json.hpp"
 
 namespace hbvm {
 namespace {
@@ -18,7 +20,28 @@ std::string to_three_digits(const std::string& text) {
   return digits;
 }
 
-Agreement check(const Experiment& experiment, const Table& table, const std::vector<RunResult>& results) {
+/// What is kept of a run.
+struct LongRun {
+  std::string e_H, e_g, e_hid, output_delta_H;
+  double iterations_per_step;
+};
+
+std::string to_result(const RunResult& run) {
+  return dumped({{"e_H", run.e_H},
+                 {"e_g", run.e_g},
+                 {"e_hid", run.e_hid},
+                 {"output_delta_H", run.output_delta_H},
+                 {"iterations_per_step", json_number(run.iterations_per_step)}},
+                -1);
+}
+LongRun read_long_run(const std::string& text) {
+  return read_json(text, "a long run", [](const OrderedJson& j) {
+    return LongRun{j.at("e_H"), j.at("e_g"), j.at("e_hid"), j.at("output_delta_H"),
+                   number_of(j.at("iterations_per_step"))};
+  });
+}
+
+Agreement check(const Experiment& experiment, const Table& table, const std::vector<LongRun>& results) {
   Agreement agreement;
   const ExpectedCsv expected(experiment.folder / "expected.csv");
   agreement.what = "stated bounds";
@@ -47,37 +70,52 @@ Agreement check(const Experiment& experiment, const Table& table, const std::vec
   return agreement;
 }
 
-}  // namespace
-
-Findings long_run_study(const Experiment& experiment, TomlTable& top) {
+/// \param seconds that each run took, of those made now
+Findings conclude(const Experiment& experiment, const std::vector<RunRequest>& requests,
+                  const std::vector<std::string>& results, const std::vector<std::optional<double>>& seconds) {
   Findings findings;
   Table& table = findings.table;
-  const Expression step = top.number("step");
   table.columns = {"k", "s", "until", "e_H", "e_g", "e_hid", "output_delta_H", "iterations per step", "seconds"};
   table.groups.emplace_back();
-  const auto runs = top.tables("run");
-  std::vector<RunResult> results;
-  for (const toml::table* entry : runs) {
-    TomlTable reader(top.source(), *entry, "run");
-    const RunRequest request{experiment.scene,
-                             stated_method(reader),
-                             SolverKind::fixed_point,
-                             step,
-                             reader.number("until"),
-                             experiment.precision,
-                             false};
-    reader.finish();
-    const RunResult result = hbvm::run(request, {});
-    const auto three = [](const std::string& text) { return to_three_digits(text); };
-    table.groups.back().rows.push_back({letter(request.method, "k"), letter(request.method, "s"), request.until.text(),
-                                        three(result.e_H), three(result.e_g), three(result.e_hid),
-                                        three(result.output_delta_H), fmt::format("{:.1f}", result.iterations_per_step),
-                                        fmt::format("{:.2f}", result.cpu_seconds)});
-    results.push_back(result);
-    experiment.progress(static_cast<long>(results.size()), static_cast<long>(runs.size()));
+  std::vector<LongRun> runs;
+  for (std::size_t n = 0; n < requests.size(); ++n) {
+    const RunRequest& request = requests[n];
+    const LongRun& run = runs.emplace_back(read_long_run(results[n]));
+    table.groups.back().rows.push_back(
+        {letter(request.method, "k"), letter(request.method, "s"), request.until.text(), to_three_digits(run.e_H),
+         to_three_digits(run.e_g), to_three_digits(run.e_hid), to_three_digits(run.output_delta_H),
+         fmt::format("{:.1f}", run.iterations_per_step), seconds[n] ? fmt::format("{:.2f}", *seconds[n]) : "---"});
   }
-  if (experiment.check) findings.agreement = check(experiment, table, results);
+  if (experiment.check) findings.agreement = check(experiment, table, runs);
   return findings;
+}
+
+}  // namespace
+
+Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top) {
+  const Expression step = top.number("step");
+  std::vector<RunRequest> requests;
+  for (const toml::table* entry : top.tables("run")) {
+    TomlTable reader(top.source(), *entry, "run");
+    requests.push_back({experiment.scene, stated_method(reader), SolverKind::fixed_point, step, reader.number("until"),
+                        experiment.precision, false});
+    reader.finish();
+  }
+  // Times are no part of a result: they differ.
+  const auto seconds = std::make_shared<std::vector<std::optional<double>>>(requests.size());
+  Part<Findings> part;
+  for (std::size_t n = 0; n < requests.size(); ++n)
+    part.cells.push_back(
+        {experiment.key("long run", experiment.scene, requests[n].method->key(), step, requests[n].until, ""),
+         [request = requests[n], seconds, n] {
+           const RunResult result = hbvm::run(request, {});
+           (*seconds)[n] = result.cpu_seconds;
+           return to_result(result);
+         }});
+  part.conclude = [&experiment, requests, seconds](const auto& results) {
+    return conclude(experiment, requests, results, *seconds);
+  };
+  return part;
 }
 
 }  // namespace hbvm

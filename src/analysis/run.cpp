@@ -7,6 +7,7 @@
 #include "hbvm/integrate/trajectory.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
+#include "texts.hpp"
 
 namespace hbvm {
 namespace {
@@ -24,13 +25,6 @@ class Progress final : public Observer<S> {
   const std::function<void(long, long)>& report_;
   long steps_;
 };
-
-template <Scalar S>
-std::vector<std::string> texts(const Vector<S>& v) {
-  std::vector<std::string> result;
-  for (Index i = 0; i < v.size(); ++i) result.push_back(to_text(v[i]));
-  return result;
-}
 
 /// The conserved components of the momenta that the scene names.
 template <Scalar S>

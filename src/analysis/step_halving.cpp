@@ -5,8 +5,11 @@
 #include <cmath>
 
 #include "hbvm/analysis/simulate.hpp"
+#include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
+#include "json.hpp"
+#include "texts.hpp"
 
 namespace hbvm {
 namespace {
@@ -24,49 +27,72 @@ std::string rate(const S& above, const S& here, const S& size) {
 }
 
 template <Scalar S>
-std::vector<HalvingRow> step_halving_in(const HalvingRequest& request, const std::function<void()>& after_each_run) {
+HalvingRun halving_run_in(const HalvingRequest& request, int i) {
   const Assembled<S> scene = assemble<S>(*request.scene);
-  const StepperMaker<S> make_stepper = request.method->prepare(scene.problem, request.solver);
-  std::optional<Simulated<S>> coarse;
+  Constants constants = request.scene->constants;
+  constants.insert_or_assign("i", Expression::parse(std::to_string(i)));
+  const TimeGrid<S> grid(request.step, request.until, constants);
+  const std::unique_ptr<Stepper<S>> stepper = request.method->make_stepper(scene.problem, request.solver);
+  const Simulated<S> run = simulate<S>(scene, *stepper, grid);
+  const Snapshot<S>& end = run.integration.end;
+  return {grid.steps(),    texts(end.q),     texts(end.p),     texts(end.lambda),
+          to_text(run.H0), to_text(run.e_H), to_text(run.e_g), to_text(run.e_hid)};
+}
+
+/// A run's numbers in the working precision again.
+template <Scalar S>
+struct End {
+  Vector<S> q, p, lambda;
+  S H0, e_H, e_g, e_hid;
+
+  explicit End(const HalvingRun& run)
+      : q(numbers(run.q)),
+        p(numbers(run.p)),
+        lambda(numbers(run.lambda)),
+        H0(literal<S>(run.H0)),
+        e_H(literal<S>(run.e_H)),
+        e_g(literal<S>(run.e_g)),
+        e_hid(literal<S>(run.e_hid)) {}
+
+ private:
+  static Vector<S> numbers(const std::vector<std::string>& texts) {
+    Vector<S> result(static_cast<Index>(texts.size()));
+    for (Index i = 0; i < result.size(); ++i) result[i] = literal<S>(texts[static_cast<std::size_t>(i)]);
+    return result;
+  }
+};
+
+template <Scalar S>
+std::vector<HalvingRow> halving_rows_in(const HalvingRequest& request, const std::vector<HalvingRun>& runs) {
   std::optional<Errors<S>> above;
   std::vector<HalvingRow> rows;
-  for (int i = request.first; i <= request.last + 1; ++i) {
-    Constants constants = request.scene->constants;
-    constants.insert_or_assign("i", Expression::parse(std::to_string(i)));
-    const TimeGrid<S> grid(request.step, request.until, constants);
-    const std::unique_ptr<Stepper<S>> stepper = make_stepper();
-    Simulated<S> fine = simulate<S>(scene, *stepper, grid);
-    after_each_run();
-    if (coarse) {
-      const Snapshot<S>&a = coarse->integration.end, &b = fine.integration.end;
-      const S q_size = max_norm(b.q), p_size = max_norm(b.p);
-      const S y_size = std::max(q_size, p_size), lambda_size = max_norm(b.lambda);
-      const S H_size = std::max(magnitude(fine.H0), S(p_size * p_size));
-      Errors<S> e{std::max(distance(a.q, b.q), distance(a.p, b.p)), distance(a.lambda, b.lambda), fine.e_hid, fine.e_g,
-                  fine.e_H};
-      HalvingRow row;
-      row.i = i - 1;
-      row.steps = grid.steps();
-      row.e_y = to_scientific(e.y, 3);
-      row.e_lambda = to_scientific(e.lambda, 3);
-      row.e_hid = to_scientific(e.hid, 3);
-      row.e_g = to_scientific(e.g, 3);
-      row.e_H = to_scientific(e.H, 3);
-      if (above) {
-        row.rate_y = rate(above->y, e.y, y_size);
-        row.rate_lambda = rate(above->lambda, e.lambda, lambda_size);
-        row.rate_hid = rate(above->hid, e.hid, S(q_size * p_size));
-        row.rate_H = rate(above->H, e.H, H_size);
-      }
-      const auto ulps = [](const S& error, const S& size) { return approximately(S(error / (size * epsilon<S>()))); };
-      row.ulps_lambda = ulps(e.lambda, lambda_size);
-      row.ulps_hid = ulps(e.hid, S(q_size * p_size));
-      row.ulps_g = ulps(e.g, S(q_size * q_size));
-      row.ulps_H = ulps(e.H, H_size);
-      rows.push_back(std::move(row));
-      above = std::move(e);
+  for (std::size_t n = 0; n + 1 < runs.size(); ++n) {
+    const End<S> a(runs[n]), b(runs[n + 1]);
+    const S q_size = max_norm(b.q), p_size = max_norm(b.p);
+    const S y_size = std::max(q_size, p_size), lambda_size = max_norm(b.lambda);
+    const S H_size = std::max(magnitude(b.H0), S(p_size * p_size));
+    Errors<S> e{std::max(distance(a.q, b.q), distance(a.p, b.p)), distance(a.lambda, b.lambda), b.e_hid, b.e_g, b.e_H};
+    HalvingRow row;
+    row.i = request.first + static_cast<int>(n);
+    row.steps = runs[n + 1].steps;
+    row.e_y = to_scientific(e.y, 3);
+    row.e_lambda = to_scientific(e.lambda, 3);
+    row.e_hid = to_scientific(e.hid, 3);
+    row.e_g = to_scientific(e.g, 3);
+    row.e_H = to_scientific(e.H, 3);
+    if (above) {
+      row.rate_y = rate(above->y, e.y, y_size);
+      row.rate_lambda = rate(above->lambda, e.lambda, lambda_size);
+      row.rate_hid = rate(above->hid, e.hid, S(q_size * p_size));
+      row.rate_H = rate(above->H, e.H, H_size);
     }
-    coarse = std::move(fine);
+    const auto ulps = [](const S& error, const S& size) { return approximately(S(error / (size * epsilon<S>()))); };
+    row.ulps_lambda = ulps(e.lambda, lambda_size);
+    row.ulps_hid = ulps(e.hid, S(q_size * p_size));
+    row.ulps_g = ulps(e.g, S(q_size * q_size));
+    row.ulps_H = ulps(e.H, H_size);
+    rows.push_back(std::move(row));
+    above = std::move(e);
   }
   return rows;
 }
@@ -97,9 +123,32 @@ bool HalvingRow::is_round_off(const std::string& column) const {
   throw InputError("column '" + column + "' cannot be round-off");
 }
 
-std::vector<HalvingRow> step_halving(const HalvingRequest& request, const Precision& precision,
-                                     const std::function<void()>& after_each_run) {
-  return with_scalar(precision, [&]<Scalar S>() { return step_halving_in<S>(request, after_each_run); });
+HalvingRun halving_run(const HalvingRequest& request, int i, const Precision& precision) {
+  return with_scalar(precision, [&]<Scalar S>() { return halving_run_in<S>(request, i); });
+}
+
+std::string to_result(const HalvingRun& run) {
+  return dumped({{"steps", run.steps},
+                 {"q", run.q},
+                 {"p", run.p},
+                 {"lambda", run.lambda},
+                 {"H0", run.H0},
+                 {"e_H", run.e_H},
+                 {"e_g", run.e_g},
+                 {"e_hid", run.e_hid}},
+                -1);
+}
+
+HalvingRun read_halving_run(const std::string& text) {
+  return read_json(text, "a table of step halvings", [](const OrderedJson& j) {
+    return HalvingRun{j.at("steps"), j.at("q"),   j.at("p"),   j.at("lambda"),
+                      j.at("H0"),    j.at("e_H"), j.at("e_g"), j.at("e_hid")};
+  });
+}
+
+std::vector<HalvingRow> halving_rows(const HalvingRequest& request, const std::vector<HalvingRun>& runs,
+                                     const Precision& precision) {
+  return with_scalar(precision, [&]<Scalar S>() { return halving_rows_in<S>(request, runs); });
 }
 
 }  // namespace hbvm

@@ -2,21 +2,36 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <memory>
 
 #include "expected_csv.hpp"
 #include "hbvm/analysis/run.hpp"
+#include "hbvm/read_file.hpp"
 #include "hbvm/report/figure.hpp"
 #include "hbvm/scalar/literal.hpp"
+#include "json.hpp"
 
 namespace hbvm {
 namespace {
 
-std::string first_line(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  return line;
+/// A run of a figure, and the file of its trajectory.
+struct FigureRun {
+  RunRequest request;
+  long every = 1;
+  std::string csv;
+};
+
+/// The text of the file, which is what a run leaves.
+std::string trajectory(const FigureRun& run, const std::vector<std::string>& provenance) {
+  RunHooks hooks;
+  hooks.every = run.every;
+  hooks.provenance = provenance;
+  hooks.open_csv = [&] { return std::make_unique<CsvFile>(run.csv, CsvFile::Opening::anew); };
+  hbvm::run(run.request, hooks);
+  return dumped({{"csv", read_file(run.csv)}}, -1);
+}
+std::string read_trajectory(const std::string& text) {
+  return read_json(text, "a figure", [](const OrderedJson& j) { return j.at("csv").get<std::string>(); });
 }
 
 std::vector<std::string> coordinates(const TomlTable& reader, const toml::node& node) {
@@ -69,49 +84,57 @@ Panel panel(TomlTable reader, const std::vector<std::string>& csvs, const std::v
   return panel;
 }
 
+FigureRun read_run(const Experiment& experiment, TomlTable reader, const std::string& csv) {
+  FigureRun run{{experiment.scene, stated_method(reader), SolverKind::fixed_point, reader.number("step"),
+                 reader.number("until"), experiment.precision, false},
+                reader.has("every") ? reader.integer("every") : 1,
+                csv};
+  if (run.every < 1) reader.fail("'every' must be positive");
+  reader.finish();
+  return run;
+}
+
 }  // namespace
 
-std::vector<std::string> study_figure(const Experiment& experiment, TomlTable reader,
-                                      const std::vector<std::string>& provenance,
-                                      const std::filesystem::path& results) {
-  std::vector<std::string> files;
+Part<std::vector<std::string>> study_figure(const Experiment& experiment, TomlTable reader) {
   Figure figure;
   figure.name = reader.string("name");
   reader.rename("figure '" + figure.name + "'");
   figure.caption = reader.optional_string("caption");
+  const std::string of_figure = " of figure '" + figure.name + "'";
+  Part<std::vector<std::string>> part;
   std::vector<std::string> csvs;
-  std::vector<std::string> columns;
   for (const toml::table* table : reader.tables("run")) {
-    TomlTable run_reader(reader.source(), *table, "run of figure '" + figure.name + "'");
-    const RunRequest request{experiment.scene,
-                             stated_method(run_reader),
-                             SolverKind::fixed_point,
-                             run_reader.number("step"),
-                             run_reader.number("until"),
-                             experiment.precision,
-                             false};
-    const std::string name = fmt::format("{}_{}.csv", figure.name, csvs.size() + 1);
-    csvs.push_back((results / name).string());
-    files.push_back(csvs.back());
-    RunHooks hooks;
-    hooks.every = run_reader.has("every") ? run_reader.integer("every") : 1;
-    if (hooks.every < 1) run_reader.fail("'every' must be positive");
-    run_reader.finish();
-    hooks.provenance = provenance;
-    hooks.provenance.push_back("method " + request.method->text() + ", step " + request.step.text() + ", until " +
-                               request.until.text());
-    hooks.open_csv = [&] { return std::make_unique<CsvFile>(csvs.back(), CsvFile::Opening::anew); };
-    hbvm::run(request, hooks);
-    columns = split(first_line(csvs.back()).substr(2));
+    csvs.push_back((experiment.results / fmt::format("{}_{}.csv", figure.name, csvs.size() + 1)).string());
+    const FigureRun run = read_run(experiment, TomlTable(reader.source(), *table, "run" + of_figure), csvs.back());
+    const RunRequest& request = run.request;
+    std::vector<std::string> provenance = experiment.provenance;
+    provenance.push_back("method " + request.method->text() + ", step " + request.step.text() + ", until " +
+                         request.until.text());
+    std::string further = std::to_string(run.every);
+    for (const std::string& line : provenance) further += "|" + line;
+    part.cells.push_back(
+        {experiment.key("trajectory", request.scene, request.method->key(), request.step, request.until, further),
+         [run, provenance] { return trajectory(run, provenance); }});
   }
-  for (const toml::table* table : reader.tables("panel"))
-    figure.panels.push_back(
-        panel(TomlTable(reader.source(), *table, "panel of figure '" + figure.name + "'"), csvs, columns));
+  const std::vector<const toml::table*> panels = reader.tables("panel");
   reader.finish();
-  const std::string svg = (results / (figure.name + ".svg")).string();
-  draw(figure, svg);
-  files.push_back(svg);
-  return files;
+  part.conclude = [&experiment, &source = reader.source(), figure, csvs, panels,
+                   of_figure](const std::vector<std::string>& results) {
+    std::vector<std::string> files = csvs, columns;
+    for (std::size_t n = 0; n < csvs.size(); ++n) {
+      const std::string csv = read_trajectory(results[n]);
+      write_file(csvs[n], csv);
+      columns = split(csv.substr(0, csv.find('\n')).substr(2));
+    }
+    Figure drawn = figure;
+    for (const toml::table* table : panels)
+      drawn.panels.push_back(panel(TomlTable(source, *table, "panel" + of_figure), csvs, columns));
+    files.push_back((experiment.results / (figure.name + ".svg")).string());
+    draw(drawn, files.back());
+    return files;
+  };
+  return part;
 }
 
 }  // namespace hbvm

@@ -4,9 +4,8 @@
 
 namespace hbvm {
 
-/// Makes the runs of a [[figure]] of study.toml and draws it.
-/// \return the files written to `results`: the trajectories (CSV) and the picture (SVG)
-std::vector<std::string> study_figure(const Experiment& experiment, TomlTable reader,
-                                      const std::vector<std::string>& provenance, const std::filesystem::path& results);
+/// A [[figure]] of study.toml: its runs, whose results are trajectories as the text of CSV files, and the picture. What
+/// comes out are the files written: the trajectories (CSV) and the picture (SVG).
+Part<std::vector<std::string>> study_figure(const Experiment& experiment, TomlTable reader);
 
 }  // namespace hbvm

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "hbvm/analysis/run.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 
@@ -58,6 +59,15 @@ TEST(RoundOffOfAHalving, LooksAtItsOwnColumn) {
   EXPECT_THROW((void)row(10, 0).is_round_off("e_y"), InputError);
 }
 
+/// By way of their texts.
+std::vector<HalvingRow> rows_of(const HalvingRequest& request, const std::string& precision = "double") {
+  const Precision digits = Precision::parse(precision);
+  std::vector<HalvingRun> runs;
+  for (int i = request.first; i <= request.last + 1; ++i)
+    runs.push_back(read_halving_run(to_result(halving_run(request, i, digits))));
+  return halving_rows(request, runs, digits);
+}
+
 /// Units are of the size of what is measured at the end: on a circle of radius 8, turned by 1/2 with p = 1, the
 /// greatest coordinate is 8 cos(1/2), and that of p cos(1/2).
 TEST(StepHalving, MeasuresInUnitsOfTheSizes) {
@@ -68,7 +78,7 @@ TEST(StepHalving, MeasuresInUnitsOfTheSizes) {
       "circle");
   const HalvingRequest request{
       &scene, hbvm_of({1, 1}), SolverKind::fixed_point, Expression::parse("2^(-i)"), Expression::parse("4"), 1, 3};
-  const std::vector<HalvingRow> rows = step_halving(request, Precision::parse("double"), [] {});
+  const std::vector<HalvingRow> rows = rows_of(request);
   ASSERT_EQ(rows.size(), 3u);
   for (const HalvingRow& r : rows) {
     EXPECT_EQ(r.steps, 8L << r.i);
@@ -89,7 +99,7 @@ TEST(StepHalving, StarsARateWhereTheErrorIsAFewUnits) {
   const HalvingRequest request{
       &scene, hbvm_of({3, 1}), SolverKind::fixed_point, Expression::parse("2^(-i)"), Expression::parse("5"), 2, 6};
   int shown = 0, starred = 0;
-  for (const HalvingRow& r : step_halving(request, Precision::parse("double"), [] {})) {
+  for (const HalvingRow& r : rows_of(request)) {
     if (!r.rate_H) continue;
     EXPECT_EQ(*r.rate_H == "***", r.ulps_H <= 16) << r.e_H << ", " << r.ulps_H << " units";
     ++(*r.rate_H == "***" ? starred : shown);
@@ -99,6 +109,34 @@ TEST(StepHalving, StarsARateWhereTheErrorIsAFewUnits) {
   }
   EXPECT_GE(shown, 1);
   EXPECT_GE(starred, 1);
+}
+
+/// Every number is there to its last digit: a difference of two runs is made of them.
+TEST(StepHalving, KeepsTheNumbersOfARunExactly) {
+  const Scene scene = load_scene("modified_pendulum");
+  const HalvingRequest request{
+      &scene, hbvm_of({3, 1}), SolverKind::fixed_point, Expression::parse("2^(-i)"), Expression::parse("1"), 4, 4};
+  for (const char* const precision : {"double", "quad", "mpfr:50"}) {
+    const HalvingRun run = halving_run(request, 4, Precision::parse(precision));
+    EXPECT_EQ(run.steps, 16);
+    EXPECT_EQ(run.q.size(), 2u);
+    EXPECT_EQ(run.lambda.size(), 1u);
+    const RunResult same = hbvm::run({scene, request.method, SolverKind::fixed_point, Expression::parse("1/16"),
+                                      request.until, Precision::parse(precision)},
+                                     {});
+    EXPECT_EQ(run.q, same.q) << precision;
+    EXPECT_EQ(run.p, same.p) << precision;
+    EXPECT_EQ(run.lambda, same.lambda) << precision;
+    EXPECT_EQ(run.e_H, same.e_H) << precision;
+    EXPECT_EQ(run.e_g, same.e_g) << precision;
+    EXPECT_EQ(run.e_hid, same.e_hid) << precision;
+    EXPECT_EQ(to_result(read_halving_run(to_result(run))), to_result(run));
+    // A run is compared with itself: nothing is lost between.
+    for (const HalvingRow& row :
+         halving_rows(request, {run, read_halving_run(to_result(run))}, Precision::parse(precision)))
+      EXPECT_EQ(row.e_y + row.e_lambda, "0.00e+000.00e+00") << precision;
+  }
+  EXPECT_THROW(read_halving_run("{}"), InputError);
 }
 
 }  // namespace

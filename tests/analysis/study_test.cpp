@@ -31,7 +31,10 @@ class StudyTest : public ::testing::Test {
   }
 
   static StudyOutcome run(const fs::path& folder, const std::string& precision) {
-    return run_study(folder.string(), Precision::parse(precision), true, [](long, long) {});
+    StudyOptions options;
+    options.check = true;
+    options.jobs = 2;
+    return run_studies({{folder.string(), Precision::parse(precision)}}, options).front().value();
   }
 
   static void replace(const fs::path& file, const std::string& from, const std::string& to) {

@@ -107,12 +107,116 @@ TEST_F(StudyCommand, RunsEveryFolderInEveryPrecision) {
             << where << " " << precision << " " << file;
 }
 
+/// With a picture, so that trajectories are among the runs.
+class DividedStudy : public StudyCommand {
+ protected:
+  void SetUp() override {
+    StudyCommand::SetUp();
+    write("study.toml",
+          text("study.toml") +
+              "[[figure]]\nname = \"path\"\nrun = [{ method = \"hbvm:2,2\", step = \"1/8\", until = 1 }]\n"
+              "panel = [{ title = \"Path\", x_label = \"x\", y_label = \"y\", curve = [{ x = \"q1\", y = "
+              "\"q2\", label = \"q\" }] }]\n");
+  }
+  Arguments work(const std::string& out) const {
+    return {"study", path, "--precision", "double", "mpfr:30", "--check", "--out", folder / out};
+  }
+  std::string runs_of(const std::string& out) const { return text_of(folder / (out + "/runs.jsonl")); }
+  void expect_same(const std::string& out, const std::string& other) const {
+    EXPECT_EQ(runs_of(out), runs_of(other));
+    for (const char* const precision : {"double", "mpfr_30"})
+      for (const char* const name : {"table.csv", "table.md", "table.tex", "path_1.csv"}) {
+        const std::string file = std::string("/small/") + precision + "/" + name;
+        EXPECT_FALSE(text_of(folder / (out + file)).empty()) << file;
+        EXPECT_EQ(text_of(folder / (out + file)), text_of(folder / (other + file))) << file;
+      }
+  }
+};
+
+TEST_F(DividedStudy, GoesOnFromAFileCutAnywhere) {
+  const Outcome first = hbvm(work("one") + Arguments{"--jobs", "1"});
+  EXPECT_EQ(first.code, 0) << first.err << first.out;
+  EXPECT_FALSE(fs::exists(path + "/results")) << "they are in --out";
+  const std::string all = runs_of("one");
+  EXPECT_EQ(lines_of(all).size(), 8u) << "three steps and a trajectory, in two precisions";
+  for (std::size_t n = 0; n < 5; ++n) {
+    const std::size_t length = all.size() * n / 4;
+    fs::create_directories(folder / "cut");
+    folder.write("cut/runs.jsonl", all.substr(0, length));
+    const Outcome outcome = hbvm(work("cut") + Arguments{"--jobs", "3"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(outcome.out.ends_with("4 of 4 printed figures agree\n")) << outcome.out;
+    expect_same("cut", "one");
+  }
+}
+
+/// Killed at any time, and started again until it ends.
+TEST_F(DividedStudy, GoesOnAfterItWasKilled) {
+  ASSERT_EQ(hbvm(work("one")).code, 0);
+  int code = -1;
+  double delay = 5'000;
+  for (int n = 0; code != 0 && n < 20; ++n, delay *= 1.4)
+    code = hbvm(work("killed"), 60, [delay](pid_t process) {
+             usleep(static_cast<useconds_t>(delay));
+             kill(process, SIGKILL);
+           }).code;
+  EXPECT_EQ(code, 0);
+  expect_same("killed", "one");
+}
+
+TEST_F(DividedStudy, MergesShardsToTheSameFiles) {
+  ASSERT_EQ(hbvm(work("one")).code, 0);
+  Arguments merged = work("merged") + Arguments{"--merge"};
+  for (const char* const shard : {"1/3", "2/3", "3/3"}) {
+    const std::string out = std::string("shard") + shard[0];
+    const Outcome outcome = hbvm(work(out) + Arguments{"--shard", shard});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("the runs of shard " + std::string(shard)), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("agree"), std::string::npos) << outcome.out;
+    expect_refused(work("part") + Arguments{"--merge", folder / (out + "/runs.jsonl")}, {"in none of these files"});
+    merged.push_back(folder / (out + "/runs.jsonl"));
+  }
+  const Outcome outcome = hbvm(merged);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.ends_with("4 of 4 printed figures agree\n")) << outcome.out;
+  expect_same("merged", "one");
+}
+
+/// What was run belongs to a scene, not to its name.
+TEST_F(DividedStudy, RunsAgainWhatHasChanged) {
+  ASSERT_EQ(hbvm(work("out")).code, 0);
+  std::string scene = text("scene.toml");
+  write("scene.toml", scene.replace(scene.find("[0, 1]"), 6, "[0, 2]"));
+  EXPECT_EQ(hbvm(work("out")).code, 1) << "the figures are others";
+  EXPECT_EQ(lines_of(runs_of("out")).size(), 16u);
+}
+
+/// What can be written is, when a run of another study fails.
+TEST_F(StudyCommand, WritesWhatIsCompleteIfARunFails) {
+  const std::string other = folder / "other";
+  fs::copy(path, other);
+  write("scene.toml", fall());
+  replace("until = 1", "until = 2");
+  const Outcome outcome = hbvm({"study", other, path, "--jobs", "1"});
+  EXPECT_EQ(outcome.code, 3) << outcome.out;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(text_of(other + "/results/double/table.csv").find(figure(1)), std::string::npos);
+  EXPECT_EQ(text("results/double/table.csv"), "");
+}
+
 TEST_F(StudyCommand, RefusesBadInput) {
   expect_refused({"study"}, {"folders"});
   expect_refused({"study", folder / "none"}, {"none"});
   expect_refused({"study", path, folder / "none"}, {"none"});
   expect_refused({"study", path, "--precision", "half"}, {"half"});
   expect_refused({"study", path, "--bogus"}, {"--bogus"});
+  expect_refused({"study", path, "--jobs", "0"}, {"--jobs"});
+  expect_refused({"study", path, "--shard", "1/2"}, {"--out", "runs.jsonl"});
+  expect_refused({"study", path, "--shard", "3/2", "--out", folder / "out"}, {"--shard", "3/2"});
+  expect_refused({"study", path, "--out", "/proc/nowhere"}, {"/proc/nowhere"});
+  fs::create_directory(folder / "elsewhere");
+  fs::copy(path, folder / "elsewhere/small");
+  expect_refused({"study", path, folder / "elsewhere/small", "--out", folder / "out"}, {"the same name"});
   fs::remove(path + "/expected.csv");
   expect_refused({"study", path, "--check"}, {"expected.csv"});
   write("expected.csv", "# k,s,i,e_y\n1,1,1\n");

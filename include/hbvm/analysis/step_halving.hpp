@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,8 +41,22 @@ struct HalvingRequest {
   int first = 0, last = 0;
 };
 
-/// \throws InputError, IntegrationError
-std::vector<HalvingRow> step_halving(const HalvingRequest& request, const Precision& precision,
-                                     const std::function<void()>& after_each_run);
+/// What a run of the ladder leaves, every number as decimal text that reads back exactly.
+struct HalvingRun {
+  long steps = 0;
+  std::vector<std::string> q, p, lambda;  ///< at the end; lambda: (lagmul)
+  std::string H0, e_H, e_g, e_hid;
+};
+
+/// The run with the step h_i. \throws InputError, IntegrationError
+HalvingRun halving_run(const HalvingRequest& request, int i, const Precision& precision);
+
+/// A run as JSON, and back. \throws InputError if it is none
+std::string to_result(const HalvingRun& run);
+HalvingRun read_halving_run(const std::string& text);
+
+/// The rows first .. last from the runs first .. last + 1.
+std::vector<HalvingRow> halving_rows(const HalvingRequest& request, const std::vector<HalvingRun>& runs,
+                                     const Precision& precision);
 
 }  // namespace hbvm

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <functional>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hbvm/analysis/cells.hpp"
 #include "hbvm/scalar/precision.hpp"
 
 namespace hbvm {
@@ -23,12 +25,24 @@ struct StudyOutcome : Agreement {
   std::string table;               ///< in Markdown
 };
 
-/// Runs the experiment that the folder's study.toml describes, in one precision. Tables (CSV, Markdown, LaTeX) go to
-/// results/PRECISION/ in the folder, pictures (SVG) too.
-/// \param check compare with the folder's expected.csv
-/// \param progress called with (runs done, runs in all)
-/// \throws InputError, IntegrationError
-StudyOutcome run_study(const std::string& folder, const Precision& precision, bool check,
-                       const std::function<void(long, long)>& progress);
+/// A folder with a study.toml, and the precision to run it in.
+struct StudyRequest {
+  std::string folder;
+  Precision precision;
+};
+
+struct StudyOptions : CellOptions {
+  bool check = false;  ///< compare with the folders' expected.csv
+  /// Where results go, in STUDY/PRECISION/; if absent to results/PRECISION/ in the study's own folder.
+  std::optional<std::filesystem::path> out{};
+};
+
+/// Runs the experiments that study.toml describes: a cell for each of their runs. Tables (CSV, Markdown, LaTeX) and
+/// pictures (SVG, with the trajectories they show) are the same whatever the number of threads and shards, but for a
+/// column of seconds. If a run fails, the studies that are complete are written all the same.
+/// \return an outcome a request, in order; none for one with runs in other shards that the store does not know
+/// \throws InputError, before anything is run if a study.toml is wrong; IntegrationError
+std::vector<std::optional<StudyOutcome>> run_studies(const std::vector<StudyRequest>& requests,
+                                                     const StudyOptions& options);
 
 }  // namespace hbvm
