@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "hbvm/analysis/describe.hpp"
+#include "hbvm/analysis/run/describe.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/project.hpp"
 

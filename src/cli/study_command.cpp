@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "hbvm/analysis/study.hpp"
+#include "hbvm/analysis/study/study.hpp"
 #include "hbvm/error.hpp"
 #include "long_work.hpp"
 

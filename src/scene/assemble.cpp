@@ -331,7 +331,7 @@ class Assembler {
   void check_consistency() {
     const Problem<S>& p = problem();
     if (p.nu() == 0) return;
-    const S tolerance = S(64) * epsilon<S>();
+    const S tolerance = consistency_tolerance<S>();
     Vector<S> v(p.m());
     p.mass.velocity(lanes(result_.p0), lanes(v));
     // The velocity of a coordinate carries the round-off of its block's momenta.
@@ -388,7 +388,7 @@ class Assembler {
     all.insert(all.begin(), dependence.constraint);
     for (const Index a : all) {
       const auto at_start = value(result_.problem.constraints[static_cast<std::size_t>(a)], d_, result_.q0);
-      if (magnitude(at_start.g) <= S(64) * epsilon<S>() * at_start.size) continue;
+      if (at_start.vanishes()) continue;
       const std::string whose = a == dependence.constraint ? "its residual" : "the residual of " + name(a);
       throw InputError(who + "contradictory" + why + ", and " + whose + " there is " + to_scientific(at_start.g, 3));
     }

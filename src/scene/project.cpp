@@ -72,8 +72,7 @@ Scene project(const Scene& scene) {
   const Problem<S>& problem = assembled.problem;
   const Vector<S> q = problem.nu() > 0 ? nearest_position(problem, assembled.q0, scene.name) : assembled.q0;
   for (const auto& redundant : problem.redundant) {
-    const auto found = value(redundant.constraint, problem.dimension, q);
-    if (!(magnitude(found.g) <= S(64) * epsilon<S>() * found.size)) throw_no_position(scene.name);
+    if (!value(redundant.constraint, problem.dimension, q).vanishes()) throw_no_position(scene.name);
   }
   Point<S> point(problem);
   const Vector<S> p = point.tangential(q, assembled.p0);

@@ -1,6 +1,6 @@
 #include "hbvm/analysis/choose_k.hpp"
 
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/step/registry.hpp"

@@ -110,8 +110,8 @@ effect = [{ kind = "central_gravity", center = "O", strength = 1 }]
 
 TEST(Checkpoint, ContinuesTheAccount) {
   const Folder folder;
-  const std::string file = folder / "run";
   for (const char* precision : {"quad", "double"}) {
+    const std::string file = folder / precision;
     const Arguments run{"run", "kepler", "--method",    "hbvm:auto,2", "--step",    "1/64",     "--until",
                         "16",  "--json", "--precision", precision,     "--account", "--solver", "newton"};
     ordered_json whole = result_of(hbvm(run));

@@ -98,8 +98,8 @@ std::string whole_folder_of(const std::string& file) {
 
 /// The folder a file of include/hbvm or src is in, and where a line of it that includes another leads.
 std::string whole_folder(const Source& source) {
-  for (const char* root : {"include/hbvm", "src"}) {
-    const auto relative = source.path.lexically_relative(std::filesystem::path(HBVM_SOURCE_DIR) / root);
+  for (const char* base : {"include/hbvm", "src"}) {
+    const auto relative = source.path.lexically_relative(std::filesystem::path(HBVM_SOURCE_DIR) / base);
     if (!relative.empty() && *relative.begin() != "..") return whole_folder_of(relative.generic_string());
   }
   return {};

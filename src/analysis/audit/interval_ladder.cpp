@@ -63,97 +63,142 @@ class Destination {
   std::optional<ReferenceMotion> motion_;
 };
 
+/// Runs from every start through the interval, and what is measured of them.
+template <Scalar S>
+class IntervalLadder {
+ public:
+  /// \param unit of round-off in S, as log2, with what the steps of a run add up to
+  IntervalLadder(const Cell& cell, double unit)
+      : unit_(unit),
+        cell_(cell),
+        laboratory_(cell),
+        problem_(laboratory_.problem()),
+        point_(laboratory_.point()),
+        log2_window_(cell.log2_scale + cell.log2_interval),
+        end_errors_(cell.asks_for(Quantity::q) || cell.asks_for(Quantity::p) || cell.asks_for(Quantity::tangential_p) ||
+                    cell.asks_for(Quantity::lagmul) || cell.asks_for(Quantity::output_lambda)) {
+    if (cell.asks_for(Quantity::angular_momentum)) momenta_ = conserved_momenta(problem_);
+    const Mpfr until = cell.windows * ldexp(Mpfr(1), log2_window_);
+    for (const Laboratory::Start& start : laboratory_.starts()) {
+      destinations_.emplace_back(laboratory_, cell, start, until);
+      sensitivities_.push_back(Sensitivity::at(problem_, point_, cell.log2_scale, momenta_, start.q, start.p));
+    }
+  }
+
+  /// The errors with n steps a window are added to `ladders`. \throws StageFailure if the step is too large
+  void measure(Trial<S>& trial, long n, Ladders& ladders) {
+    sizes_.clear();
+    Margins margins;
+    const Mpfr h = ldexp(Mpfr(1), log2_window_) / n;
+    const double log2_h = log2_of(h);
+    for (std::size_t i = 0; i < laboratory_.starts().size(); ++i) {
+      const Sensitivity& sensitivity = sensitivities_[i];
+      const Floors floors{unit_ + sensitivity.q, unit_ + sensitivity.p, unit_ + sensitivity.lambda,
+                          unit_ + sensitivity.lambda + std::max(cell_.log2_scale - log2_h, double{0})};
+      Vector<Mpfr> q, p;
+      run(trial, laboratory_.starts()[i], h, n * cell_.windows, sensitivity, floors, q, p);
+      if (!end_errors_) continue;
+      Destination& exact = destinations_[i];
+      const Vector<Mpfr> tangential = point_.tangential(q, p);
+      sharpen(exact, sensitivity, floors, q, tangential);
+      margins.raise(Margins(exact.errors()));
+      compare(trial, exact, floors, q, p, tangential);
+    }
+    for (const auto& [quantity, size] : sizes_)
+      ladders[quantity].push_back({log2_h, size.error, size.floor, margins.set(size.floor)});
+  }
+
+ private:
+  /// What round-off makes of the errors, as log2; `divided` that of the multiplier by way of h.
+  struct Floors {
+    double q, p, lambda, divided;
+  };
+
+  void add(Quantity quantity, const Mpfr& error, double floor) { raise(sizes_, quantity, log2_of(error), floor); }
+
+  /// All steps, and what is looked at after each. \param q, p the state at the end
+  void run(Trial<S>& trial, const Laboratory::Start& start, const Mpfr& h, long steps, const Sensitivity& sensitivity,
+           const Floors& floors, Vector<Mpfr>& q, Vector<Mpfr>& p) {
+    q = start.q;
+    p = start.p;
+    const Mpfr H0 = point_.energy(q, p);
+    std::vector<MomentumValue<Mpfr>> momentum_0;
+    for (const auto& component : momenta_) momentum_0.push_back(momentum(problem_, component, q, p));
+    const bool constrained = problem_.nu() > 0;
+    trial.begin(start, h);
+    for (long step = 1; step <= steps; ++step) {
+      cell_.check_time();
+      const Vector<Mpfr> before = q;
+      trial.step();
+      trial.state(q, p);
+      if (constrained && trial.has_polynomials() && cell_.asks_for(Quantity::delta_lambda))
+        add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, before, p, h, cell_.subject().method->stages()),
+            floors.divided);
+      if (cell_.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point_.energy(q, p) - H0)), unit_ + sensitivity.H);
+      if (constrained && cell_.asks_for(Quantity::hidden))
+        add(Quantity::hidden, max_norm(point_.hidden_constraints(q, p)), unit_ + sensitivity.hidden);
+      for (std::size_t c = 0; c < momenta_.size(); ++c)
+        add(Quantity::angular_momentum, abs(Mpfr(momentum(problem_, momenta_[c], q, p).value - momentum_0[c].value)),
+            unit_ + sensitivity.momenta[c]);
+    }
+  }
+
+  /// The reference must be better than what is measured, which it takes a reference to know.
+  static void sharpen(Destination& exact, const Sensitivity& sensitivity, const Floors& floors, const Vector<Mpfr>& q,
+                      const Vector<Mpfr>& tangential) {
+    exact.sharpen(sensitivity.q, sensitivity.p);
+    for (bool improves = true; improves;) {
+      const ReferenceMotion::Errors before = exact.errors();
+      exact.sharpen(std::max(log2_of(distance(q, exact.q())), floors.q) - 8,
+                    std::max(log2_of(distance(tangential, exact.p())), floors.p) - 8);
+      improves = exact.errors().q < before.q || exact.errors().p < before.p;
+    }
+  }
+
+  /// The errors at the end.
+  void compare(Trial<S>& trial, const Destination& exact, const Floors& floors, const Vector<Mpfr>& q,
+               const Vector<Mpfr>& p, const Vector<Mpfr>& tangential) {
+    const Margins margin(exact.errors());
+    add(Quantity::q, distance(q, exact.q()), std::max(floors.q, margin.q));
+    add(Quantity::p, distance(p, exact.p()), std::max(floors.p, margin.p));
+    if (problem_.nu() == 0) return;
+    add(Quantity::tangential_p, distance(tangential, exact.p()), std::max(floors.p, margin.p));
+    const Vector<Mpfr> exact_lambda = point_.multiplier(exact.q(), exact.p());
+    Vector<Mpfr> lambda = exact_lambda;
+    trial.multiplier(lambda);
+    add(Quantity::output_lambda, distance(point_.multiplier(q, tangential), exact_lambda),
+        std::max(floors.lambda, margin.lambda));
+    add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(floors.divided, margin.lambda));
+  }
+
+  double unit_;
+  const Cell& cell_;
+  Laboratory laboratory_;
+  const Problem<Mpfr>& problem_;
+  Point<Mpfr>& point_;
+  int log2_window_;
+  bool end_errors_;
+  std::vector<MomentumComponent<Mpfr>> momenta_;
+  std::deque<Destination> destinations_;
+  std::vector<Sensitivity> sensitivities_;
+  Sizes sizes_;
+};
+
 }  // namespace
 
 template <Scalar S>
 Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
-  const double unit = 1 - significand_bits<S>() + run_roundings;
-  const Claim& subject = cell.subject();
-  Trial<S> trial(subject);
+  const double unit = 1 - significand_bits<S>() + run_roundings;  // in the scope of S
+  Trial<S> trial(cell.subject());
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
-  Laboratory laboratory(cell);
-  const Problem<Mpfr>& problem = laboratory.problem();
-  Point<Mpfr>& point = laboratory.point();
-  const int log2_window = cell.log2_scale + cell.log2_interval;
-  const Mpfr until = cell.windows * ldexp(Mpfr(1), log2_window);
-  const bool constrained = problem.nu() > 0;
-  const bool end_errors = cell.asks_for(Quantity::q) || cell.asks_for(Quantity::p) ||
-                          cell.asks_for(Quantity::tangential_p) || cell.asks_for(Quantity::lagmul) ||
-                          cell.asks_for(Quantity::output_lambda);
-  std::deque<Destination> destinations;
-  for (const Laboratory::Start& start : laboratory.starts()) destinations.emplace_back(laboratory, cell, start, until);
-  std::vector<MomentumComponent<Mpfr>> momenta;
-  if (cell.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem);
-
-  std::vector<Sensitivity> sensitivities;
-  for (const Laboratory::Start& start : laboratory.starts())
-    sensitivities.push_back(Sensitivity::at(problem, point, cell.log2_scale, momenta, start.q, start.p));
-
+  IntervalLadder<S> ladder(cell, unit);
   Ladders ladders;
   for (long n = 4; n <= most; n *= 2) {
-    Sizes sizes;
-    Margins margins;
-    const Mpfr h = ldexp(Mpfr(1), log2_window) / n;
-    const double log2_h = log2_of(h);
     try {
-      for (std::size_t i = 0; i < laboratory.starts().size(); ++i) {
-        const Laboratory::Start& start = laboratory.starts()[i];
-        Destination& exact = destinations[i];
-        const Sensitivity& sensitivity = sensitivities[i];
-        const double q_unit = unit + sensitivity.q, p_unit = unit + sensitivity.p,
-                     lambda_unit = unit + sensitivity.lambda,
-                     divided = lambda_unit + std::max(cell.log2_scale - log2_h, double{0});
-        const auto add = [&](Quantity quantity, const Mpfr& error, double floor) {
-          raise(sizes, quantity, log2_of(error), floor);
-        };
-        Vector<Mpfr> q = start.q, p = start.p;
-        const Mpfr H0 = point.energy(q, p);
-        std::vector<MomentumValue<Mpfr>> momentum_0;
-        for (const auto& component : momenta) momentum_0.push_back(momentum(problem, component, q, p));
-        trial.begin(start, h);
-        for (long step = 1; step <= n * cell.windows; ++step) {
-          cell.check_time();
-          const Vector<Mpfr> before = q;
-          trial.step();
-          trial.state(q, p);
-          if (constrained && trial.has_polynomials() && cell.asks_for(Quantity::delta_lambda))
-            add(Quantity::delta_lambda, delta_lambda(laboratory, trial, before, p, h, subject.method->stages()),
-                divided);
-          if (cell.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), unit + sensitivity.H);
-          if (constrained && cell.asks_for(Quantity::hidden))
-            add(Quantity::hidden, max_norm(point.hidden_constraints(q, p)), unit + sensitivity.hidden);
-          for (std::size_t c = 0; c < momenta.size(); ++c)
-            add(Quantity::angular_momentum, abs(Mpfr(momentum(problem, momenta[c], q, p).value - momentum_0[c].value)),
-                unit + sensitivity.momenta[c]);
-        }
-        if (!end_errors) continue;
-        const Vector<Mpfr> tangential = point.tangential(q, p);
-        // The reference must be better than what is measured, which it takes a reference to know.
-        exact.sharpen(sensitivity.q, sensitivity.p);
-        for (bool improves = true; improves;) {
-          const ReferenceMotion::Errors before = exact.errors();
-          exact.sharpen(std::max(log2_of(distance(q, exact.q())), q_unit) - 8,
-                        std::max(log2_of(distance(tangential, exact.p())), p_unit) - 8);
-          improves = exact.errors().q < before.q || exact.errors().p < before.p;
-        }
-        const Margins margin(exact.errors());
-        margins.raise(margin);
-        add(Quantity::q, distance(q, exact.q()), std::max(q_unit, margin.q));
-        add(Quantity::p, distance(p, exact.p()), std::max(p_unit, margin.p));
-        if (!constrained) continue;
-        add(Quantity::tangential_p, distance(tangential, exact.p()), std::max(p_unit, margin.p));
-        const Vector<Mpfr> exact_lambda = point.multiplier(exact.q(), exact.p());
-        Vector<Mpfr> lambda = exact_lambda;
-        trial.multiplier(lambda);
-        add(Quantity::output_lambda, distance(point.multiplier(q, tangential), exact_lambda),
-            std::max(lambda_unit, margin.lambda));
-        add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(divided, margin.lambda));
-      }
+      ladder.measure(trial, n, ladders);
     } catch (const StageFailure&) {
       continue;  // the step is too large for the solver
     }
-    for (const auto& [quantity, size] : sizes)
-      ladders[quantity].push_back({log2_h, size.error, size.floor, margins.set(size.floor)});
     if (enough(ladders)) break;
   }
   return ladders;

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/analysis/stability/case.hpp"
 #include "motion.hpp"
 

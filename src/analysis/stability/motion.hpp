@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/scalar/big_float.hpp"
 
 namespace hbvm {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/analysis/stability/case.hpp"
 
 namespace hbvm {

@@ -175,80 +175,121 @@ std::vector<typename Trace<S>::Id> Trace<S>::gradient(Id output, std::size_t inp
   return result;
 }
 
+/// Turns nodes into two programs: the coefficients, once, from the parameters; and the outputs, at every point, from
+/// the inputs and the coefficients.
 template <Scalar S>
-typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, std::size_t inputs,
-                                              std::size_t parameters) const {
-  // The use of node x by a varying operation (or as an output): what does not vary there is a coefficient.
-  std::vector<bool> needed(nodes_.size(), false), coefficient(nodes_.size(), false);
-  const auto need = [&](Id x) {
-    needed[x] = true;
-    if (!nodes_[x].varies && !is_constant(x)) coefficient[x] = true;
-  };
-  for (const Id x : outputs) need(x);
-  for (Id i = nodes_.size(); i-- > 0;) {
-    if (!needed[i] || nodes_[i].kind != Kind::operation || !nodes_[i].varies) continue;
-    need(nodes_[i].a);
-    if (is_binary(nodes_[i].op)) need(nodes_[i].b);
+class Trace<S>::Compiler {
+ public:
+  Compiler(const Trace& trace, const std::vector<Id>& outputs)
+      : nodes_(trace.nodes_),
+        trace_(trace),
+        needed_(nodes_.size(), false),
+        coefficient_(nodes_.size(), false),
+        place_(nodes_.size()) {
+    find_needed(outputs);
+    find_order();
   }
 
-  Compiled result;
-  std::vector<std::optional<Operand>> place(nodes_.size());
+  Compiled compile(const std::vector<Id>& outputs, std::size_t inputs, std::size_t parameters) {
+    Compiled result;
+    std::vector<Id> exits;
+    for (Id i = 0; i < nodes_.size(); ++i)
+      if (coefficient_[i]) exits.push_back(i);
+    place_leaves(Kind::parameter, parameters);
+    result.coefficients = emit(inside_coefficients(), false, exits);
 
-  // The order of the code: what does not wait for a transcendental function comes before it, so that in double a
-  // division, say, overlaps the call.
-  std::vector<int> calls(nodes_.size(), 0);
-  for (Id i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].kind != Kind::operation) continue;
-    calls[i] = calls[nodes_[i].a] + (nodes_[i].op > Op::sqrt ? 1 : 0);
-    if (is_binary(nodes_[i].op)) calls[i] = std::max(calls[i], calls[nodes_[i].b]);
+    std::fill(place_.begin(), place_.end(), std::nullopt);
+    place_leaves(Kind::input, inputs);
+    for (std::size_t i = 0; i < exits.size(); ++i)
+      place_[exits[i]] = Operand{Bank::input, static_cast<std::uint32_t>(inputs + i)};
+    result.program = emit(needed_, true, outputs);
+    return result;
   }
-  std::vector<Id> order(nodes_.size());
-  std::iota(order.begin(), order.end(), Id{0});
-  std::stable_sort(order.begin(), order.end(), [&](Id x, Id y) { return calls[x] < calls[y]; });
 
-  // First the coefficients, from the parameters alone.
-  std::vector<bool> inside = coefficient;
-  for (Id i = nodes_.size(); i-- > 0;) {
-    if (!inside[i] || nodes_[i].kind != Kind::operation) continue;
-    inside[nodes_[i].a] = true;
-    if (is_binary(nodes_[i].op)) inside[nodes_[i].b] = true;
+ private:
+  bool is_operation(Id x) const { return nodes_[x].kind == Kind::operation; }
+  template <class F>
+  void for_each_operand(Id x, F f) const {
+    f(nodes_[x].a);
+    if (is_binary(nodes_[x].op)) f(nodes_[x].b);
   }
-  const auto emit = [&](const std::vector<bool>& wanted, bool varying, const std::vector<Id>& exits) {
-    std::vector<S> constants;
-    std::vector<Instruction> code;
-    std::vector<Operand> ends;
-    // Registers are reused as soon as their last reader has run.
-    std::vector<Id> last_use(nodes_.size(), 0);
-    for (const Id i : order) {
-      if (!wanted[i] || nodes_[i].kind != Kind::operation || nodes_[i].varies != varying) continue;
-      last_use[nodes_[i].a] = i;
-      if (is_binary(nodes_[i].op)) last_use[nodes_[i].b] = i;
+
+  /// What the outputs need, and of that what does not vary where a varying operation uses it: the coefficients.
+  void find_needed(const std::vector<Id>& outputs) {
+    const auto need = [&](Id x) {
+      needed_[x] = true;
+      if (!nodes_[x].varies && !trace_.is_constant(x)) coefficient_[x] = true;
+    };
+    for (const Id x : outputs) need(x);
+    for (Id i = nodes_.size(); i-- > 0;)
+      if (needed_[i] && is_operation(i) && nodes_[i].varies) for_each_operand(i, need);
+  }
+
+  /// What the coefficients need.
+  std::vector<bool> inside_coefficients() const {
+    std::vector<bool> inside = coefficient_;
+    for (Id i = nodes_.size(); i-- > 0;)
+      if (inside[i] && is_operation(i)) for_each_operand(i, [&](Id x) { inside[x] = true; });
+    return inside;
+  }
+
+  /// The order of the code: what does not wait for a transcendental function comes before it, so that in double a
+  /// division, say, overlaps the call.
+  void find_order() {
+    std::vector<int> calls(nodes_.size(), 0);
+    for (Id i = 0; i < nodes_.size(); ++i) {
+      if (!is_operation(i)) continue;
+      for_each_operand(i, [&](Id x) { calls[i] = std::max(calls[i], calls[x]); });
+      if (nodes_[i].op > Op::sqrt) ++calls[i];
     }
-    for (const Id x : exits) last_use[x] = nodes_.size();
+    order_.resize(nodes_.size());
+    std::iota(order_.begin(), order_.end(), Id{0});
+    std::stable_sort(order_.begin(), order_.end(), [&](Id x, Id y) { return calls[x] < calls[y]; });
+  }
+
+  void place_leaves(Kind kind, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto found = trace_.known_.find(std::tuple(static_cast<int>(kind), 0, i, Id{0}));
+      if (found != trace_.known_.end()) place_[found->second] = Operand{Bank::input, static_cast<std::uint32_t>(i)};
+    }
+  }
+
+  /// The reader after which each node's register is free: of an exit, none.
+  std::vector<Id> last_uses(const std::vector<Id>& code, const std::vector<Id>& exits) const {
+    std::vector<Id> last(nodes_.size(), 0);
+    for (const Id i : code) for_each_operand(i, [&](Id x) { last[x] = i; });
+    for (const Id x : exits) last[x] = nodes_.size();
+    return last;
+  }
+
+  /// The program of the wanted operations that vary, or of those that do not. Registers are reused as soon as their
+  /// last reader has run.
+  Program<S> emit(const std::vector<bool>& wanted, bool varying, const std::vector<Id>& exits) {
+    std::vector<Id> operations;
+    for (const Id i : order_)
+      if (wanted[i] && is_operation(i) && nodes_[i].varies == varying) operations.push_back(i);
+    std::vector<Id> last_use = last_uses(operations, exits);
+    std::vector<S> constants;
+    const auto operand = [&](Id x) {
+      if (trace_.is_constant(x) && !place_[x]) {
+        constants.push_back(nodes_[x].value);
+        place_[x] = Operand{Bank::constant, static_cast<std::uint32_t>(constants.size() - 1)};
+      }
+      return *place_[x];
+    };
+    std::vector<Instruction> code;
     std::vector<std::uint32_t> free_registers;
     std::uint32_t registers = 0;
-    const auto operand = [&](Id x) {
-      if (is_constant(x) && !place[x]) {
-        constants.push_back(nodes_[x].value);
-        place[x] = Operand{Bank::constant, static_cast<std::uint32_t>(constants.size() - 1)};
-      }
-      return *place[x];
-    };
-    for (const Id i : order) {
+    for (const Id i : operations) {
       const Node& node = nodes_[i];
-      if (!wanted[i] || node.kind != Kind::operation || node.varies != varying) continue;
-      const bool two = is_binary(node.op);
-      const bool negation = node.op == Op::multiply && is_constant(node.a, -1);
+      const bool negation = node.op == Op::multiply && trace_.is_constant(node.a, -1);
       const Operand a = operand(negation ? node.b : node.a);
-      const Operand b = two && !negation ? operand(node.b) : Operand{};
-      const auto release = [&](Id x) {
-        if (last_use[x] == i && place[x] && place[x]->bank == Bank::temporary) {
-          free_registers.push_back(place[x]->index);
-          last_use[x] = nodes_.size() + 1;
-        }
-      };
-      release(node.a);
-      if (two) release(node.b);
+      const Operand b = is_binary(node.op) && !negation ? operand(node.b) : Operand{};
+      for_each_operand(i, [&](Id x) {
+        if (last_use[x] != i || !place_[x] || place_[x]->bank != Bank::temporary) return;
+        free_registers.push_back(place_[x]->index);
+        last_use[x] = nodes_.size() + 1;
+      });
       std::uint32_t target = registers;
       if (free_registers.empty()) {
         ++registers;
@@ -256,31 +297,25 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
         target = free_registers.back();
         free_registers.pop_back();
       }
-      place[i] = Operand{Bank::temporary, target};
+      place_[i] = Operand{Bank::temporary, target};
       code.push_back({negation ? Op::negate : node.op, a, b, target});
     }
+    std::vector<Operand> ends;
     for (const Id x : exits) ends.push_back(operand(x));
-    return Program<S>(std::move(constants), std::move(code), std::move(ends), registers);
-  };
-
-  for (std::size_t i = 0; i < parameters; ++i) {
-    const auto found = known_.find(std::tuple(static_cast<int>(Kind::parameter), 0, i, Id{0}));
-    if (found != known_.end()) place[found->second] = Operand{Bank::input, static_cast<std::uint32_t>(i)};
+    return {std::move(constants), std::move(code), std::move(ends), registers};
   }
-  std::vector<Id> exits;
-  for (Id i = 0; i < nodes_.size(); ++i)
-    if (coefficient[i]) exits.push_back(i);
-  result.coefficients = emit(inside, false, exits);
 
-  std::fill(place.begin(), place.end(), std::nullopt);
-  for (std::size_t i = 0; i < inputs; ++i) {
-    const auto found = known_.find(std::tuple(static_cast<int>(Kind::input), 0, i, Id{0}));
-    if (found != known_.end()) place[found->second] = Operand{Bank::input, static_cast<std::uint32_t>(i)};
-  }
-  for (std::size_t i = 0; i < exits.size(); ++i)
-    place[exits[i]] = Operand{Bank::input, static_cast<std::uint32_t>(inputs + i)};
-  result.program = emit(needed, true, outputs);
-  return result;
+  const std::vector<Node>& nodes_;
+  const Trace& trace_;
+  std::vector<bool> needed_, coefficient_;
+  std::vector<Id> order_;
+  std::vector<std::optional<Operand>> place_;
+};
+
+template <Scalar S>
+typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, std::size_t inputs,
+                                              std::size_t parameters) const {
+  return Compiler(*this, outputs).compile(outputs, inputs, parameters);
 }
 
 #define HBVM_DEFINE(S) template class Trace<S>;

@@ -57,6 +57,8 @@ class Trace {
   };
 
   Id leaf(Kind kind, std::size_t index);
+  class Compiler;
+
   Id operation(Op op, Id a, Id b, int degree);
   bool is_constant(Id a) const { return nodes_[a].kind == Kind::constant; }
   bool is_constant(Id a, int value) const { return is_constant(a) && nodes_[a].value == value; }

@@ -1,6 +1,6 @@
 #include "../family.hpp"
 #include "../scenes.hpp"
-#include "hbvm/analysis/conservation.hpp"
+#include "hbvm/analysis/study/conservation.hpp"
 
 namespace hbvm {
 namespace {

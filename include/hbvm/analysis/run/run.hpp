@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "hbvm/analysis/account.hpp"
-#include "hbvm/analysis/health.hpp"
-#include "hbvm/analysis/run_request.hpp"
-#include "hbvm/analysis/shadow.hpp"
+#include "hbvm/analysis/run/health.hpp"
+#include "hbvm/analysis/run/run_request.hpp"
+#include "hbvm/analysis/run/shadow.hpp"
 #include "hbvm/integrate/checkpoint.hpp"
 #include "hbvm/integrate/csv_file.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/analysis/run_request.hpp"
+#include "hbvm/analysis/run/run_request.hpp"
 #include "hbvm/integrate/integrate.hpp"
 
 namespace hbvm {

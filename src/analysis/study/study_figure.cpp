@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "expected_csv.hpp"
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/report/figure.hpp"
 #include "hbvm/scalar/literal.hpp"
-#include "json.hpp"
+#include "analysis/json.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/shadow.hpp"
+#include "hbvm/analysis/run/shadow.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "hbvm/analysis/shadow.hpp"
+#include "hbvm/analysis/run/shadow.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"

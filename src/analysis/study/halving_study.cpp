@@ -4,7 +4,7 @@
 
 #include "expected_csv.hpp"
 #include "experiment.hpp"
-#include "hbvm/analysis/step_halving.hpp"
+#include "hbvm/analysis/study/step_halving.hpp"
 #include "hbvm/scalar/literal.hpp"
 
 namespace hbvm {

@@ -3,8 +3,8 @@
 
 #include "expected_csv.hpp"
 #include "experiment.hpp"
-#include "hbvm/analysis/conservation.hpp"
-#include "json.hpp"
+#include "hbvm/analysis/study/conservation.hpp"
+#include "analysis/json.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/integrate/energy_scale.hpp"
@@ -7,7 +7,7 @@
 #include "hbvm/integrate/trajectory.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
-#include "texts.hpp"
+#include "analysis/texts.hpp"
 
 namespace hbvm {
 namespace {

@@ -35,7 +35,7 @@ struct HalvingRow {
 struct HalvingRequest {
   const Scene* scene = nullptr;
   MethodPtr method;
-  SolverKind solver = SolverKind::fixed_point;
+  SolverKind solver = SolverKind::automatic;
   Expression step;  ///< in terms of i and the scene's constants
   Expression until;
   int first = 0, last = 0;

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/describe.hpp"
+#include "hbvm/analysis/run/describe.hpp"
 
 #include <fmt/format.h>
 

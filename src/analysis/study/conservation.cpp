@@ -1,4 +1,4 @@
-#include "hbvm/analysis/conservation.hpp"
+#include "hbvm/analysis/study/conservation.hpp"
 
 #include "hbvm/analysis/choose_k.hpp"
 #include "hbvm/analysis/simulate.hpp"

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/step_halving.hpp"
+#include "hbvm/analysis/study/step_halving.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
-#include "json.hpp"
-#include "texts.hpp"
+#include "analysis/json.hpp"
+#include "analysis/texts.hpp"
 
 namespace hbvm {
 namespace {

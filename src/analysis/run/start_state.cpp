@@ -1,4 +1,4 @@
-#include "hbvm/analysis/start_state.hpp"
+#include "hbvm/analysis/run/start_state.hpp"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

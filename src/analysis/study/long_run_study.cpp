@@ -5,8 +5,8 @@
 
 #include "expected_csv.hpp"
 #include "experiment.hpp"
-#include "hbvm/analysis/run.hpp"
-#include "json.hpp"
+#include "hbvm/analysis/run/run.hpp"
+#include "analysis/json.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/registry.hpp"

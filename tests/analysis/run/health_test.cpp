@@ -1,10 +1,10 @@
-#include "hbvm/analysis/health.hpp"
+#include "hbvm/analysis/run/health.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/step/registry.hpp"
 
 namespace hbvm {

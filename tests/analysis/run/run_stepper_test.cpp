@@ -1,4 +1,4 @@
-#include "hbvm/analysis/run_stepper.hpp"
+#include "hbvm/analysis/run/run_stepper.hpp"
 
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/integrate/energy_scale.hpp"

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/run_stepper.hpp"
+#include "hbvm/analysis/run/run_stepper.hpp"
 
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/step/hbvm_method.hpp"

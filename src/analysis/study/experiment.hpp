@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "hbvm/analysis/cells.hpp"
-#include "hbvm/analysis/study.hpp"
+#include "hbvm/analysis/study/study.hpp"
 #include "hbvm/report/table.hpp"
 #include "hbvm/scene/scene.hpp"
 #include "hbvm/step/hbvm_method.hpp"

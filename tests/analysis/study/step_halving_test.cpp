@@ -1,11 +1,11 @@
-#include "hbvm/analysis/step_halving.hpp"
+#include "hbvm/analysis/study/step_halving.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "hbvm/analysis/run.hpp"
+#include "hbvm/analysis/run/run.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/health.hpp"
+#include "hbvm/analysis/run/health.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "hbvm/analysis/study.hpp"
+#include "hbvm/analysis/study/study.hpp"
 
 #include <exception>
 #include <filesystem>

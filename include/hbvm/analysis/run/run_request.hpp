@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "hbvm/analysis/run_stepper.hpp"
-#include "hbvm/analysis/start_state.hpp"
+#include "hbvm/analysis/run/run_stepper.hpp"
+#include "hbvm/analysis/run/start_state.hpp"
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/scalar/precision.hpp"
 #include "hbvm/scene/scene.hpp"
