@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "hbvm/error.hpp"
-#include "method/tableaux.hpp"
 #include "hbvm/method/symmetry_defect.hpp"
+#include "method/tableaux.hpp"
 
 namespace hbvm {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "hbvm/method/order_conditions.hpp"
+#include "hbvm/scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -58,10 +58,10 @@ class PrecisionScope {
   HBVM_FORBID_OPERATOR(bool, Number, Binary, <)   \
   HBVM_FORBID_OPERATOR(bool, Number, Binary, >)   \
   HBVM_FORBID_OPERATOR(bool, Number, Binary, <=)  \
-  HBVM_FORBID_OPERATOR(bool, Number, Binary, >=)   \
-  HBVM_FORBID_UPDATE(Number, Binary, +=)           \
-  HBVM_FORBID_UPDATE(Number, Binary, -=)           \
-  HBVM_FORBID_UPDATE(Number, Binary, *=)           \
+  HBVM_FORBID_OPERATOR(bool, Number, Binary, >=)  \
+  HBVM_FORBID_UPDATE(Number, Binary, +=)          \
+  HBVM_FORBID_UPDATE(Number, Binary, -=)          \
+  HBVM_FORBID_UPDATE(Number, Binary, *=)          \
   HBVM_FORBID_UPDATE(Number, Binary, /=)
 
 namespace boost::multiprecision {
