@@ -81,7 +81,7 @@ class LegendreRoots {
       mpfr_mul(raw(t_), raw(p_), raw(x_), MPFR_RNDN);
       mpfr_sub(raw(u_), raw(t_), raw(previous_), MPFR_RNDN);
       mpfr_mul_ui(raw(u_), raw(u_), static_cast<unsigned long>(j), MPFR_RNDN);
-      mpfr_div_ui(raw(u_), raw(u_), static_cast<unsigned long>(j + 1), MPFR_RNDN);
+      mpfr_div_ui(raw(u_), raw(u_), static_cast<unsigned long>(j) + 1, MPFR_RNDN);
       mpfr_swap(raw(previous_), raw(p_));
       mpfr_add(raw(p_), raw(t_), raw(u_), MPFR_RNDN);
     }

@@ -78,7 +78,7 @@ std::optional<fs::path> folder_of(const AuditArguments& o) {
 /// \throws InputError
 Expression time_from(const std::string& text) {
   try {
-    const Expression time = Expression::parse(text);
+    Expression time = Expression::parse(text);
     if (evaluate<double>(time) > 0) return time;
   } catch (const ExpressionError& error) {
     throw InputError("--until: '" + text + "' is no time: " + error.what());

@@ -22,7 +22,8 @@ int report(int code, std::string what) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+// Commands whose options clash would end the program here.
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   CLI::App app{"Energy-conserving integration of constrained mechanics, HBVM(k,s), at any precision."};
   app.require_subcommand(1);
   app.set_version_flag("--version", hbvm::version());

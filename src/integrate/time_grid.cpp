@@ -11,7 +11,7 @@ namespace {
 template <Scalar S>
 S positive(const Expression& expression, const Constants& constants, const std::string& what) {
   try {
-    const S value = evaluate<S>(expression, constants);
+    S value = evaluate<S>(expression, constants);
     if (value > 0) return value;
   } catch (const InputError& error) {
     throw InputError(what + " " + error.what());

@@ -36,7 +36,7 @@ class Parser {
   explicit Parser(std::string_view text) : text_(text) {}
 
   NodePtr parse() {
-    const NodePtr root = sum();
+    NodePtr root = sum();
     skip_blanks();
     if (at_ != text_.size()) fail("does not fit here");
     return root;
@@ -119,7 +119,7 @@ class Parser {
     skip_blanks();
     if (at_ == text_.size()) fail("comes where a number is expected");
     if (accept('(')) {
-      const NodePtr inner = sum();
+      NodePtr inner = sum();
       close();
       return inner;
     }

@@ -54,7 +54,7 @@ Decimal shortest(const BigFloat& x) {
   }
   if (high > 1)
     for (const mpfr_rnd_t rounding : {MPFR_RNDN, MPFR_RNDU, MPFR_RNDD})
-      if (const Decimal fewer = decimal(x, high - 1, rounding); reads_back(fewer, x)) return fewer;
+      if (Decimal fewer = decimal(x, high - 1, rounding); reads_back(fewer, x)) return fewer;
   return decimal(x, high);
 }
 

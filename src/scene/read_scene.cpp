@@ -62,7 +62,7 @@ class SceneReader {
   }
 
   std::string new_name(TomlTable& table, const std::string& kind) {
-    const std::string name = table.string("name");
+    std::string name = table.string("name");
     table.rename(kind + " '" + name + "'");
     if (!names_.insert(name).second) table.fail("there is another body or point of this name");
     return name;

@@ -89,7 +89,7 @@ std::string TomlTable::to_string(const toml::node& node, const std::string& wher
 
 std::string TomlTable::string(std::string_view key) {
   const toml::node& node = require(key);
-  const std::string text = to_string(node, "'" + std::string(key) + "'");
+  std::string text = to_string(node, "'" + std::string(key) + "'");
   if (text.empty()) fail(node, "'" + std::string(key) + "' must not be empty");
   return text;
 }

@@ -17,7 +17,7 @@ S evaluate(const Expression& expression, const Constants& constants = {}) {
     if (mpfr_regular_p(raw(exact)) && mpfr_get_exp(raw(exact)) < std::numeric_limits<S>::min_exponent)
       exact = expression.evaluate_to_bits(4 * significand_bits<S>(), constants);
   }
-  const S value = rounded_to<S>(raw(exact));
+  S value = rounded_to<S>(raw(exact));
   if (!is_finite(value) || (value == 0) != (mpfr_zero_p(raw(exact)) != 0))
     throw ExpressionError("'" + expression.text() + "' is outside the range of the working precision");
   return value;

@@ -47,7 +47,7 @@ Part<Findings> conservation_study(const Experiment& experiment, TomlTable& top);
 
 /// The method that a table of study.toml names.
 inline MethodPtr stated_method(TomlTable& reader) {
-  const MethodPtr method = parse_method(reader.string("method"));
+  MethodPtr method = parse_method(reader.string("method"));
   const HbvmMethod* const hbvm = as_hbvm(*method);
   if (hbvm && hbvm->name().is_auto()) reader.fail("a study states its k");
   return method;

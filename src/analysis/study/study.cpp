@@ -34,7 +34,7 @@ fs::path make_results_folder(const StudyRequest& request, const std::optional<fs
   std::string name = request.precision.name();
   for (char& c : name)
     if (c == ':') c = '_';
-  const fs::path results = (out ? *out / name_of_study(request.folder) : fs::path(request.folder) / "results") / name;
+  fs::path results = (out ? *out / name_of_study(request.folder) : fs::path(request.folder) / "results") / name;
   std::error_code failure;
   fs::create_directories(results, failure);
   if (failure) throw InputError("cannot write " + results.string() + ": " + failure.message());

@@ -91,7 +91,8 @@ void add_all(Generator& generator, std::tuple<Effect...>*) {
 }  // namespace
 }  // namespace hbvm
 
-int main() {
+// An exception stops the build.
+int main() {  // NOLINT(bugprone-exception-escape)
   hbvm::Generator generator;
   hbvm::add_all(generator, static_cast<hbvm::Effects*>(nullptr));
   generator.print(std::cout);
