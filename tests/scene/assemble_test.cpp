@@ -546,9 +546,9 @@ offset = "-3e-7"
 
 TEST(Assemble, SetsRedundantConstraintsAside) {
   for (const auto& [name, text, redundant] : overconstrained()) {
-    const auto check = [&, &title = name, &expected = redundant]<Scalar S>(S) {
+    const auto check = [&, &title = name, &scene_text = text, &expected = redundant]<Scalar S>(S) {
       const PrecisionScope digits(50);
-      const auto scene = assembled<S>(text);
+      const auto scene = assembled<S>(scene_text);
       ASSERT_EQ(scene.problem.redundant.size(), expected.size()) << title;
       ASSERT_EQ(scene.redundant.size(), expected.size()) << title;
       for (std::size_t r = 0; r < expected.size(); ++r) {

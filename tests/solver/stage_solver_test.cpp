@@ -19,6 +19,8 @@ TEST(SolverKind, IsReadByItsName) {
 using Methods = std::vector<std::pair<int, int>>;
 const Methods methods{{1, 1}, {2, 1}, {2, 2}, {3, 2}, {3, 3}, {5, 3}, {4, 4}, {6, 4}, {5, 5}, {8, 5}};
 
+std::string in_words(int k, int s) { return ", HBVM(" + std::to_string(k) + "," + std::to_string(s) + "), "; }
+
 class StageSolution : public ::testing::TestWithParam<SolverKind> {
  protected:
   PrecisionScope digits{50};
@@ -31,6 +33,7 @@ TEST_P(StageSolution, FulfilsThePapersEquations) {
     for (const auto& [k, s] : methods) {
       const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
       const StageFormulas formulas(model, k, s, h);
+      const std::string where = in_words(k, s);
       const auto solver = make_solver(GetParam(), scene.problem, method);
       Vector<Mpfr> q0 = scene.q0, p0 = scene.p0;
       for (int step = 0; step < 3; ++step) {  // from the second on started from the step before
@@ -39,7 +42,7 @@ TEST_P(StageSolution, FulfilsThePapersEquations) {
         // 50 digits, sums of some twenty terms, and monomials of P_4 that cancel by a factor of 10^3.
         const Mpfr tolerance = 1'000'000 * epsilon<Mpfr>();
         const auto expect_small = [&](const Matrix<Mpfr>& residual, const char* what) {
-          EXPECT_LE(max_norm(residual), tolerance) << what << ", HBVM(" << k << "," << s << "), step " << step;
+          EXPECT_LE(max_norm(residual), tolerance) << what << where << "step " << step;
         };
         expect_small(x.psi - formulas.psi(q0, x.gamma), "psi");
         expect_small(x.zeta - formulas.zeta(q0, x.gamma, x.lambda), "zeta");
@@ -94,12 +97,12 @@ TEST(Solvers, GiveTheSameDigits) {
   scenes.push_back(read_scene(bead_on_curve().scene, "bead_on_curve"));
   for (const Scene& scene : scenes)
     for (const auto& [k, s] : methods) {
+      const std::string where = in_words(k, s) + scene.name + ", ";
       for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::newton}) {
         const auto mine = run(scene, kind, k, s, "1/16", "1/4");
         const auto papers = run(scene, SolverKind::paper, k, s, "1/16", "1/4");
         const auto expect_same = [&](const Vector<Mpfr>& a, const Vector<Mpfr>& b, long round_off, const char* what) {
-          EXPECT_LE(max_norm(Vector<Mpfr>(a - b)), round_off * epsilon<Mpfr>())
-              << what << ", HBVM(" << k << "," << s << "), " << scene.name << ", " << name_of(kind);
+          EXPECT_LE(max_norm(Vector<Mpfr>(a - b)), round_off * epsilon<Mpfr>()) << what << where << name_of(kind);
         };
         // The start at distance 20 costs the satellites two digits; the multiplier of the step's end is extrapolated
         // from those at the nodes, which are differences of p over 1/16 of a step's part.

@@ -21,7 +21,7 @@ Scene circle(const std::string& effect) {
       "circle");
 }
 const std::string well = "kind = \"trap\", center = \"O\", stiffness = 1, exponent = 2",
-                  weight = "kind = \"uniform_gravity\", acceleration = [0, -1]",
+                  uniform = "kind = \"uniform_gravity\", acceleration = [0, -1]",
                   quartic_attraction = "kind = \"spring\", between = [\"a\", \"O\"], stiffness = 1, exponent = 4";
 
 Conservation after(const Scene& scene, int s, Nodes nodes) {
@@ -30,8 +30,8 @@ Conservation after(const Scene& scene, int s, Nodes nodes) {
 }
 
 TEST(Conservation, OfMoreNodesTakesThoseOfAutoOrTwiceAsMany) {
-  EXPECT_EQ(after(circle(weight), 2, Nodes::s).method.k, 2);
-  EXPECT_EQ(after(circle(weight), 2, Nodes::more).method.k, 4) << "hbvm:auto takes 2";
+  EXPECT_EQ(after(circle(uniform), 2, Nodes::s).method.k, 2);
+  EXPECT_EQ(after(circle(uniform), 2, Nodes::more).method.k, 4) << "hbvm:auto takes 2";
   EXPECT_EQ(after(circle(quartic_attraction), 3, Nodes::s).method.k, 3);
   EXPECT_EQ(after(circle(quartic_attraction), 3, Nodes::more).method.k, 6) << "of hbvm:auto";
 }
