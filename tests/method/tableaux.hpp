@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ inline std::vector<Expression> parsed(const Texts& texts) {
   return result;
 }
 
-inline Tableau tableau(const std::vector<Texts>& A, const Texts& b, const Texts& c) {
-  Tableau r{"test", {}, parsed(b), parsed(c), {}};
+inline Tableau tableau(const std::vector<Texts>& A, const Texts& b, const Texts& c, std::optional<int> order = {}) {
+  Tableau r{"test", {}, parsed(b), parsed(c), order};
   for (const Texts& row : A) r.A.push_back(parsed(row));
   return r;
 }
