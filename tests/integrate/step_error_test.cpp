@@ -1,0 +1,35 @@
+#include "hbvm/integrate/step_error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hbvm {
+namespace {
+
+TEST(StepErrors, SayWhatWhereAndWhatToDo) {
+  const StageFailure failure(FailureCause::stage_equations_diverge, "the increments grow", "3.14e-2", 17);
+  const StepError error(123, "4.5", failure);
+  EXPECT_STREQ(error.what(),
+               "step 123 from t = 4.5: stage_equations_diverge: the increments grow after 17 sweeps, last increment "
+               "3.14e-2 of the unknowns; try a smaller step");
+  EXPECT_EQ(error.cause(), FailureCause::stage_equations_diverge);
+  EXPECT_EQ(error.step(), 123);
+  EXPECT_EQ(error.time(), "4.5");
+  EXPECT_EQ(error.increment(), "3.14e-2");
+}
+
+/// The program exits with 3, and scripts look for the cause.
+TEST(StepErrors, AreIntegrationErrorsOfTheirCause) {
+  for (const FailureCause cause :
+       {FailureCause::near_singular_constraints, FailureCause::precision_exhausted, FailureCause::inconsistent_state}) {
+    try {
+      throw StepError(1, "0", StageFailure(cause, "x", "0", 1));
+    } catch (const IntegrationError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find(name_of(cause)), std::string::npos) << text;
+      EXPECT_TRUE(text.ends_with(remedy_of(cause))) << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
