@@ -1,0 +1,82 @@
+#include "hbvm/solver/simplified_newton.hpp"
+
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "printing.hpp"
+#include "scalar/random_values.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class SimplifiedNewtonTest : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+
+  static S distance(const Matrix<S>& a, const Matrix<S>& b) { return max_norm(Matrix<S>(a - b)); }
+};
+TYPED_TEST_SUITE(SimplifiedNewtonTest, AllScalars, ScalarNames);
+
+/// As the paper's iteration finds it, from whichever start.
+TYPED_TEST(SimplifiedNewtonTest, FindsTheSolution) {
+  using S = TypeParam;
+  const S h = S(1) / 16;
+  for (const char* const name : {"kepler", "double_pendulum", "bead_on_ellipsoid"}) {
+    const Assembled<S> scene = assemble<S>(load_scene(name));
+    const Hbvm<S> method = make_hbvm<S>(4, 2);
+    const auto papers = make_solver(SolverKind::paper, scene.problem, method);
+    papers->solve({scene.q0, scene.p0, h});
+    const StageUnknowns<S>& expected = papers->unknowns();
+    const S tolerance = 2000 * epsilon<S>();
+    SimplifiedNewton<S> newton(scene.problem, method);
+    newton.solve({scene.q0, scene.p0, h});
+    EXPECT_LE(this->distance(newton.unknowns().gamma, expected.gamma), tolerance) << name;
+    EXPECT_LE(this->distance(newton.unknowns().lambda, expected.lambda), tolerance / h) << name;
+    EXPECT_TRUE(newton.refresh());
+    // The start is now that of the last step, and the Jacobian that of the solution.
+    newton.solve({scene.q0, scene.p0, h});
+    EXPECT_LE(this->distance(newton.unknowns().gamma, expected.gamma), tolerance) << name;
+    newton.follow({scene.q0, scene.p0, h});
+    EXPECT_LE(this->distance(newton.unknowns().gamma, expected.gamma), tolerance) << name;
+  }
+}
+
+/// With momentum = X_s y and correction = X_s z the change is row 0 of y - z.
+TYPED_TEST(SimplifiedNewtonTest, ChangesTheFirstCoefficientWithTheMomentum) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("kepler"));
+  const Hbvm<S> method = make_hbvm<S>(3, 3);
+  const SimplifiedNewton<S> newton(scene.problem, method);
+  RandomValues<S> random(67);
+  const Index m = scene.problem.m();
+  const Matrix<S> y = random.matrix(3, m), z = random.matrix(3, m), momentum = method.X_s.lazyProduct(y),
+                  correction = method.X_s.lazyProduct(z);
+  const Vector<S> before = random.vector(m);
+  Vector<S> change = before;
+  newton.add_change_of_momentum(momentum, correction, change);
+  for (Index j = 0; j < m; ++j)
+    EXPECT_LE(magnitude(S(change[j] - before[j] - (y(0, j) - z(0, j)))), 256 * epsilon<S>()) << j;
+}
+
+/// A body next to a centre of gravity falls into it within the step.
+TYPED_TEST(SimplifiedNewtonTest, FailsWithACause) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(read_scene(
+      "dimension = 2\npoint = [{ name = \"sun\", position = [0, 0] }]\nbody = [{ name = \"stone\", mass = 1, "
+      "position = [1e-9, 0], velocity = [0, 0] }]\neffect = [{ kind = \"central_gravity\", center = \"sun\", "
+      "strength = 1 }]\n",
+      "fall"));
+  const Hbvm<S> method = make_hbvm<S>(2, 2);
+  SimplifiedNewton<S> newton(scene.problem, method);
+  const S h = 1;
+  try {
+    newton.solve({scene.q0, scene.p0, h});
+    ADD_FAILURE() << "there is no such step";
+  } catch (const StageFailure& failure) {
+    EXPECT_EQ(failure.cause(), FailureCause::stage_equations_diverge) << failure.what();
+    EXPECT_GT(failure.sweeps(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
