@@ -81,12 +81,5 @@ TEST(Guarded, NamesTheCause) {
   EXPECT_THROW(guarded([]() -> CaseResult { throw std::logic_error("a mistake"); }), std::logic_error);
 }
 
-TEST(HardScenes, AreConsistent) {
-  for (const char* const d : {"1e-2", "1e-6"})
-    for (const Scene& scene : {flat_triangle(d), stretched_rods(d), folding_linkage(d), double_pendulum("1", d, d),
-                               near_upright(d), whip(5), beads_on_sphere(3), scaled_pendulum(3, -4, 5)})
-      EXPECT_NO_THROW(assemble<Quad>(scene)) << scene.name;
-}
-
 }  // namespace
 }  // namespace hbvm

@@ -6,13 +6,10 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <random>
-#include <set>
 #include <stdexcept>
 
 #include "analysis/stability/measured.hpp"
-#include "hbvm/analysis/stability/collection.hpp"
 #include "hbvm/analysis/stability/report.hpp"
 
 namespace hbvm {
@@ -121,24 +118,6 @@ TEST(Stability, EndsInTheSameFileHoweverItIsDivided) {
     EXPECT_EQ(text_of(path("cut")), whole) << length;
   }
   std::filesystem::remove_all(folder);
-}
-
-/// A resumed run finds cases by their keys.
-TEST(HardCases, HaveKeysOfTheirOwn) {
-  for (const Collection collection : {Collection::quick, Collection::full}) {
-    std::set<std::string> keys, families;
-    for (const HardCase& c : hard_cases(collection)) {
-      EXPECT_TRUE(keys.insert(c.key()).second) << c.key();
-      EXPECT_GT(c.seconds, 0) << c.key();
-      families.insert(c.family);
-    }
-    EXPECT_EQ(families.size(), 17u);
-  }
-  std::map<std::string, std::set<std::string>> precisions;
-  for (const HardCase& c : hard_cases(Collection::full)) precisions[c.family].insert(c.precision);
-  for (const auto& [family, seen] : precisions)
-    for (const char* const precision : {"double", "quad", "mpfr:50"})
-      EXPECT_TRUE(seen.contains(precision) || family == "many digits and stages") << family << " in " << precision;
 }
 
 }  // namespace
