@@ -70,6 +70,10 @@ TEST(HbvmMethods, KeysTellPerturbationsApart) {
           keys.insert(HbvmMethod({4, 3}, Perturbation{part, hat, i, 0, Expression::parse(relative)}).key());
           ++count;
         }
+  for (const int i : {0, 1}) {
+    keys.insert(HbvmMethod({4, 3}, Perturbation{Part::integral, true, i, 1, Expression::parse("1")}).key());
+    ++count;
+  }
   EXPECT_EQ(keys.size(), count);
 }
 
