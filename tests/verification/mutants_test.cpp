@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "hbvm/read_file.hpp"
+
+namespace hbvm {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = HBVM_SOURCE_DIR;
+
+/// A small wrong change that tests/mutants/run makes.
+struct Change {
+  std::string name, file, before, after, reason;
+
+  /// "step" for src/step/rattle.cpp and include/hbvm/step/backward_stepper.hpp, "." for src/read_file.cpp.
+  std::string folder() const {
+    const fs::path path = fs::path(file).lexically_relative(file.starts_with("src/") ? "src" : "include/hbvm");
+    return path.has_parent_path() ? path.begin()->string() : ".";
+  }
+};
+
+void append_line(std::string& text, const std::string& line) { text += (text.empty() ? "" : "\n") + line; }
+
+std::vector<Change> read_changes() {
+  std::vector<Change> changes;
+  std::istringstream lines(read_file(root / "tests/mutants/changes.txt"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line.starts_with('#')) continue;
+    const std::string mark = line.substr(0, 2), text = line.substr(std::min<std::size_t>(2, line.size()));
+    if (mark == "= ") {
+      Change& change = changes.emplace_back();
+      std::istringstream(text) >> change.name >> change.file;
+    } else if (changes.empty() || (mark != "- " && mark != "+ " && mark != "! ")) {
+      ADD_FAILURE() << "a line of the list begins with none of = - + ! #: " << line;
+    } else {
+      Change& change = changes.back();
+      append_line(mark == "- " ? change.before : mark == "+ " ? change.after : change.reason, text);
+    }
+  }
+  return changes;
+}
+
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Mutants, EachChangeStillApplies) {
+  for (const Change& change : read_changes()) {
+    SCOPED_TRACE(change.name + ": " + change.file);
+    ASSERT_FALSE(change.before.empty());
+    ASSERT_FALSE(change.after.empty());
+    EXPECT_NE(change.before, change.after);
+    ASSERT_TRUE(fs::is_regular_file(root / change.file));
+    EXPECT_EQ(count(read_file(root / change.file), change.before), 1) << change.before;
+  }
+}
+
+TEST(Mutants, AHundredInAllFolders) {
+  std::set<std::string> names, folders;
+  int excused = 0;
+  for (const Change& change : read_changes()) {
+    EXPECT_TRUE(names.insert(change.name).second) << change.name << " stands twice";
+    folders.insert(change.folder());
+    excused += change.reason.empty() ? 0 : 1;
+  }
+  EXPECT_GE(names.size(), 100U);
+  EXPECT_LE(excused, 3);
+  for (const auto& entry : fs::directory_iterator(root / "src"))
+    if (entry.is_directory() && entry.path().filename() != "install")
+      EXPECT_TRUE(folders.contains(entry.path().filename().string())) << entry.path();
+}
+
+}  // namespace
+}  // namespace hbvm
