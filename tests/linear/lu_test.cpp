@@ -129,6 +129,7 @@ TYPED_TEST(LuTest, CostOfAFullMatrix) {
   Lu<TypeParam>& system = this->lu;
   system.resize(4, 3);
   EXPECT_EQ(system.factor_operations()[Op::multiply], 9u + 4u + 1u);
+  EXPECT_EQ(system.factor_operations()[Op::subtract], 9u + 4u + 1u);
   EXPECT_EQ(system.factor_operations()[Op::reciprocal], 3u + 2u + 1u);
   EXPECT_EQ(system.solve_operations()[Op::multiply], 12u);
 }

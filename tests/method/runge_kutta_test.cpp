@@ -37,6 +37,7 @@ TYPED_TEST(RungeKuttaTest, NamesTheEntryWithoutAValue) {
   EXPECT_NE(refusal(tableau({{"0"}, {"0"}}, {"1"}, {"0"})), "");
   EXPECT_NE(refusal(tableau({{"0", "0"}, {"0"}}, {"1", "0"}, {"0", "0"})), "");
   EXPECT_NE(refusal(tableau({{"0"}}, {"1"}, {})), "");
+  EXPECT_NE(refusal(tableau({{"0"}}, {"1"}, {"0", "1"})), "");
 }
 
 }  // namespace

@@ -29,5 +29,11 @@ TYPED_TEST(SymmetryDefectTest, TrapezoidalRuleIsSymmetricButNotSymplectic) {
   EXPECT_EQ(symplecticity_defect(method), literal<TypeParam>("1/4"));
 }
 
+TYPED_TEST(SymmetryDefectTest, ThreeStagesOfLobattoAreSymmetric) {
+  const auto method = make_runge_kutta<TypeParam>(tableau(
+      {{"0", "0", "0"}, {"5/24", "1/3", "-1/24"}, {"1/6", "2/3", "1/6"}}, {"1/6", "2/3", "1/6"}, {"0", "1/2", "1"}));
+  this->expect_zero(symmetry_defect(method), "symmetry", 3);
+}
+
 }  // namespace
 }  // namespace hbvm

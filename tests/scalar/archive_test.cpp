@@ -127,6 +127,7 @@ TEST(Archive, RefusesWhatDoesNotFit) {
   refused("53\n0x1.000000000000000000001p+0\n", Mpfr(0));
   refused("0\n1\n", Mpfr(0));
   refused("5\nabc\n", std::string());
+  refused("3\nabcd", std::string());
   refused("-1\nabc\n", std::string());
 }
 

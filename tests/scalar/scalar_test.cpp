@@ -182,6 +182,9 @@ TYPED_TEST(BinaryFormat, RoundsNumbersBelowTheNormalRangeOnce) {
   EXPECT_EQ(rounded(5, 200), 3 * smallest);
   EXPECT_EQ(rounded(5, -200), 2 * smallest);
   EXPECT_EQ(rounded(7, -200), 3 * smallest);
+  BigFloat half(2);
+  mpfr_set_si_2exp(raw(half), 1, e - 1, MPFR_RNDN);
+  EXPECT_EQ(rounded_to<TypeParam>(raw(half)), 0);
 }
 
 TYPED_TEST(ScalarTest, NormsDoNotHideNaN) {
