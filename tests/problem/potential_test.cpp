@@ -80,6 +80,17 @@ TYPED_TEST(PotentialTest, CountsCallsAndEvaluations) {
   EXPECT_EQ(evaluator.counts()[1].evaluations, 12u);
 }
 
+TYPED_TEST(PotentialTest, TheForceIsTheVaryingOneAndTheConstantOne) {
+  const auto U = this->potential({this->gravity(), this->trap()});
+  PotentialEvaluator<TypeParam> evaluator(U, 2);
+  const Matrix<TypeParam> q = this->apart(2);
+  Matrix<TypeParam> force, varying;
+  evaluator.force(lanes(q), force);
+  evaluator.varying_force(lanes(q), varying);
+  for (Index j = 0; j < 4; ++j)
+    for (Index i = 0; i < 2; ++i) EXPECT_EQ(force(i, j), TypeParam(varying(i, j) + evaluator.constant_force()[j]));
+}
+
 TYPED_TEST(PotentialTest, CountsOperationsOfAnEvaluation) {
   const auto U = this->potential({this->attraction()});
   const PotentialEvaluator<TypeParam> evaluator(U, 3);

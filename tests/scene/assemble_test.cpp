@@ -544,6 +544,15 @@ offset = "-3e-7"
           {"three cranks", three_cranks("[-4, 3]"), {3}}};
 }
 
+TEST(Assemble, TheMassOfARigidBodyPullsAtItsCenter) {
+  const auto scene = assemble<double>(load_scene("free_rigid_body"));
+  const Matrix<double>& M = scene.problem.mass.blocks().front().M;
+  const double mass = 2, center[] = {literal<double>("1/5"), literal<double>("-1/10"), literal<double>("1/10")};
+  for (Index i = 0; i < 3; ++i)
+    for (Index a = 0; a < 3; ++a)
+      for (Index j = 0; j < 3; ++j) EXPECT_EQ(M(i, 3 * (a + 1) + j), i == j ? mass * center[a] : 0);
+}
+
 TEST(Assemble, SetsRedundantConstraintsAside) {
   for (const auto& [name, text, redundant] : overconstrained()) {
     const auto check = [&, &title = name, &scene_text = text, &expected = redundant]<Scalar S>(S) {

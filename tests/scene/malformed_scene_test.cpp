@@ -115,6 +115,12 @@ INSTANTIATE_TEST_SUITE_P(
     Values, MalformedScene,
     ::testing::Values(
         Malformed{"DimensionOne", "dimension = 3", "dimension = 1", "dimension", {"'dimension'"}},
+        Malformed{"DimensionFour", "dimension = 3", "dimension = 4", "dimension", {"'dimension'", "2 or 3"}},
+        Malformed{"RodOfOneBody",
+                  "kind = \"rod\"\nbetween = [\"pivot\", \"a\"]",
+                  "kind = \"rod\"\nbetween = [\"a\", \"a\"]",
+                  "[[constraint]]\nkind = \"rod\"\nbetween = [\"a\", \"a\"]",
+                  {"'between'", "'a'", "twice"}},
         Malformed{"DimensionDecimal", "dimension = 3", "dimension = 3.0", "dimension", {"'dimension'"}},
         Malformed{
             "PlanarWithSpatialVectors", "dimension = 3", "dimension = 2", "position = [0, 0, 0]", {"'position'", "3"}},

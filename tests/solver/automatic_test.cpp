@@ -64,11 +64,15 @@ TEST(Automatic, InDoubleTurnsToNewtonAfterASlowStep) {
 TEST(Automatic, InDoubleTurnsToNewtonWhereTheFixedPointFails) {
   Motion<double> fixed_point(SolverKind::fixed_point, 3.0);
   EXPECT_THROW(fixed_point.step(), StageFailure);
-  Motion<double> automatic(SolverKind::automatic, 3.0);
+  Motion<double> automatic(SolverKind::automatic, 3.0), newton(SolverKind::newton, 3.0);
   const double start = energy(automatic.state);
   long sweeps = 0, first = 0;
   for (int n = 0; n < 10; ++n) {
     ASSERT_NO_THROW(sweeps = automatic.step()) << n;
+    const long of_newton = newton.step();
+    if (n > 0) {
+      EXPECT_EQ(sweeps, of_newton) << "the fixed point is tried again at step " << n;
+    }
     if (n == 0) first = sweeps;
     // Newton follows the solution of so long a step from shorter ones.
     if (n > 0) {

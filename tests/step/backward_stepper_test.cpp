@@ -29,6 +29,25 @@ TYPED_TEST(Backward, ComesBackToRoundOff) {
   }
 }
 
+TYPED_TEST(Backward, ReversesTheCarryToo) {
+  using S = TypeParam;
+  const Scene scene = load_scene("charged_double_pendulum");
+  SceneRun<S> run(scene, 3, 2, "1/64", "1"), other(scene, 3, 2, "1/64", "1");
+  State<S>&state = run.state, &reversed = other.state;
+  for (State<S>* const start : {&state, &reversed}) {
+    start->p << S(1) / 3, S(-1) / 5, S(1) / 7, S(1) / 9;
+    start->p_carry = start->p * S(epsilon<S>() / 4);
+  }
+  BackwardStepper<S>(run.stepper).step(state, run.grid.step());
+  reversed.p = -reversed.p.eval();
+  reversed.p_carry = -reversed.p_carry.eval();
+  other.step();
+  EXPECT_EQ(state.q, reversed.q);
+  EXPECT_EQ(state.q_carry, reversed.q_carry);
+  EXPECT_EQ(state.p, Vector<S>(-reversed.p));
+  EXPECT_EQ(state.p_carry, Vector<S>(-reversed.p_carry));
+}
+
 TEST(Backward, LeavesTheStateOfAFailedStepAlone) {
   Scene scene = load_scene("kepler");
   SceneRun<double> run(scene, 2, 2, "1/16", "1");
