@@ -15,7 +15,8 @@ function(run)
 endfunction()
 
 if(ROUTE STREQUAL add_subdirectory)
-  run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/project -B ${WORK}/build -DHBVM_SOURCE=${SOURCE} -DCMAKE_CXX_COMPILER=${CXX})
+  run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/project -B ${WORK}/build -DHBVM_SOURCE=${SOURCE} -DCMAKE_CXX_COMPILER=${CXX}
+      -DCMAKE_BUILD_TYPE=Debug) # what it is compiled for matters here, not how fast it runs
   if(NOT WHOLE)
     run(${CMAKE_COMMAND} --build ${WORK}/build --target CMakeFiles/example.dir/example.cpp.o)
     return()

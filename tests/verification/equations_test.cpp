@@ -12,8 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = HBVM_SOURCE_DIR;
-const fs::path index_file = root / "studies/equations.md";
+const fs::path index_file = project / "studies/equations.md";
 
 /// Words in brackets that are no labels.
 const std::set<std::string> ordinary{"CSV",   "Interrupted", "SVG",    "default", "definite", "even",
@@ -148,9 +147,9 @@ const std::vector<Text>& texts() {
       if (path.filename() == "equations_test.cpp") return;
       result.push_back({path, cpp ? only(CppPart::prose, read_file(path)) : read_file(path)});
     };
-    add(root / "README.md");
+    add(project / "README.md");
     for (const char* folder : {"include", "src", "tests", "studies"})
-      for (auto entry = fs::recursive_directory_iterator(root / folder); entry != fs::end(entry); ++entry) {
+      for (auto entry = fs::recursive_directory_iterator(project / folder); entry != fs::end(entry); ++entry) {
         // Tables and what a study writes hold figures.
         if (std::set<fs::path>{"tables", "results", "audit-results"}.contains(entry->path().filename()))
           entry.disable_recursion_pending();
@@ -209,7 +208,7 @@ TEST(EquationIndex, NamesFilesThatCite) {
   for (const Entry& entry : entries)
     for (const std::string& file : entry.files) {
       ++named;
-      const auto text = prose.find(root / file);
+      const auto text = prose.find(project / file);
       if (text == prose.end())
         ADD_FAILURE() << entry.label << ": there is no " << file;
       else

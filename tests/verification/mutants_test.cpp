@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "hbvm/read_file.hpp"
+#include "verification/sources.hpp"
 
 namespace hbvm {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path root = HBVM_SOURCE_DIR;
 
 /// A small wrong change that tests/mutants/run makes.
 struct Change {
@@ -31,7 +30,7 @@ void append_line(std::string& text, const std::string& line) { text += (text.emp
 
 std::vector<Change> read_changes() {
   std::vector<Change> changes;
-  std::istringstream lines(read_file(root / "tests/mutants/changes.txt"));
+  std::istringstream lines(read_file(project / "tests/mutants/changes.txt"));
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line.starts_with('#')) continue;
     const std::string mark = line.substr(0, 2), text = line.substr(std::min<std::size_t>(2, line.size()));
@@ -60,8 +59,8 @@ TEST(Mutants, EachChangeStillApplies) {
     ASSERT_FALSE(change.before.empty());
     ASSERT_FALSE(change.after.empty());
     EXPECT_NE(change.before, change.after);
-    ASSERT_TRUE(fs::is_regular_file(root / change.file));
-    EXPECT_EQ(count(read_file(root / change.file), change.before), 1) << change.before;
+    ASSERT_TRUE(fs::is_regular_file(project / change.file));
+    EXPECT_EQ(count(read_file(project / change.file), change.before), 1) << change.before;
   }
 }
 
@@ -75,9 +74,10 @@ TEST(Mutants, AHundredInAllFolders) {
   }
   EXPECT_GE(names.size(), 100U);
   EXPECT_LE(excused, 3);
-  for (const auto& entry : fs::directory_iterator(root / "src"))
-    if (entry.is_directory() && entry.path().filename() != "install")
+  for (const auto& entry : fs::directory_iterator(project / "src"))
+    if (entry.is_directory() && entry.path().filename() != "install") {
       EXPECT_TRUE(folders.contains(entry.path().filename().string())) << entry.path();
+    }
 }
 
 }  // namespace

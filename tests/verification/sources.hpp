@@ -9,6 +9,8 @@
 
 namespace hbvm {
 
+inline const std::filesystem::path project = HBVM_SOURCE_DIR;
+
 /// A C++ file of include/hbvm or src. `folder` is the one below: "problem" for src/problem/effect/trace.cpp.
 struct Source {
   std::filesystem::path path;
@@ -21,7 +23,7 @@ inline std::vector<Source> sources() {
   namespace fs = std::filesystem;
   std::vector<Source> result;
   for (const char* root : {"include/hbvm", "src"}) {
-    const fs::path base = fs::path(HBVM_SOURCE_DIR) / root;
+    const fs::path base = project / root;
     for (const auto& entry : fs::recursive_directory_iterator(base)) {
       const std::string name = entry.path().filename().string();
       if (!name.ends_with(".hpp") && !name.ends_with(".cpp") && !name.ends_with(".cpp.in")) continue;

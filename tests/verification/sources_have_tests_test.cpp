@@ -37,7 +37,7 @@ struct Place {
 /// All files below a folder of the project whose names end so, without that ending.
 std::vector<Place> files(const char* root, const std::string& ending) {
   namespace fs = std::filesystem;
-  const fs::path base = fs::path(HBVM_SOURCE_DIR) / root;
+  const fs::path base = project / root;
   std::vector<Place> result;
   for (const auto& entry : fs::recursive_directory_iterator(base)) {
     const std::string name = entry.path().filename().string();
