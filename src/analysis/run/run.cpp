@@ -1,5 +1,6 @@
 #include "hbvm/analysis/run/run.hpp"
 
+#include "analysis/texts.hpp"
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/integrate/energy_scale.hpp"
 #include "hbvm/integrate/momentum_drift.hpp"
@@ -7,7 +8,6 @@
 #include "hbvm/integrate/trajectory.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
-#include "analysis/texts.hpp"
 
 namespace hbvm {
 namespace {

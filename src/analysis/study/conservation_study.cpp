@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "analysis/json.hpp"
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "hbvm/analysis/study/conservation.hpp"
-#include "analysis/json.hpp"
 
 namespace hbvm {
 namespace {

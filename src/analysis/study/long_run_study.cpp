@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/json.hpp"
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "hbvm/analysis/run/run.hpp"
-#include "analysis/json.hpp"
 
 namespace hbvm {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "analysis/json.hpp"
+#include "analysis/texts.hpp"
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
-#include "analysis/json.hpp"
-#include "analysis/texts.hpp"
 
 namespace hbvm {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <memory>
 
+#include "analysis/json.hpp"
 #include "expected_csv.hpp"
 #include "hbvm/analysis/run/run.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/report/figure.hpp"
 #include "hbvm/scalar/literal.hpp"
-#include "analysis/json.hpp"
 
 namespace hbvm {
 namespace {
