@@ -1,4 +1,3 @@
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -7,6 +6,7 @@
 #include "hbvm/analysis/run/describe.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/project.hpp"
+#include "hbvm/write_file.hpp"
 
 namespace hbvm {
 namespace {
@@ -27,10 +27,11 @@ void project_command(const ProjectArguments& o) {
     std::cout << text;
     return;
   }
-  std::ofstream file(*o.out);
-  file << text;
-  file.close();
-  if (!file) throw InputError("--out: cannot write '" + *o.out + "'");
+  try {
+    write_file(*o.out, text);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--out: ") + error.what());
+  }
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 #include "hbvm/analysis/stability/stability.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
+#include "hbvm/write_file.hpp"
 #include "long_work.hpp"
-#include "write_text.hpp"
 
 namespace hbvm {
 namespace {
@@ -61,9 +61,9 @@ void stability_command(const StabilityArguments& o) {
   Table table = stability_table(findings);
   table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
   if (folder) {
-    write_text(*folder / "stability.csv", to_csv(table));
-    write_text(*folder / "stability.md", to_markdown(table));
-    write_text(*folder / "stability.json", to_json(findings, command) + "\n");
+    write_file(*folder / "stability.csv", to_csv(table));
+    write_file(*folder / "stability.md", to_markdown(table));
+    write_file(*folder / "stability.json", to_json(findings, command) + "\n");
     if (o.figures)
       for (const Figure& figure : stability_figures(folder->string(), folder->string()))
         draw(figure, (*folder / (figure.name + ".svg")).string());

@@ -5,7 +5,6 @@
 
 #include "commands.hpp"
 #include "hbvm/analysis/study/study.hpp"
-#include "hbvm/error.hpp"
 #include "long_work.hpp"
 
 namespace hbvm {

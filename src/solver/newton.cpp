@@ -5,7 +5,6 @@
 
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scalar/text.hpp"
 #include "hbvm/solver/roundings.hpp"
 
 namespace hbvm {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "hbvm/basis/gauss_legendre.hpp"
-#include "hbvm/basis/legendre.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"

@@ -1,6 +1,5 @@
 #include "hbvm/method/symmetry_defect.hpp"
 
-#include "hbvm/error.hpp"
 #include "method/tableaux.hpp"
 
 namespace hbvm {

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "hbvm/problem/point.hpp"
-#include "hbvm/solver/stage_solver.hpp"
+#include "hbvm/solver/solver_kind.hpp"
 
 namespace hbvm {
 

@@ -2,13 +2,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "hbvm/analysis/audit/report.hpp"
-#include "hbvm/error.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/write_file.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {
@@ -64,15 +63,13 @@ Panel panel_of(const std::string& title, const std::vector<Line>& lines,
     curve.points = true;
     panel.curves.push_back(curve);
   }
-  std::ofstream file(csv);
-  file << head << '\n';
+  std::string text = head + "\n";
   for (std::size_t i = 0; i < curves.front().size(); ++i) {
-    file << text_of(curves.front()[i].step);
-    for (const auto& curve : curves) file << ',' << text_of(curve.at(i).error * log10_of_2);
-    file << '\n';
+    text += text_of(curves.front()[i].step);
+    for (const auto& curve : curves) text += "," + text_of(curve.at(i).error * log10_of_2);
+    text += "\n";
   }
-  file.close();
-  if (!file) throw InputError("cannot write '" + csv + "'");
+  write_file(csv, text);
   for (const auto& [line, slope] : slopes) add_triangle(panel, curves[line], curves[line].size() - 3, slope);
   return panel;
 }

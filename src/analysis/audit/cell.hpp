@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "hbvm/analysis/audit/finding.hpp"
 #include "hbvm/error.hpp"
 
 namespace hbvm {

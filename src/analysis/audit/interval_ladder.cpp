@@ -5,6 +5,8 @@
 #include "hbvm/reference/closed_form.hpp"
 #include "measurements.hpp"
 #include "sensitivity.hpp"
+#include "sizes.hpp"
+#include "trial.hpp"
 
 namespace hbvm {
 namespace {

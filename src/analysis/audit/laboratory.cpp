@@ -2,11 +2,8 @@
 
 #include <algorithm>
 
-#include "hbvm/basis/gauss_legendre.hpp"
-#include "hbvm/error.hpp"
 #include "hbvm/reference/closed_form.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
-#include "linear/rounded.hpp"
 
 namespace hbvm {
 

@@ -3,8 +3,6 @@
 #include <functional>
 
 #include "cell.hpp"
-#include "sizes.hpp"
-#include "trial.hpp"
 
 namespace hbvm {
 

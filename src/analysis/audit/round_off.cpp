@@ -3,6 +3,7 @@
 
 #include "measurements.hpp"
 #include "sensitivity.hpp"
+#include "trial.hpp"
 
 namespace hbvm {
 namespace {

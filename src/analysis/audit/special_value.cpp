@@ -4,6 +4,7 @@
 #include "hbvm/problem/constraint.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "measurements.hpp"
+#include "trial.hpp"
 
 namespace hbvm {
 namespace {

@@ -7,12 +7,12 @@
 #include <functional>
 
 #include "hbvm/analysis/stability/report.hpp"
-#include "hbvm/error.hpp"
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
+#include "hbvm/write_file.hpp"
 #include "measure.hpp"
 #include "motion.hpp"
 #include "scenes.hpp"
@@ -26,12 +26,10 @@ using Points = std::vector<std::pair<double, double>>;
 /// A curve of a panel, with its data in a file of its own.
 void add_curve(Panel& panel, const std::filesystem::path& csv, const std::string& head, const Points& points,
                const std::string& label) {
-  std::ofstream file(csv);
-  file << "# " << head << '\n';
+  std::string text = "# " + head + "\n";
   for (const auto& [x, y] : points)
-    if (std::isfinite(x) && std::isfinite(y)) file << fmt::format("{:.6g},{:.6g}\n", x, y);
-  file.close();
-  if (!file) throw InputError("cannot write '" + csv.string() + "'");
+    if (std::isfinite(x) && std::isfinite(y)) text += fmt::format("{:.6g},{:.6g}\n", x, y);
+  write_file(csv, text);
   Curve curve{csv.string(), 1, 2, 0, label};
   curve.points = true;
   panel.curves.push_back(curve);
@@ -83,7 +81,7 @@ double relative_error(const RunRequest& request, std::size_t coordinate) {
   RunRequest more = request;
   more.precision = Precision::parse("mpfr:100");
   more.solver = SolverKind::fixed_point;
-  const Motion exact = motion_of(more), motion = motion_of(request);
+  const SampledMotion exact = motion_of(more), motion = motion_of(request);
   const PrecisionScope digits(100);
   const auto number = [](const BigFloat& x) { return rounded_to<Mpfr>(raw(x)); };
   const Mpfr error =

@@ -29,7 +29,7 @@ SolverKind other_solver(SolverKind kind) {
 }
 
 /// The same motion in more digits, by the other solver if that can.
-Motion reference_of(RunRequest request, const Twist& twist) {
+SampledMotion reference_of(RunRequest request, const Twist& twist) {
   request.precision = Precision::parse("mpfr:" + std::to_string(request.precision.digits() + more_digits));
   request.solver = other_solver(request.solver);
   try {
@@ -62,17 +62,17 @@ double units(const std::vector<const BigFloat*>& x, const std::vector<const BigF
 
 using Coordinates = std::vector<BigFloat> ExactState::*;
 
-std::vector<const BigFloat*> series(const Motion& motion, Coordinates part, std::size_t i) {
+std::vector<const BigFloat*> series(const SampledMotion& motion, Coordinates part, std::size_t i) {
   std::vector<const BigFloat*> result;
   for (const ExactState& state : motion.samples) result.push_back(&(state.*part)[i]);
   return result;
 }
 
 CaseResult against_more_digits(const RunRequest& request, bool back) {
-  const Motion motion = motion_of(request, {0, back});
+  const SampledMotion motion = motion_of(request, {0, back});
   try {
-    const Motion exact = reference_of(request, {0, back});
-    const Motion kicked = reference_of(request, {bits_of(request.precision) - 1, back});
+    const SampledMotion exact = reference_of(request, {0, back});
+    const SampledMotion kicked = reference_of(request, {bits_of(request.precision) - 1, back});
     return compared(request, motion, exact, kicked);
   } catch (const IntegrationError& error) {
     // A run that nothing confirms.
@@ -158,7 +158,8 @@ RunRequest request_of(Scene scene, std::string_view method, std::string_view sol
           false};
 }
 
-CaseResult compared(const RunRequest& request, const Motion& motion, const Motion& exact, const Motion& kicked) {
+CaseResult compared(const RunRequest& request, const SampledMotion& motion, const SampledMotion& exact,
+                    const SampledMotion& kicked) {
   if (motion.samples.size() != exact.samples.size()) throw Error("runs in different digits have different samples");
   const long bits = bits_of(request.precision);
   const PrecisionScope digits(request.precision.digits() + more_digits);

@@ -29,7 +29,8 @@ RunRequest request_of(Scene scene, std::string_view method, std::string_view sol
 CaseResult accuracy(const RunRequest& request);
 
 /// The worst coordinate of a run against the same run in more digits, and one there that was kicked: see accuracy.
-CaseResult compared(const RunRequest& request, const Motion& motion, const Motion& exact, const Motion& kicked);
+CaseResult compared(const RunRequest& request, const SampledMotion& motion, const SampledMotion& exact,
+                    const SampledMotion& kicked);
 
 /// The start, after as many steps back as forth, likewise.
 CaseResult reversal(const RunRequest& request);

@@ -147,7 +147,7 @@ class KickingStepper final : public Stepper<S> {
 };
 
 template <Scalar S>
-Motion motion_in(const RunRequest& request, const Twist& twist) {
+SampledMotion motion_in(const RunRequest& request, const Twist& twist) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
   const Assembled<S> scene = assemble<S>(request.scene);
   const StepperMaker<S> make_stepper = request.method->prepare(scene.problem, request.solver);
@@ -157,13 +157,13 @@ Motion motion_in(const RunRequest& request, const Twist& twist) {
     const std::unique_ptr<Stepper<S>> plain = make_stepper();
     KickingStepper<S> stepper(*plain, twist.kick_bits, grid.steps());
     integrate<S>(stepper, state, grid, {&recorder});
-    return Motion{recorder.take(), recorder.scale(), grid.steps()};
+    return SampledMotion{recorder.take(), recorder.scale(), grid.steps()};
   };
-  Motion motion = run();
+  SampledMotion motion = run();
   if (!twist.back) return motion;
   state.p = -state.p;
   state.p_carry = -state.p_carry;
-  const Motion back = run();
+  const SampledMotion back = run();
   motion.steps += back.steps;
   motion.samples.push_back(back.samples.back());
   return motion;
@@ -171,7 +171,7 @@ Motion motion_in(const RunRequest& request, const Twist& twist) {
 
 }  // namespace
 
-Motion motion_of(const RunRequest& request, const Twist& twist) {
+SampledMotion motion_of(const RunRequest& request, const Twist& twist) {
   return with_scalar(request.precision, [&]<Scalar S>() { return motion_in<S>(request, twist); });
 }
 

@@ -13,7 +13,7 @@ struct ExactState {
 };
 
 /// What a run shows of its motion.
-struct Motion {
+struct SampledMotion {
   std::vector<ExactState> samples;  ///< at the start, and at eight times or fewer up to the end
   ExactState scale;                 ///< of each coordinate: the greatest |q_i|, h |v_i| and |p_i| and
                                     ///< h times each force on it
@@ -30,6 +30,6 @@ struct Twist {
 
 /// The motion of a run with a method whose k is stated; the number of digits is the request's.
 /// \throws StepError, InputError
-Motion motion_of(const RunRequest& request, const Twist& twist = {});
+SampledMotion motion_of(const RunRequest& request, const Twist& twist = {});
 
 }  // namespace hbvm

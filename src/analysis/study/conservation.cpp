@@ -17,12 +17,12 @@ Conservation conservation_in(const ConservationRequest& request) {
   Conservation result;
   result.method = {request.s, request.s};
   if (request.nodes == Nodes::more) {
-    const int k = choose_k(scene, request.s, grid.step(), SolverKind::fixed_point).k;
+    const int k = choose_k(scene, request.s, grid.step(), SolverKind::automatic).k;
     result.method.k = k > request.s ? k : 2 * request.s;
   }
   const Hbvm<S> method = make_hbvm<S>(result.method.k, result.method.s);
   MomentumDrift<S> momenta(problem, conserved_momenta(problem));
-  const Simulated<S> run = simulate(scene, method, SolverKind::fixed_point, grid, {&momenta});
+  const Simulated<S> run = simulate(scene, method, SolverKind::automatic, grid, {&momenta});
   result.steps = grid.steps();
 
   using Kind = ConservedQuantity::Kind;

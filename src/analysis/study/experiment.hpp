@@ -53,9 +53,6 @@ inline MethodPtr stated_method(TomlTable& reader) {
   return method;
 }
 
-/// \throws InputError
-void write_file(const std::filesystem::path& path, const std::string& text);
-
 /// A number of the method's name, by its letter; "---" if it has none.
 inline std::string letter(const MethodPtr& method, const std::string& letter) {
   const Constants all = method->parameters();

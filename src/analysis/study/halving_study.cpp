@@ -92,7 +92,7 @@ HalvingTable read_table(const Experiment& experiment, TomlTable& top) {
     TomlTable reader(top.source(), *entry, "block");
     HalvingRequest request{&experiment.scene,
                            stated_method(reader),
-                           SolverKind::fixed_point,
+                           SolverKind::fixed_point,  // as the paper's: round-off columns depend on it
                            step,
                            until,
                            static_cast<int>(reader.integer("first")),

@@ -97,7 +97,7 @@ Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top) {
   std::vector<RunRequest> requests;
   for (const toml::table* entry : top.tables("run")) {
     TomlTable reader(top.source(), *entry, "run");
-    requests.push_back({experiment.scene, stated_method(reader), SolverKind::fixed_point, step, reader.number("until"),
+    requests.push_back({experiment.scene, stated_method(reader), SolverKind::automatic, step, reader.number("until"),
                         experiment.precision, false});
     reader.finish();
   }

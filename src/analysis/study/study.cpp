@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 
@@ -11,6 +10,7 @@
 #include "hbvm/checksum.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/version.hpp"
+#include "hbvm/write_file.hpp"
 #include "study_figure.hpp"
 
 namespace hbvm {
@@ -140,13 +140,6 @@ std::string Experiment::key(const std::string& kind, const Scene& of, const std:
   std::string key = kind + "|" + fs::path(of.name).stem().string() + "|" + Checksum(write_scene(of)).text();
   for (const std::string& part : {method, step.text(), until.text(), precision.name(), further}) key += "|" + part;
   return key;
-}
-
-void write_file(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw InputError("cannot write " + path.string());
 }
 
 std::vector<std::optional<StudyOutcome>> run_studies(const std::vector<StudyRequest>& requests,

@@ -10,6 +10,7 @@
 #include "hbvm/read_file.hpp"
 #include "hbvm/report/figure.hpp"
 #include "hbvm/scalar/literal.hpp"
+#include "hbvm/write_file.hpp"
 
 namespace hbvm {
 namespace {
@@ -85,7 +86,7 @@ Panel panel(TomlTable reader, const std::vector<std::string>& csvs, const std::v
 }
 
 FigureRun read_run(const Experiment& experiment, TomlTable reader, const std::string& csv) {
-  FigureRun run{{experiment.scene, stated_method(reader), SolverKind::fixed_point, reader.number("step"),
+  FigureRun run{{experiment.scene, stated_method(reader), SolverKind::automatic, reader.number("step"),
                  reader.number("until"), experiment.precision, false},
                 reader.has("every") ? reader.integer("every") : 1,
                 csv};

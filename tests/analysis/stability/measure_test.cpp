@@ -4,7 +4,6 @@
 
 #include "analysis/stability/motion.hpp"
 #include "analysis/stability/scenes.hpp"
-#include "hbvm/scene/assemble.hpp"
 
 namespace hbvm {
 namespace {
@@ -30,11 +29,11 @@ TEST(Accuracy, SeesOneWrongCoordinate) {
   const RunRequest run = request(beside_kepler("1e-12"), "hbvm:4,2", "double", "2*pi/64", "pi");
   RunRequest more = run;
   more.precision = Precision::parse("mpfr:40");
-  const Motion exact = motion_of(more), kicked = motion_of(more, {52, false});
+  const SampledMotion exact = motion_of(more), kicked = motion_of(more, {52, false});
   ASSERT_TRUE(compared(run, motion_of(run), exact, kicked).criteria[0].holds());
   for (std::size_t i = 0; i < 4; ++i)
     for (const auto part : {&ExactState::q, &ExactState::p}) {
-      Motion wrong = motion_of(run);
+      SampledMotion wrong = motion_of(run);
       BigFloat& x = (wrong.samples.back().*part)[i];
       const BigFloat& scale = (exact.scale.*part)[i];
       if (mpfr_zero_p(raw(scale)) != 0) continue;
@@ -58,7 +57,7 @@ TEST(Reversal, SeesTheStartAgain) {
   const CaseResult result = reversal(request(load_scene("double_pendulum"), "hbvm:3,3", "double"));
   ASSERT_EQ(result.criteria.size(), 1u) << result.message;
   EXPECT_TRUE(result.criteria[0].holds()) << result.criteria[0].value;
-  const Motion back = motion_of(request(load_scene("double_pendulum"), "hbvm:3,3", "double"), {0, true});
+  const SampledMotion back = motion_of(request(load_scene("double_pendulum"), "hbvm:3,3", "double"), {0, true});
   EXPECT_EQ(back.steps, 64);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_NEAR(mpfr_get_d(raw(back.samples.back().p[i]), MPFR_RNDN),

@@ -11,7 +11,7 @@ namespace hbvm {
 namespace {
 
 /// Sixteen steps of the double pendulum.
-Motion pendulum_motion(const Twist& twist = {}) {
+SampledMotion pendulum_motion(const Twist& twist = {}) {
   return motion_of(request_of(load_scene("double_pendulum"), "hbvm:4,2", "newton", "1/32", "1/2", "quad"), twist);
 }
 
@@ -28,7 +28,7 @@ double apart(const std::vector<BigFloat>& a, const std::vector<BigFloat>& b, dou
 }
 
 TEST(HardMotions, AreSeenAtTheStartAndEightTimes) {
-  const Motion motion = pendulum_motion();
+  const SampledMotion motion = pendulum_motion();
   const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
   EXPECT_EQ(motion.steps, 16);
   ASSERT_EQ(motion.samples.size(), 9u);
@@ -44,14 +44,14 @@ TEST(HardMotions, AreSeenAtTheStartAndEightTimes) {
 
 /// A kick of 2^-60 shows, and by no more than the motion makes of it.
 TEST(HardMotions, MayBeKicked) {
-  const Motion motion = pendulum_motion(), kicked = pendulum_motion({60, false});
+  const SampledMotion motion = pendulum_motion(), kicked = pendulum_motion({60, false});
   const double change = apart(motion.samples.back().q, kicked.samples.back().q);
   EXPECT_GT(change, std::ldexp(1, -64));
   EXPECT_LT(change, std::ldexp(1, -50));
 }
 
 TEST(HardMotions, MayLeadBack) {
-  const Motion motion = pendulum_motion({0, true});
+  const SampledMotion motion = pendulum_motion({0, true});
   EXPECT_LT(apart(motion.samples.front().q, motion.samples.back().q), std::ldexp(1, -100));
   EXPECT_LT(std::min(apart(motion.samples.front().p, motion.samples.back().p),
                      apart(motion.samples.front().p, motion.samples.back().p, -1)),

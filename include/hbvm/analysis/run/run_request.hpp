@@ -7,7 +7,7 @@
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/scalar/precision.hpp"
 #include "hbvm/scene/scene.hpp"
-#include "hbvm/solver/stage_solver.hpp"
+#include "hbvm/solver/solver_kind.hpp"
 
 namespace hbvm {
 

@@ -29,8 +29,8 @@ long differing(const std::vector<BigFloat>& x, const std::vector<BigFloat>& y, l
 }
 
 CaseResult bit_for_bit(const Powers& powers, const std::string& solver, const std::string& precision) {
-  const Motion plain = motion_of(scaled({0, 0, 0}, solver, precision));
-  const Motion other = motion_of(scaled(powers, solver, precision));
+  const SampledMotion plain = motion_of(scaled({0, 0, 0}, solver, precision));
+  const SampledMotion other = motion_of(scaled(powers, solver, precision));
   const auto [length, mass, time] = powers;
   long count = 0;
   for (std::size_t n = 0; n < plain.samples.size(); ++n)
