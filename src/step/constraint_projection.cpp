@@ -76,6 +76,9 @@ bool ConstraintProjection<S>::solve(ConstraintGradient<S>& left, const Constrain
 
 template <Scalar S>
 bool ConstraintProjection<S>::is_round_off(const Vector<S>& q) {
+  // A displacement, its square (its error twice, and one), two sums and the difference from l^2 are 7 halves of an
+  // epsilon of the terms of g, and q as it is stored is one half of |grad g| |q|: 4, doubled for a quadric's more
+  // terms.
   constexpr int roundings = 8;
   for (Index a = 0; a < problem_.nu(); ++a) {
     S size = value(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, q).size;

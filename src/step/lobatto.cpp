@@ -158,7 +158,8 @@ void LobattoStepper<S>::remember(Archive& archive) {
 
 template <Scalar S>
 bool LobattoStepper<S>::correct_multipliers() {
-  // The matrix at nodes near the solution serves all sweeps: it multiplies a residual that goes to 0.
+  // The matrix at nodes near the solution serves all sweeps: it multiplies a residual that goes to 0. The first start
+  // has no multipliers at all: one sweep finds them, a second the nodes they lead to, a third has its matrix there.
   constexpr long near = 3;
   const Index s = method_->s();
   if (rule_.sweeps() < near) {

@@ -12,7 +12,8 @@
 namespace hbvm {
 namespace {
 
-/// 64 sqrt(n) epsilon.
+/// 64 sqrt(n) epsilon: a walk of n steps, each of some tens of roundings. Motions without a loss walk 0.1 to 0.2
+/// sqrt(n) epsilon (studies/stability, up to 10^7 steps), and a drift that grows with n passes both soon.
 template <Scalar S>
 S walked_round_off(long steps) {
   using std::sqrt;
