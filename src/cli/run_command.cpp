@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,9 +11,11 @@
 
 #include "commands.hpp"
 #include "hbvm/analysis/run/run.hpp"
+#include "hbvm/analysis/run/run_figure.hpp"
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"
+#include "hbvm/scalar/text.hpp"
 #include "hbvm/step/registry.hpp"
 #include "hbvm/version.hpp"
 #include "progress_bar.hpp"
@@ -25,9 +28,9 @@ namespace {
 struct RunArguments {
   std::string scene, method, step, until;
   std::string precision = "double", solver = "auto", on_failure = "stop";
-  std::optional<std::string> out, start;
+  std::optional<std::string> out, start, plot;
   long every = 1;
-  bool json = false, account = false, strict = false, shadow = false, reverse = false;
+  bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false;
   std::optional<std::string> checkpoint, resume;
   double every_seconds = 60;
   std::optional<Checkpoint> resumed;
@@ -44,12 +47,29 @@ nlohmann::ordered_json json_of(const Health& health) {
   return j;
 }
 
+std::vector<double> rounded(std::vector<double> digits) {
+  for (double& d : digits) d = std::round(100 * d) / 100;
+  return digits;
+}
+
+nlohmann::ordered_json json_of(const ErrorEstimate& error) {
+  nlohmann::ordered_json j{{"method", error.method}, {"precision", error.precision}};
+  if (!error.failure.empty()) {
+    j["failure"] = error.failure;
+    return j;
+  }
+  std::vector<double> digits = error.q_digits;
+  digits.insert(digits.end(), error.p_digits.begin(), error.p_digits.end());
+  j["q"] = error.q;
+  j["p"] = error.p;
+  j["lambda"] = error.lambda.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(error.lambda);
+  j["digits"] = rounded(digits);
+  j["lambda_digits"] = rounded(error.lambda_digits);
+  return j;
+}
+
 nlohmann::ordered_json json_of(const Shadow& shadow) {
   if (!shadow.failure.empty()) return {{"precision", shadow.precision}, {"failure", shadow.failure}};
-  const auto rounded = [](std::vector<double> digits) {
-    for (double& d : digits) d = std::round(100 * d) / 100;
-    return digits;
-  };
   return {{"precision", shadow.precision},
           {"digits", {{"q", rounded(shadow.q)}, {"p", rounded(shadow.p)}}},
           {"worst",
@@ -82,6 +102,7 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
   j["e_hid"] = result.e_hid;
   j["health"] = json_of(result.health);
   if (result.shadow) j["shadow"] = json_of(*result.shadow);
+  if (result.error) j["error"] = json_of(*result.error);
   j["iterations_per_step"] = result.iterations_per_step;
   j["cpu_seconds"] = result.cpu_seconds;
   if (result.nodes) {
@@ -123,6 +144,46 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // a path need not be UTF-8
 }
 
+/// Lines "q_1  0.123  15.2 digits", with the digits of the second column where they are known.
+void print_list(const char* name, const std::vector<std::string>& values, const std::vector<double>& digits = {}) {
+  std::size_t width = 0;
+  for (const std::string& value : values) width = std::max(width, digits.empty() ? 0 : value.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    fmt::print("  {:<14} {:<{}}{}\n", fmt::format("{}_{}", name, i + 1), values[i], width,
+               digits.empty() ? "" : fmt::format("  {:.1f} digits", digits[i]));
+}
+
+/// Values with the digits that are right and one more.
+void print_right_digits(const char* name, std::vector<std::string> values, const std::vector<double>& digits) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = to_right_digits(values[i], digits[i]);
+  print_list(name, values, digits);
+}
+
+/// The state at the end, to the digits that are right if they are known.
+void print_state(const RunResult& result) {
+  fmt::print("state at t = {}\n", result.t);
+  const char* const of_output = "output state (p tangential, exact multiplier; its energy is off by {})\n";
+  if (result.error && result.error->failure.empty()) {
+    const ErrorEstimate& error = *result.error;
+    print_right_digits("q", result.q, error.q_digits);
+    if (!result.lambda.empty()) fmt::print(fmt::runtime(of_output), to_scientific(result.output_delta_H, 3));
+    print_right_digits("p", result.output_p, error.p_digits);
+    print_right_digits("lambda", result.output_lambda, error.lambda_digits);
+    fmt::print("{}", to_text(error));
+    return;
+  }
+  const Shadow shadow = result.shadow.value_or(Shadow{});
+  print_list("q", result.q, shadow.q);
+  print_list("p", result.p, shadow.p);
+  print_list("lambda", result.lambda);
+  if (!result.lambda.empty()) {
+    fmt::print(fmt::runtime(of_output), to_scientific(result.output_delta_H, 3));
+    print_list("p", result.output_p);
+    print_list("lambda", result.output_lambda);
+  }
+  fmt::print("{}", result.error ? to_text(*result.error) : "digits not assessed (--error)\n");
+}
+
 void print(const RunRequest& request, const RunResult& result) {
   if (result.nodes) {
     fmt::print("k = {}: {}\n", result.nodes->k, result.nodes->because);
@@ -141,31 +202,14 @@ void print(const RunRequest& request, const RunResult& result) {
                  halving.steps == 1 ? "1 step was" : fmt::format("{} steps were", halving.steps), 1L << halving.depth,
                  halving.first_t);
   }
-  const auto list = [](const char* name, const std::vector<std::string>& values,
-                       const std::vector<double>& digits = {}) {
-    std::size_t width = 0;
-    for (const std::string& value : values) width = std::max(width, digits.empty() ? 0 : value.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-      fmt::print("  {:<14} {:<{}}{}\n", fmt::format("{}_{}", name, i + 1), values[i], width,
-                 digits.empty() ? "" : fmt::format("  {:.1f} digits", digits[i]));
-  };
-  const Shadow shadow = result.shadow.value_or(Shadow{});
   fmt::print("{}: {}\n", request.scene.name, request.scene.title);
   fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method->text(), request.precision.name(),
              name_of(request.solver), result.steps, result.step);
-  fmt::print("state at t = {}\n", result.t);
-  list("q", result.q, shadow.q);
-  list("p", result.p, shadow.p);
-  list("lambda", result.lambda);
-  if (!result.lambda.empty()) {
-    fmt::print("output state (p tangential, exact multiplier; its energy is off by {})\n", result.output_delta_H);
-    list("p", result.output_p);
-    list("lambda", result.output_lambda);
-  }
-  fmt::print("errors over the mesh\n  {:<14} {}\n  {:<14} {}\n  {:<14} {}\n", "e_H", result.e_H, "e_g", result.e_g,
-             "e_hid", result.e_hid);
+  print_state(result);
+  fmt::print("errors over the mesh\n  {:<14} {}\n  {:<14} {}\n  {:<14} {}\n", "e_H", to_scientific(result.e_H, 3),
+             "e_g", to_scientific(result.e_g, 3), "e_hid", to_scientific(result.e_hid, 3));
   fmt::print("{}", to_text(result.health));
-  if (result.shadow) fmt::print("{}", to_text(shadow));
+  if (result.shadow) fmt::print("{}", to_text(*result.shadow));
   if (!result.observables.empty()) fmt::print("conserved by the exact motion\n");
   for (const Observed& o : result.observables)
     fmt::print("  {:<14} {}, changed by up to {}\n", o.name, o.initial, o.drift);
@@ -226,6 +270,7 @@ RunRequest request_of(const RunArguments& o, const RunIdentity& identity) {
                      Precision::parse(o.precision),
                      o.account,
                      o.shadow,
+                     o.error,
                      parse_on_failure(o.on_failure),
                      o.reverse ? Direction::backward : Direction::forward};
   if (o.start) request.start = read_start_state(identity.start, *o.start);
@@ -244,6 +289,45 @@ std::optional<Checkpoints> checkpoints_of(const RunArguments& o, const RunIdenti
   return checkpoints;
 }
 
+/// What makes the same motion again.
+std::string command_line(const RunArguments& o, const RunRequest& request) {
+  return "hbvm run " + o.scene + " --method " + request.method->text() + " --step '" + o.step + "' --until '" +
+         o.until + "' --precision " + request.precision.name() + " --solver " + std::string(name_of(request.solver)) +
+         (o.start ? " --start " + *o.start : "") + (o.reverse ? " --reverse" : "") +
+         (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
+}
+
+/// The picture of --plot, once there is something to be seen.
+class Plot {
+ public:
+  /// \throws InputError for a file that no picture can be written to
+  explicit Plot(const std::string& file) : file_(file) {
+    gnuplot_script({}, file);  // refuses an ending
+    std::error_code ignored;
+    const bool was_there = std::filesystem::exists(file, ignored);
+    if (!std::ofstream(file, std::ios::app)) throw InputError("--plot: cannot write '" + file + "'");
+    if (!was_there) std::filesystem::remove(file, ignored);
+  }
+
+  Recording* recording() { return &recording_; }
+
+  void draw(const RunRequest& request, const std::string& command) const {
+    if (recording_.samples.size() < 2) return;
+    Figure figure = run_figure(sketch(request.scene), recording_);
+    figure.caption = plain(request.scene.title);
+    figure.footnote = std::string("hbvm ") + version() + ": " + command;
+    if (recording_.every > 1)
+      figure.footnote +=
+          fmt::format("; a point every {} steps, of errors the greatest since the one before", recording_.every);
+    hbvm::draw(figure, file_);
+    fmt::print(stderr, "written to {}\n", file_);
+  }
+
+ private:
+  std::string file_;
+  Recording recording_;
+};
+
 void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
     throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
@@ -259,15 +343,22 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.out) {
     hooks.open_csv = [&] { return open(*o.out, o); };
     hooks.provenance = {std::string("hbvm ") + version(), "scene " + request.scene.name + ": " + request.scene.title,
-                        "command hbvm run " + o.scene + " --method " + request.method->text() + " --step '" + o.step +
-                            "' --until '" + o.until + "' --precision " + request.precision.name() + " --solver " +
-                            std::string(name_of(request.solver)) + " --every " + std::to_string(o.every) +
-                            (o.start ? " --start " + *o.start : "") + (o.reverse ? " --reverse" : "") +
-                            (request.on_failure == OnFailure::halve ? " --on-failure halve" : "")};
+                        "command " + command_line(o, request) + " --every " + std::to_string(o.every)};
   }
+  std::optional<Plot> plot;
+  if (o.plot) hooks.recording = plot.emplace(*o.plot).recording();
   end_runs_on_signals();
   try {
-    const RunResult result = run(request, hooks);
+    const RunResult result = [&] {
+      try {
+        return run(request, hooks);
+      } catch (const Error&) {
+        // What was computed before is to be seen.
+        if (plot) plot->draw(request, command_line(o, request));
+        throw;
+      }
+    }();
+    if (plot) plot->draw(request, command_line(o, request));
     if (o.json)
       std::cout << json_of(request, result) << std::endl;
     else
@@ -300,6 +391,7 @@ void add_run_command(CLI::App& app) {
                    "What to do with a step that cannot be made: stop, or halve it, again and again, to at most 2^-20")
       ->capture_default_str();
   command->add_option("--out", o->out, "Write the trajectory to this CSV file");
+  command->add_option("--plot", o->plot, "Draw motion, multipliers and errors into this file: .svg, .pdf or .png");
   command->add_option("--every", o->every, "Steps between two lines of the CSV file")
       ->check(CLI::Number)
       ->capture_default_str();
@@ -325,6 +417,8 @@ void add_run_command(CLI::App& app) {
       ->type_name("TEXT");
   command->add_flag("--account", o->account, "Also show what effects and parts of the solver did and took");
   command->add_flag("--strict", o->strict, "Exit code 3 if a warning says that the run may be worth little");
+  command->add_flag("--error", o->error,
+                    "Repeat the run with more stages and 16 more digits, and print the digits that are right");
   command->add_flag("--shadow", o->shadow,
                     "Repeat the run with 16 more digits and say how many of each component survived rounding");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");

@@ -1,9 +1,13 @@
+#include <fmt/format.h>
+
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "commands.hpp"
 #include "hbvm/analysis/run/describe.hpp"
+#include "hbvm/analysis/run/run_figure.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/project.hpp"
 #include "hbvm/write_file.hpp"
@@ -34,10 +38,33 @@ void project_command(const ProjectArguments& o) {
   }
 }
 
+struct ShowArguments {
+  std::string scene, plot;
+};
+
+void show_command(const ShowArguments& o) {
+  const Scene scene = load_scene(o.scene);
+  const Vector<double> q = assemble<double>(scene).q0;
+  Figure figure = scene_figure(sketch(scene), {q.begin(), q.end()});
+  figure.caption = plain(scene.title);
+  const std::string file = o.plot.empty() ? std::filesystem::path(scene.name).stem().string() + ".svg" : o.plot;
+  draw(figure, file);
+  fmt::print(stderr, "written to {}\n", file);
+}
+
+void add_show(CLI::App& scene) {
+  auto o = std::make_shared<ShowArguments>();
+  CLI::App* const command = scene.add_subcommand("show", "Draw a scene at its start");
+  command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
+  command->add_option("--plot", o->plot, "Draw into this file: .svg, .pdf or .png; NAME.svg of the scene if absent");
+  command->footer("Example: hbvm scene show four_bar_linkage --plot linkage.pdf");
+  command->callback([o] { show_command(*o); });
+}
+
 }  // namespace
 
 void add_scene_command(CLI::App& app) {
-  CLI::App* const scene = app.add_subcommand("scene", "Explain a scene, or make its start consistent");
+  CLI::App* const scene = app.add_subcommand("scene", "Explain or draw a scene, or make its start consistent");
   scene->require_subcommand(1);
   scene->footer("Example: hbvm scene check tethered_satellites");
   for (const bool check : {true, false}) {
@@ -57,6 +84,7 @@ void add_scene_command(CLI::App& app) {
         project_command(*o);
     });
   }
+  add_show(*scene);
 }
 
 }  // namespace hbvm

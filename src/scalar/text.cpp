@@ -83,12 +83,23 @@ std::string special(const BigFloat& x) {
 
 std::string text_of(const BigFloat& x) { return mpfr_regular_p(raw(x)) ? layout(shortest(x)) : special(x); }
 
-std::string scientific(const BigFloat& x, int digits) {
+/// By MPFR's printf. \param format with the number of digits and the number
+std::string printed(const BigFloat& x, const char* format, int digits) {
   if (!mpfr_number_p(raw(x))) return special(x);
   char* text = nullptr;
-  mpfr_asprintf(&text, "%.*Re", digits - 1, raw(x));
+  mpfr_asprintf(&text, format, digits, raw(x));
   const std::unique_ptr<char, void (*)(char*)> owner(text, mpfr_free_str);
   return text;
+}
+
+std::string scientific(const BigFloat& x, int digits) { return printed(x, "%.*Re", digits - 1); }
+
+/// With more bits than its digits have.
+BigFloat number_of(const std::string& decimal) {
+  constexpr long bits_a_digit = 4, spare = 64;
+  BigFloat x(static_cast<long>(decimal.size()) * bits_a_digit + spare);
+  mpfr_set_str(raw(x), decimal.c_str(), 10, MPFR_RNDN);
+  return x;
 }
 
 }  // namespace
@@ -113,5 +124,16 @@ std::string to_text(double x) {
 std::string to_scientific(const Mpfr& x, int digits) { return scientific(exactly(x), digits); }
 std::string to_scientific(const Quad& x, int digits) { return scientific(exactly(x), digits); }
 std::string to_scientific(double x, int digits) { return scientific(exactly(x), digits); }
+std::string to_scientific(const std::string& decimal, int digits) { return scientific(number_of(decimal), digits); }
+
+std::string rounded_text(const std::string& decimal, int digits) {
+  const BigFloat x = number_of(decimal);
+  if (!mpfr_regular_p(raw(x))) return special(x);
+  std::string text = printed(x, "%#.*Rg", digits);
+  // C's alternative form ends a whole number with its point.
+  if (text.ends_with('.')) text.pop_back();
+  const std::size_t exponent = text.find(".e");
+  return exponent == std::string::npos ? text : text.erase(exponent, 1);
+}
 
 }  // namespace hbvm

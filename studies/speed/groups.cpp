@@ -1,10 +1,10 @@
 #include "groups.hpp"
 
 #include <cmath>
-#include <fstream>
 
 #include "chain.hpp"
 #include "hbvm/problem/point.hpp"
+#include "hbvm/write_file.hpp"
 #include "raw_cost.hpp"
 
 namespace hbvm::speed {
@@ -243,10 +243,27 @@ std::vector<Row> scene_rows() {
 
 namespace {
 
-void write_curve(const std::filesystem::path& file, const std::vector<std::pair<double, double>>& points) {
-  std::ofstream out(file);
-  out << "# log10 x,log10 milliseconds a step\n";
-  for (const auto& [x, seconds] : points) out << std::log10(x) << "," << std::log10(seconds * 1000) << "\n";
+/// A curve of (x, seconds), and its numbers in a file.
+Curve curve_of(const std::filesystem::path& file, const std::vector<std::pair<double, double>>& points,
+               const std::string& label) {
+  std::string text = "log10 x,log10 milliseconds a step\n";
+  Curve curve{label, {}, true};
+  for (const auto& [x, seconds] : points) {
+    curve.points.push_back({std::log10(x), std::log10(seconds * 1000)});
+    text += fmt::format("{:.6g},{:.6g}\n", curve.points.back()[0], curve.points.back()[1]);
+  }
+  write_file(file, text);
+  return curve;
+}
+
+/// Both axes logarithmic.
+Panel panel_of(const std::string& title, const std::string& x, std::vector<Curve> curves) {
+  Panel panel;
+  panel.title = title;
+  panel.x = {x, AxisScale::decimal};
+  panel.y = {"milliseconds a step", AxisScale::decimal};
+  panel.curves = std::move(curves);
+  return panel;
 }
 
 }  // namespace
@@ -270,36 +287,16 @@ Figure cost_figure(const std::filesystem::path& folder) {
   const PrecisionScope scope(50);
   const auto bodies50 = chain_times<Mpfr>(unused, "mpfr:50", 5);
   const auto curve = [&](const std::string& name, const auto& points, const std::string& label) {
-    write_curve(folder / (name + ".csv"), points);
-    return Curve{(folder / (name + ".csv")).string(), 1, 2, 0, label, false};
+    return curve_of(folder / (name + ".csv"), points, label);
   };
-  const std::string y = "milliseconds a step (10^y)";
-  return {"speed",
-          "Time of a step",
-          {{"HBVM(6,4), satellites",
-            "digits (10^x)",
-            y,
-            "",
-            {curve("digits_newton", digits[0], "newton"), curve("digits_paper", digits[1], "paper")},
-            {},
-            {},
-            false},
-           {"HBVM(s + 2, s), 50 digits",
-            "s (10^x)",
-            y,
-            "",
-            {curve("stages_newton", stages[0], "newton"), curve("stages_paper", stages[1], "paper")},
-            {},
-            {},
-            false},
-           {"Chain, HBVM(4,2), newton",
-            "rods (10^x)",
-            y,
-            "",
-            {curve("bodies_double", bodies, "double"), curve("bodies_mpfr50", bodies50, "50 digits")},
-            {},
-            {},
-            false}}};
+  Figure figure{"speed", "Time of a step", "", {}};
+  figure.panels = {panel_of("HBVM(6,4), satellites", "digits",
+                            {curve("digits_newton", digits[0], "newton"), curve("digits_paper", digits[1], "paper")}),
+                   panel_of("HBVM(s + 2, s), 50 digits", "s",
+                            {curve("stages_newton", stages[0], "newton"), curve("stages_paper", stages[1], "paper")}),
+                   panel_of("Chain, HBVM(4,2), newton", "rods",
+                            {curve("bodies_double", bodies, "double"), curve("bodies_mpfr50", bodies50, "50 digits")})};
+  return figure;
 }
 
 }  // namespace hbvm::speed

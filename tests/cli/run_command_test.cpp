@@ -145,7 +145,7 @@ TEST(RunShadow, IsInTheJsonAndTheTextIfAskedFor) {
     for (const ordered_json& digits : shadow["digits"][half]) EXPECT_NEAR(digits.get<double>(), 16, 2);
   }
   EXPECT_EQ(keys_of(shadow["worst"]), (Texts{"component", "digits", "t", "every"}));
-  EXPECT_EQ(hbvm(run).out.find("digits"), std::string::npos);
+  EXPECT_EQ(hbvm(run).out.find(" digits\n"), std::string::npos);
   const std::string text = hbvm(run + Arguments{"--shadow"}).out;
   EXPECT_NE(text.find(" digits\n"), std::string::npos);
   EXPECT_NE(text.find("against mpfr:32"), std::string::npos);
@@ -545,6 +545,60 @@ TEST(Run, IntegratesRedundantConstraints) {
     if (line[0] == '#') continue;
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ','));
   }
+}
+
+TEST(RunPlot, DrawsAnyScene) {
+  const Folder folder;
+  for (const auto& [name, text] : built_in_scenes()) {
+    const std::string file = folder / (name + ".svg");
+    const Outcome outcome =
+        hbvm({"run", name, "--method", "hbvm:3,3", "--step", "1/64", "--until", "1/4", "--plot", file});
+    EXPECT_EQ(outcome.code, 0) << name << outcome.err;
+    EXPECT_EQ(outcome.err, "written to " + file + "\n");
+    const std::string svg = text_of(file);
+    EXPECT_NE(svg.find("Motion"), std::string::npos) << name;
+    EXPECT_NE(svg.find("hbvm run " + name), std::string::npos) << name;
+  }
+}
+
+TEST(RunPlot, ShowsWhatWasComputedBeforeAFailure) {
+  const Folder folder;
+  const Outcome outcome = hbvm({"run", "kepler", "--method", "tableau:" HBVM_SOURCE_DIR "/tests/cli/none.toml",
+                                "--step", "1/8", "--until", "1", "--plot", folder / "a.svg"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
+}
+
+TEST(RunPlot, RefusesWhatCannotBeDrawn) {
+  const Folder folder;
+  const Arguments run{"run", "simple_pendulum", "--method", "hbvm:2,2", "--step", "1/8", "--until", "1", "--plot"};
+  expect_refused(run + Arguments{folder / "a.jpg"}, {".svg", ".pdf", ".png", "a.jpg"});
+  expect_refused(run + Arguments{folder / "none/a.svg"}, {"--plot", "cannot write"});
+}
+
+TEST(RunError, PrintsRightDigitsAndOneMore) {
+  const Arguments run{"run",  "modified_pendulum", "--method", "hbvm:4,2",    "--step",
+                      "1/16", "--until",           "20",       "--precision", "mpfr:50"};
+  const Outcome without = hbvm(run);
+  EXPECT_NE(without.out.find("digits not assessed (--error)"), std::string::npos);
+  const Outcome with = hbvm(run + Arguments{"--error"});
+  EXPECT_EQ(with.code, 0) << with.err;
+  EXPECT_EQ(with.out.find("not assessed"), std::string::npos);
+  const ordered_json j = json_of(run + Arguments{"--error"});
+  EXPECT_EQ(keys_of(j["error"]), (Texts{"method", "precision", "q", "p", "lambda", "digits", "lambda_digits"}));
+  ASSERT_EQ(j["error"]["digits"].size(), 4u);
+  const double digits = j["error"]["digits"][0];
+  EXPECT_GT(digits, 3);
+  EXPECT_LT(digits, 8);
+  // The state on screen has these digits and one more.
+  const std::size_t at = with.out.find("  q_1 ");
+  std::istringstream line(with.out.substr(at));
+  std::string name, number;
+  line >> name >> number;
+  const auto figures =
+      static_cast<double>(std::count_if(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; }));
+  EXPECT_LE(figures, digits + 3);
+  EXPECT_EQ(j["q"][0].get<std::string>().substr(0, number.size() - 2), number.substr(0, number.size() - 2));
 }
 
 }  // namespace

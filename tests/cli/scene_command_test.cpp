@@ -109,5 +109,17 @@ TEST(SceneProject, LeavesTheFileAloneIfItFails) {
   EXPECT_EQ(text_of(precious), "precious");
 }
 
+TEST(SceneShow, DrawsAScene) {
+  const Folder folder;
+  for (const char* const name : {"four_bar_linkage", "heavy_top", "charged_tetrahedron"}) {
+    const std::string file = folder / (std::string(name) + ".svg");
+    const Outcome outcome = hbvm({"scene", "show", name, "--plot", file});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "written to " + file + "\n");
+    EXPECT_NE(text_of(file).find("Start"), std::string::npos);
+  }
+  expect_refused({"scene", "show", "four_bar_linkage", "--plot", folder / "a.gif"}, {".svg", "a.gif"});
+}
+
 }  // namespace
 }  // namespace hbvm

@@ -4,52 +4,78 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+
+#include "hbvm/error.hpp"
+#include "hbvm/read_file.hpp"
 
 namespace hbvm {
 namespace {
 
-std::string script(const Panel& panel) {
-  Figure figure;
-  figure.panels = {panel};
-  return gnuplot_script(figure, "x.svg");
-}
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    const char* const before = std::getenv(name);
+    had_ = before != nullptr;
+    before_ = had_ ? before : "";
+    setenv(name, value, 1);
+  }
+  ~Environment() { had_ ? setenv(name_, before_.c_str(), 1) : unsetenv(name_); }
 
-TEST(Figure, TicsShowThePowersOfLogarithms) {
-  Panel panel;
-  panel.curves = {{"a.csv", 1, 2, 0, "it's"}};
-  EXPECT_NE(script(panel).find("set format '% h'"), std::string::npos);
-  panel.logarithms = true;
-  EXPECT_NE(script(panel).find("set format x '2^{%g}'"), std::string::npos);
-  panel.logarithms = false;
-  panel.x_decades = 1;
-  panel.y_decades = 2;
-  EXPECT_NE(script(panel).find("set format '10^{%g}'\nset xtics 1\nset ytics 2\n"), std::string::npos);
-  EXPECT_NE(script(panel).find("title 'it''s'"), std::string::npos);
-}
+ private:
+  const char* name_;
+  bool had_;
+  std::string before_;
+};
+
+class FigureTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(mkdtemp(folder_.data()));
+    Panel panel;
+    panel.title = "it's 90° of λ";
+    panel.curves = {{"one", {{0, 0}, {1, 2}}}, {"two", {{0, 1}, {1, 1}}}};
+    panel.lines = {{{{0, 0}, {1, 1}}}};
+    figure_.panels = {panel, panel, panel, panel};
+    figure_.caption = "a caption";
+    figure_.footnote = "what_made_it";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string folder_ = (std::filesystem::temp_directory_path() / "hbvm_figure_test_XXXXXX").string();
+  Figure figure_;
+};
 
 /// In a locale without UTF-8, as it is where nothing is set, gnuplot would warn of a degree sign.
-TEST(Figure, IsDrawnInSilenceWhateverTheLocale) {
-  const char* const before = std::getenv("LC_ALL");
-  const std::string locale = before ? before : "";
-  setenv("LC_ALL", "C", 1);
-  std::string folder = (std::filesystem::temp_directory_path() / "hbvm_figure_test_XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  const std::string svg = folder + "/figure.svg";
-  Figure figure;
-  Panel panel;
-  panel.title = "a line";
-  panel.lines.push_back({{{"0", "0"}, {"1", "2"}}, "line"});
-  figure.panels.push_back(panel);
+TEST_F(FigureTest, IsDrawnInSilenceInEveryFormatWhateverTheLocale) {
+  const Environment locale("LC_ALL", "C");
+  for (const auto& [ending, begins] :
+       {std::pair(".svg", "<?xml"), std::pair(".pdf", "%PDF"), std::pair(".png", "\x89PNG")}) {
+    const std::string file = folder_ + "/it's a figure" + ending;
+    testing::internal::CaptureStderr();
+    draw(figure_, file);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << ending;
+    EXPECT_TRUE(read_file(file).starts_with(begins)) << ending;
+    EXPECT_GT(std::filesystem::file_size(file), 1'000u);
+  }
+  const std::string svg = read_file(folder_ + "/it's a figure.svg");
+  for (const char* const words : {"a caption", "what_made_it", "it's 90° of λ", "two"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+}
+
+TEST_F(FigureTest, NamesThePackageThatIsMissing) {
+  const Environment path("PATH", folder_.c_str());
+  try {
+    draw(figure_, folder_ + "/figure.svg");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("apt install gnuplot-nox"), std::string::npos);
+  }
+}
+
+TEST_F(FigureTest, RefusesAFolderThatIsNotThere) {
   testing::internal::CaptureStderr();
-  draw(figure, svg);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  EXPECT_GT(std::filesystem::file_size(svg), 1'000u);
-  std::filesystem::remove_all(folder);
-  if (before)
-    setenv("LC_ALL", locale.c_str(), 1);
-  else
-    unsetenv("LC_ALL");
+  EXPECT_THROW(draw(figure_, folder_ + "/none/figure.svg"), Error);
+  testing::internal::GetCapturedStderr();
 }
 
 }  // namespace

@@ -41,16 +41,6 @@ TEST(Table, LatexShowsTextAsItIs) {
             std::string::npos);
 }
 
-TEST(Figure, ScriptQuotesItsTexts) {
-  const Figure figure{
-      "f", "c", {Panel{"the bob's path", "x", "y", "", {{"a file.csv", 2, 3, 0, "q"}}, {{{"1", "2"}, "m"}}, {}, true}}};
-  const std::string script = gnuplot_script(figure, "out.svg");
-  EXPECT_NE(script.find("set title 'the bob''s path'"), std::string::npos);
-  EXPECT_NE(script.find("'a file.csv' using 2:3 with lines"), std::string::npos);
-  EXPECT_NE(script.find("1,2\nEOD"), std::string::npos);
-  EXPECT_NE(script.find("set size ratio -1"), std::string::npos);
-}
-
 TEST(Table, LatexOfManyRowsMayBreakAcrossPages) {
   Table many{"Many", {}, {}, {"a", "+-"}, {{"heavy_top", {}, {{">= 2", "1"}}}}};
   const std::string one = to_latex(many);

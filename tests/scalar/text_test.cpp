@@ -182,5 +182,19 @@ TEST(Scientific, RoundsInTheNumbersOwnPrecision) {
   EXPECT_EQ(to_scientific(literal<Mpfr>("123"), 1), "1e+02");
 }
 
+TEST(Text, OfADecimalIsRounded) {
+  EXPECT_EQ(rounded_text("0.123456", 3), "0.123");
+  EXPECT_EQ(rounded_text("0.5", 4), "0.5000");
+  EXPECT_EQ(rounded_text("-12.345", 2), "-12");
+  EXPECT_EQ(rounded_text("1234567", 3), "1.23e+06");
+  EXPECT_EQ(rounded_text("9.99e-700", 1), "1e-699");
+  EXPECT_EQ(rounded_text("0", 3), "0");
+  EXPECT_EQ(rounded_text("nan", 3), "nan");
+  const std::string third = "0." + std::string(1'000, '3');
+  EXPECT_EQ(rounded_text(third, 1'000), third);
+  EXPECT_EQ(to_scientific(std::string("-0.0123456"), 3), "-1.23e-02");
+  EXPECT_EQ(to_scientific(std::string("1.5e-9000"), 2), "1.5e-9000");
+}
+
 }  // namespace
 }  // namespace hbvm

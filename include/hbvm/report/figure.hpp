@@ -1,61 +1,81 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace hbvm {
 
-/// A curve in a panel: columns of a CSV file, counted from 1.
+/// How far numbers are apart on an axis.
+enum class AxisScale {
+  linear,
+  binary,  ///< a coordinate is log2 of the number that is shown
+  decimal  ///< log10 of it: numbers beyond the range of double have a place, too
+};
+
+struct Axis {
+  std::string label;
+  AxisScale scale = AxisScale::linear;
+};
+
+using PlotPoint = std::array<double, 2>;
+
+/// A line through points in the order given; where a coordinate is not finite it is interrupted.
 struct Curve {
-  std::string csv;
-  int x = 1, y = 2;
-  int z = 0;  ///< 0: a curve in the plane
-  std::string label;
-  bool spokes = false;  ///< thin lines from the origin to every fourth point, too
-  bool points = false;  ///< mark the points
+  std::string label;  ///< written at its right end, unless it is the only one
+  std::vector<PlotPoint> points;
+  bool marked = false;  ///< a mark at every point
 };
 
-/// A line through given points: a rod, or a triangle of a slope.
+/// A line that is part of the scene: a rod, or a triangle that shows a slope.
 struct Polyline {
-  std::vector<std::vector<std::string>> points;
-  std::string label;  ///< if it is empty, a thin line without points
+  enum class Look { solid, faint, dashed };
+  std::vector<PlotPoint> points;
+  Look look = Look::solid;
 };
 
-/// A point marked in a panel.
+/// A place of the scene.
 struct Mark {
-  std::vector<std::string> at;  ///< two or three coordinates
+  enum class Look { body, start, fixed, positive, negative };
+  PlotPoint at;
+  Look look = Look::body;
   std::string label;
 };
 
-/// Words in a panel.
+/// Words in a panel, to the right of a place.
 struct Label {
-  std::vector<std::string> at;  ///< two coordinates
+  PlotPoint at;
   std::string text;
 };
 
 struct Panel {
-  std::string title, x_label, y_label, z_label;
+  std::string title;
+  Axis x, y;
   std::vector<Curve> curves;
-  std::vector<Mark> marks;
-  std::vector<Polyline> lines;
-  bool equal_axes = false;
-  bool logarithms = false;  ///< x is a binary logarithm and y a decimal one: tics show the powers
-  /// Both are decimal logarithms: tics show the powers, so many decades apart. 0: they are not.
-  int x_decades = 0, y_decades = 0;
+  std::vector<Polyline> lines{};
+  std::vector<Mark> marks{};
   std::vector<Label> labels{};
+  bool equal_axes = false;  ///< a unit of x is as long as one of y
 };
 
-/// Panels side by side in one SVG.
+/// Panels of equal size, two in a row.
 struct Figure {
-  std::string name, caption;
+  std::string name;      ///< of its file, without ending
+  std::string caption;   ///< above
+  std::string footnote;  ///< below: what made it
   std::vector<Panel> panels;
 };
 
-/// The gnuplot program that draws the figure into `svg`.
-std::string gnuplot_script(const Figure& figure, const std::string& svg);
+/// A text as it is: in the words of a figure _, ^ and braces lower, raise and join.
+std::string plain(const std::string& text);
 
-/// Runs it. \throws Error if gnuplot is missing or fails.
-void draw(const Figure& figure, const std::string& svg);
+/// The gnuplot program that draws the figure, data included, into a file: SVG, PDF or PNG by its ending. Axes end where
+/// the data end; curves differ in colour (which all eyes can tell apart), in their marks and dashes.
+/// \throws InputError for another ending
+std::string gnuplot_script(const Figure& figure, const std::string& file);
+
+/// Runs it. \throws Error if gnuplot is missing or fails, with the name of its package
+void draw(const Figure& figure, const std::string& file);
 
 }  // namespace hbvm

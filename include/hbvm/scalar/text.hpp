@@ -15,5 +15,11 @@ std::string to_text(const Mpfr& x);
 std::string to_scientific(double x, int digits);
 std::string to_scientific(const Quad& x, int digits);
 std::string to_scientific(const Mpfr& x, int digits);
+/// The same of a number that is a text already, of any length.
+std::string to_scientific(const std::string& decimal, int digits);
+
+/// A decimal rounded to so many significant digits, trailing zeros kept: "0.1230", "-12.5"; with an exponent where
+/// there would be more zeros than digits.
+std::string rounded_text(const std::string& decimal, int digits);
 
 }  // namespace hbvm

@@ -41,36 +41,33 @@ void add_triangle(Panel& panel, const std::vector<Rung>& rungs, std::size_t at, 
   const double decades_below = (1 + slope) / double{4};
   const double right = rungs.at(at - 2).step, left = rungs.at(at).step;
   const double low = rungs[at].error * log10_of_2 - decades_below, high = low + slope * (right - left) * log10_of_2;
-  const auto point = [](double x, double y) { return std::vector<std::string>{text_of(x), text_of(y)}; };
-  panel.lines.push_back({{point(left, low), point(right, low), point(right, high), point(left, low)}, ""});
-  panel.labels.push_back({point(right + (right - left) / 8, (low + high) / 2), std::to_string(slope)});
+  panel.lines.push_back({{{left, low}, {right, low}, {right, high}, {left, low}}});
+  panel.labels.push_back({{right, (low + high) / 2}, std::to_string(slope)});
 }
 
-/// A panel of some lines; `slopes`: of which line, its slope.
+/// A panel of some lines, whose numbers are kept in a file; `slopes`: of which line, its slope.
 Panel panel_of(const std::string& title, const std::vector<Line>& lines,
                const std::vector<std::pair<std::size_t, int>>& slopes, const std::string& csv) {
   Panel panel;
   panel.title = title;
-  panel.x_label = "step h";
-  panel.y_label = "error over [0, 1/2]";
-  panel.logarithms = true;
-  std::vector<std::vector<Rung>> curves;
-  std::string head = "# log2 h";
+  panel.x = {"step h", AxisScale::binary};
+  panel.y = {"error over [0, 1/2]", AxisScale::decimal};
+  std::vector<std::vector<Rung>> ladders;
+  std::string text = "log2 h";
   for (const Line& line : lines) {
-    curves.push_back(rungs_of(line));
-    head += ",log10 of the error of " + line.label;
-    Curve curve{csv, 1, static_cast<int>(curves.size()) + 1, 0, line.label};
-    curve.points = true;
-    panel.curves.push_back(curve);
+    ladders.push_back(rungs_of(line));
+    text += ",log10 of the error of " + line.label;
+    Curve& curve = panel.curves.emplace_back(Curve{line.label, {}, true});
+    for (const Rung& rung : ladders.back()) curve.points.push_back({rung.step, rung.error * log10_of_2});
   }
-  std::string text = head + "\n";
-  for (std::size_t i = 0; i < curves.front().size(); ++i) {
-    text += text_of(curves.front()[i].step);
-    for (const auto& curve : curves) text += "," + text_of(curve.at(i).error * log10_of_2);
+  text += "\n";
+  for (std::size_t i = 0; i < ladders.front().size(); ++i) {
+    text += text_of(ladders.front()[i].step);
+    for (const auto& rungs : ladders) text += "," + text_of(rungs.at(i).error * log10_of_2);
     text += "\n";
   }
   write_file(csv, text);
-  for (const auto& [line, slope] : slopes) add_triangle(panel, curves[line], curves[line].size() - 3, slope);
+  for (const auto& [line, slope] : slopes) add_triangle(panel, ladders[line], ladders[line].size() - 3, slope);
   return panel;
 }
 

@@ -112,6 +112,8 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
     kept_file.emplace(*csv);
     observers.push_back(&*kept_file);
   }
+  std::optional<MotionRecorder<S>> recorder;
+  if (hooks.recording) observers.push_back(&recorder.emplace(scene.problem, grid.steps(), *hooks.recording));
   MomentumDrift<S> momenta(scene.problem, observed_momenta(request.scene, scene));
   if (!momenta.components().empty()) observers.push_back(&momenta);
   HealthWatch<S> health(scene.problem, *result.method, grid);
@@ -141,7 +143,8 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   Point<S> point(scene.problem);
   const OutputState<S> output = output_state(point, end.q, end.p);
   result.output_p = texts(output.p);
-  result.output_lambda = texts(redundant.multipliers(end.q, output.lambda));
+  const Vector<S> output_lambda = redundant.multipliers(end.q, output.lambda);
+  result.output_lambda = texts(output_lambda);
   result.output_delta_H = to_text(S(point.energy(end.q, output.p) - simulated.H0));
   result.e_H = to_text(simulated.e_H);
   result.e_g = to_text(simulated.e_g);
@@ -154,6 +157,8 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
         {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +
                                       to_scientific(simulated.redundancy, 3) + " of their terms"});
   if (shadowed) result.shadow = shadowed->compare(request, *result.method, course.start);
+  if (request.error)
+    result.error = estimate_error(request, *result.method, course.start, end.q, output.p, output_lambda);
   result.cpu_seconds = simulated.integration.cpu_seconds;
   if (request.scene.observes("energy"))
     result.observables.push_back({"energy", to_text(simulated.H0), to_text(simulated.e_H)});

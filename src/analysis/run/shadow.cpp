@@ -5,31 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "hbvm/analysis/simulate.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "run_beside.hpp"
 
 namespace hbvm {
 namespace {
-
-template <Scalar S>
-unsigned digits_of_shadow() {
-  constexpr unsigned more = 16;
-  if constexpr (std::same_as<S, double>) return 16 + more;
-  if constexpr (std::same_as<S, Quad>) return 34 + more;
-  return static_cast<unsigned>(digits10<S>()) + more;
-}
-
-template <Scalar S>
-Vector<Mpfr> exact_vector(const Vector<S>& x) {
-  return x.unaryExpr([](const S& entry) { return rounded_to<Mpfr>(raw(exactly(entry))); });
-}
-
-/// What a state stands for: its numbers with the carry that belongs to them, which more digits hold.
-template <Scalar S>
-State<Mpfr> exact_state(const State<S>& state) {
-  return {exact_vector<S>(state.q) + exact_vector<S>(state.q_carry),
-          exact_vector<S>(state.p) + exact_vector<S>(state.p_carry)};
-}
 
 /// Sees the shadow's mesh points.
 template <Scalar S>
@@ -107,19 +87,14 @@ Shadow ShadowedRun<S>::compare(const RunRequest& request, const Method& method,
                                const std::optional<State<S>>& start) const {
   using std::log10;
   const double all = significand_bits<S>() * log10(double{2});
-  const unsigned digits = digits_of_shadow<S>();
+  const unsigned digits = digits_of_a_run_beside<S>();
   const PrecisionScope more(digits);
   Shadow shadow;
   shadow.precision = "mpfr:" + std::to_string(digits);
   shadow.every = every_;
   try {
     Comparison<S> comparison(states_, every_, steps_);
-    const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
-    const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
-    const std::unique_ptr<Stepper<Mpfr>> stepper = method.make_stepper(scene.problem, request.solver);
-    Course<Mpfr> course;
-    if (start) course.start = exact_state(*start);
-    simulate<Mpfr>(scene, *stepper, grid, {&comparison}, nullptr, nullptr, course);
+    run_beside(request, method, start, {&comparison});
     comparison.report(shadow, all);
   } catch (const Error& error) {
     shadow.failure = error.what();

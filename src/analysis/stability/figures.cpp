@@ -21,42 +21,44 @@
 namespace hbvm {
 namespace {
 
-using Points = std::vector<std::pair<double, double>>;
+using Points = std::vector<PlotPoint>;
 
 /// A curve of a panel, with its data in a file of its own.
 void add_curve(Panel& panel, const std::filesystem::path& csv, const std::string& head, const Points& points,
                const std::string& label) {
-  std::string text = "# " + head + "\n";
-  for (const auto& [x, y] : points)
-    if (std::isfinite(x) && std::isfinite(y)) text += fmt::format("{:.6g},{:.6g}\n", x, y);
+  std::string text = head + "\n";
+  Curve curve{label, {}, true};
+  for (const PlotPoint& point : points) {
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1])) continue;
+    text += fmt::format("{:.6g},{:.6g}\n", point[0], point[1]);
+    curve.points.push_back(point);
+  }
   write_file(csv, text);
-  Curve curve{csv.string(), 1, 2, 0, label};
-  curve.points = true;
-  panel.curves.push_back(curve);
+  panel.curves.push_back(std::move(curve));
 }
 
-/// A thin line of this slope through a point of the first curve, with its name.
+/// A thin line of this slope through a point, with its name.
 void add_slope(Panel& panel, double x, double y, double width, double slope, const std::string& name) {
-  const auto text = [](double value) { return fmt::format("{:.6g}", value); };
-  panel.lines.push_back({{{text(x), text(y)}, {text(x + width), text(y + slope * width)}}, ""});
-  panel.labels.push_back({{text(x + width), text(y + slope * width)}, " " + name});
+  const PlotPoint end{x + width, y + slope * width};
+  panel.lines.push_back({{{x, y}, end}});
+  panel.labels.push_back({end, name});
+}
+
+/// Both axes logarithmic.
+Panel panel_of(const std::string& title, const std::string& x, const std::string& y) {
+  Panel panel;
+  panel.title = title;
+  panel.x = {x, AxisScale::decimal};
+  panel.y = {y, AxisScale::decimal};
+  return panel;
 }
 
 Figure figure_of(const std::string& name, const std::string& caption, Panel panel) {
-  Figure figure;
-  figure.name = name;
-  figure.caption = caption;
-  figure.panels.push_back(std::move(panel));
-  return figure;
+  return {name, caption, "", {std::move(panel)}};
 }
 
 Figure growth(const std::filesystem::path& folder) {
-  Panel panel;
-  panel.title = "What round-off does to the energy, in double";
-  panel.x_label = "steps";
-  panel.y_label = "change of H, units of round-off";
-  panel.x_decades = 1;
-  panel.y_decades = 1;
+  Panel panel = panel_of("What round-off does to the energy, in double", "steps", "change of H, units of round-off");
   struct Run {
     const char *scene, *method, *step, *label;
   };
@@ -67,7 +69,7 @@ Figure growth(const std::filesystem::path& folder) {
     const Walk walk = walk_of(request_of(load_scene(run.scene), run.method, "auto", run.step, "2^20/32", "double"));
     Points points;
     for (const Straying::Point& p : walk.H)
-      points.emplace_back(std::log10(static_cast<double>(p.steps)), std::log10(p.distance));
+      points.push_back({std::log10(static_cast<double>(p.steps)), std::log10(p.distance)});
     add_curve(panel, folder / (std::string("growth_") + run.scene + ".csv"), "log10 steps,log10 units", points,
               run.label);
   }
@@ -96,32 +98,26 @@ Points points_of(const std::string& path) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
     double x = 0, y = 0;
-    if (!line.starts_with('#') && std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2) points.emplace_back(x, y);
+    if (!line.starts_with('#') && std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2) points.push_back({x, y});
   }
   return points;
 }
 
 void add_before(Panel& panel, const std::string& path, const std::string& label) {
-  if (points_of(path).empty()) return;
-  Curve curve{path, 1, 2, 0, label};
-  curve.points = true;
-  panel.curves.push_back(curve);
+  const Points points = points_of(path);
+  if (!points.empty()) panel.curves.push_back({label, points, true});
 }
 
 Figure separatrix(const std::filesystem::path& folder, const std::filesystem::path& before) {
-  Panel panel;
-  panel.title = "A pendulum near upright: what is left at t = 8";
-  panel.x_label = "angle from upright";
-  panel.y_label = "error of x over x, double";
-  panel.x_decades = 5;
-  panel.y_decades = 2;
+  Panel panel =
+      panel_of("A pendulum near upright: what is left at t = 8", "angle from upright", "error of x over x, double");
   for (const char* const solver : {"auto", "newton"}) {
     Points points;
     for (int j = 0; j <= 30; j += 2)
-      points.emplace_back(
-          -j,
-          std::log10(relative_error(
-              request_of(near_upright(fmt::format("10^(-{})/2", j)), "hbvm:8,8", solver, "1/4", "8", "double"), 0)));
+      points.push_back(
+          {static_cast<double>(-j),
+           std::log10(relative_error(
+               request_of(near_upright(fmt::format("10^(-{})/2", j)), "hbvm:8,8", solver, "1/4", "8", "double"), 0))});
     add_curve(panel, folder / (std::string("separatrix_") + solver + ".csv"), "log10 angle,log10 error", points,
               solver);
   }
@@ -130,17 +126,14 @@ Figure separatrix(const std::filesystem::path& folder, const std::filesystem::pa
 }
 
 Figure light_body(const std::filesystem::path& folder, const std::filesystem::path& before) {
-  Panel panel;
-  panel.title = "A light body beside a heavy one, after two orbits";
-  panel.x_label = "mass of the light body";
-  panel.y_label = "error of its position, double";
-  panel.x_decades = 2;
-  panel.y_decades = 2;
+  Panel panel = panel_of("A light body beside a heavy one, after two orbits", "mass of the light body",
+                         "error of its position, double");
   Points points;
   for (int j = 0; j <= 16; ++j)
-    points.emplace_back(-j, std::log10(relative_error(request_of(beside_kepler(fmt::format("10^(-{})", j)), "hbvm:6,2",
-                                                                 "auto", "2*pi/64", "4*pi", "double"),
-                                                      3)));
+    points.push_back(
+        {static_cast<double>(-j), std::log10(relative_error(request_of(beside_kepler(fmt::format("10^(-{})", j)),
+                                                                       "hbvm:6,2", "auto", "2*pi/64", "4*pi", "double"),
+                                                            3))});
   add_before(panel, (before / "light_body_before.csv").string(), "before");
   add_curve(panel, folder / "light_body.csv", "log10 mass,log10 error", points, "now");
   return figure_of("light_body", "The error of a body does not depend on who else is there", std::move(panel));
@@ -155,7 +148,7 @@ class HiddenSoFar final : public Observer<S> {
     raise_to(greatest_, max_norm(point_.hidden_constraints(snapshot.q, snapshot.p)));
     const long n = snapshot.n;
     if (n > 8 && ((n & (n - 1)) == 0 || n == grid_.steps()))
-      points.emplace_back(std::log10(approximately(snapshot.t)), std::log10(approximately(greatest_)));
+      points.push_back({std::log10(approximately(snapshot.t)), std::log10(approximately(greatest_))});
   }
   Points points;
 
@@ -166,12 +159,7 @@ class HiddenSoFar final : public Observer<S> {
 };
 
 Figure hidden(const std::filesystem::path& folder) {
-  Panel panel;
-  panel.title = "Heavy top, h = 1/10: the hidden constraint so far";
-  panel.x_label = "t";
-  panel.y_label = "e_{hid}";
-  panel.x_decades = 1;
-  panel.y_decades = 1;
+  Panel panel = panel_of("Heavy top, h = 1/10: the hidden constraint so far", "t", "e_{hid}");
   const Assembled<double> scene = assemble<double>(load_scene("heavy_top"));
   const TimeGrid<double> grid(Expression::parse("1/10"), Expression::parse("6553.6"));
   for (int s = 1; s <= 4; ++s) {

@@ -7,18 +7,10 @@
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "hbvm/analysis/run/run.hpp"
+#include "hbvm/scalar/text.hpp"
 
 namespace hbvm {
 namespace {
-
-std::string to_three_digits(const std::string& text) {
-  BigFloat x(200);
-  mpfr_set_str(raw(x), text.c_str(), 10, MPFR_RNDN);
-  char* digits = nullptr;
-  mpfr_asprintf(&digits, "%.2Re", raw(x));
-  const std::unique_ptr<char, void (*)(char*)> owner(digits, mpfr_free_str);
-  return digits;
-}
 
 /// What is kept of a run.
 struct LongRun {
@@ -82,8 +74,8 @@ Findings conclude(const Experiment& experiment, const std::vector<RunRequest>& r
     const RunRequest& request = requests[n];
     const LongRun& run = runs.emplace_back(read_long_run(results[n]));
     table.groups.back().rows.push_back(
-        {letter(request.method, "k"), letter(request.method, "s"), request.until.text(), to_three_digits(run.e_H),
-         to_three_digits(run.e_g), to_three_digits(run.e_hid), to_three_digits(run.output_delta_H),
+        {letter(request.method, "k"), letter(request.method, "s"), request.until.text(), to_scientific(run.e_H, 3),
+         to_scientific(run.e_g, 3), to_scientific(run.e_hid, 3), to_scientific(run.output_delta_H, 3),
          fmt::format("{:.1f}", run.iterations_per_step), seconds[n] ? fmt::format("{:.2f}", *seconds[n]) : "---"});
   }
   if (experiment.check) findings.agreement = check(experiment, table, runs);

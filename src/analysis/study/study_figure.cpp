@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
+#include <sstream>
 
 #include "analysis/json.hpp"
 #include "expected_csv.hpp"
 #include "hbvm/analysis/run/run.hpp"
+#include "hbvm/analysis/run/run_figure.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/report/figure.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scalar/big_float.hpp"
+#include "hbvm/scene/coordinate_names.hpp"
 #include "hbvm/write_file.hpp"
 
 namespace hbvm {
@@ -35,52 +40,107 @@ std::string read_trajectory(const std::string& text) {
   return read_json(text, "a figure", [](const OrderedJson& j) { return j.at("csv").get<std::string>(); });
 }
 
-std::vector<std::string> coordinates(const TomlTable& reader, const toml::node& node) {
-  const std::size_t size = node.is_array() ? node.as_array()->size() : 0;
-  if (size != 2 && size != 3) reader.fail(node, "a point has two or three coordinates");
-  std::vector<std::string> result;
-  for (const Expression& x : reader.to_vector(node, size, "a point"))
-    result.push_back(fmt::format("{}", evaluate<double>(x)));
-  return result;
+/// A trajectory, column by column.
+class Columns {
+ public:
+  explicit Columns(const std::string& csv) {
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) {
+      if (names_.empty())
+        names_ = split(line.starts_with("# ") ? line.substr(2) : line);
+      else if (!line.starts_with('#'))
+        rows_.push_back(split(line));
+    }
+  }
+
+  /// \throws InputError by way of the reader
+  std::vector<double> column(const TomlTable& reader, const std::string& name, AxisScale scale) const {
+    const auto place = std::find(names_.begin(), names_.end(), name);
+    if (place == names_.end()) reader.fail("there is no column '" + name + "'");
+    const auto i = static_cast<std::size_t>(place - names_.begin());
+    std::vector<double> values;
+    for (const auto& row : rows_)
+      values.push_back(scale == AxisScale::decimal ? log10_of(row.at(i)) : number(row.at(i)));
+    return values;
+  }
+
+  /// Its states: t stands first, then the m coordinates of q.
+  Recording recording(std::size_t m) const {
+    Recording recording;
+    for (const auto& row : rows_) {
+      Recording::Sample& sample = recording.samples.emplace_back();
+      sample.t = number(row.at(0));
+      for (std::size_t i = 1; i <= m; ++i) sample.q.push_back(number(row.at(i)));
+    }
+    return recording;
+  }
+
+ private:
+  static double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+  /// Of its magnitude, which may lie beyond the range of double.
+  static double log10_of(const std::string& text) {
+    constexpr unsigned digits = 20;
+    BigFloat x(digits);
+    mpfr_set_str(raw(x), text.c_str(), 10, MPFR_RNDN);
+    if (mpfr_zero_p(raw(x))) return -std::numeric_limits<double>::infinity();
+    mpfr_abs(raw(x), raw(x), MPFR_RNDN);
+    mpfr_log10(raw(x), raw(x), MPFR_RNDN);
+    return mpfr_get_d(raw(x), MPFR_RNDN);
+  }
+
+  std::vector<std::string> names_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// The trajectory of the run that a table names by its number; the first if it does not.
+const Columns& stated_run(TomlTable& reader, const std::vector<Columns>& runs) {
+  const long run = reader.has("run") ? reader.integer("run") : 1;
+  if (run < 1 || run > static_cast<long>(runs.size())) reader.fail("there is no run " + std::to_string(run));
+  return runs[static_cast<std::size_t>(run - 1)];
 }
 
-Panel panel(TomlTable reader, const std::vector<std::string>& csvs, const std::vector<std::string>& columns) {
+bool stated(TomlTable& reader, const std::string& key) {
+  const toml::node* const node = reader.take(key);
+  return node && node->value_or(false);
+}
+
+/// motion = "xz": the scene's motion as it is seen along y, with its rods at so many times.
+Panel motion(TomlTable& reader, const Scene& scene, const std::vector<Columns>& runs) {
+  const std::string plane = reader.string("motion"), axes = "xyz";
+  const std::size_t across = axes.find(plane.substr(0, 1)),
+                    up = axes.find(plane.substr(std::min<std::size_t>(1, plane.size())));
+  if (plane.size() != 2 || across == up || std::max(across, up) >= static_cast<std::size_t>(scene.dimension))
+    reader.fail("'motion' is two axes of the scene, as \"xy\"");
+  const long rods = reader.has("rods") ? reader.integer("rods") : 0;
+  if (rods < 0) reader.fail("'rods' is a number of times");
+  const std::size_t m = coordinate_names(scene).size();
+  return motion_panel(sketch(scene), stated_run(reader, runs).recording(m),
+                      {static_cast<int>(across), static_cast<int>(up), rods});
+}
+
+/// Columns of the trajectories against each other.
+Panel curves(TomlTable& reader, const std::vector<Columns>& runs) {
   Panel panel;
-  panel.title = reader.string("title");
-  panel.x_label = reader.string("x_label");
-  panel.y_label = reader.string("y_label");
-  panel.z_label = reader.optional_string("z_label");
-  if (const toml::node* const node = reader.take("equal_axes")) panel.equal_axes = node->value_or(false);
-  const auto column = [&](const std::string& name) {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (columns[i] == name) return static_cast<int>(i) + 1;
-    reader.fail("there is no column '" + name + "'");
-  };
+  panel.x.label = reader.string("x_label");
+  panel.y.label = reader.string("y_label");
+  panel.equal_axes = stated(reader, "equal_axes");
+  if (stated(reader, "y_log")) panel.y.scale = AxisScale::decimal;
   for (const toml::table* table : reader.tables("curve")) {
     TomlTable curve(reader.source(), *table, "curve");
-    const long run = curve.has("run") ? curve.integer("run") : 1;
-    if (run < 1 || run > static_cast<long>(csvs.size())) curve.fail("there is no run " + std::to_string(run));
-    Curve c{csvs[static_cast<std::size_t>(run - 1)], column(curve.string("x")), column(curve.string("y")), 0,
-            curve.string("label")};
-    if (curve.has("z")) c.z = column(curve.string("z"));
-    if (const toml::node* const node = curve.take("spokes")) c.spokes = node->value_or(false);
+    const Columns& run = stated_run(curve, runs);
+    const std::vector<double> x = run.column(curve, curve.string("x"), panel.x.scale),
+                              y = run.column(curve, curve.string("y"), panel.y.scale);
+    Curve& c = panel.curves.emplace_back(Curve{curve.optional_string("label"), {}});
+    for (std::size_t i = 0; i < x.size(); ++i) c.points.push_back({x[i], y[i]});
     curve.finish();
-    panel.curves.push_back(std::move(c));
   }
-  for (const toml::table* table : reader.tables("mark")) {
-    TomlTable mark(reader.source(), *table, "mark");
-    panel.marks.push_back({coordinates(mark, mark.require("at")), mark.string("label")});
-    mark.finish();
-  }
-  for (const toml::table* table : reader.tables("line")) {
-    TomlTable line(reader.source(), *table, "line");
-    Polyline polyline{{}, line.string("label")};
-    const toml::node& points = line.require("through");
-    if (!points.is_array() || points.as_array()->empty()) line.fail(points, "'through' must be an array of points");
-    for (const toml::node& point : *points.as_array()) polyline.points.push_back(coordinates(line, point));
-    line.finish();
-    panel.lines.push_back(std::move(polyline));
-  }
+  return panel;
+}
+
+Panel panel(TomlTable reader, const Scene& scene, const std::vector<Columns>& runs) {
+  const std::string title = reader.string("title");
+  Panel panel = reader.has("motion") ? motion(reader, scene, runs) : curves(reader, runs);
+  panel.title = title;
   reader.finish();
   return panel;
 }
@@ -122,15 +182,17 @@ Part<std::vector<std::string>> study_figure(const Experiment& experiment, TomlTa
   reader.finish();
   part.conclude = [&experiment, &source = reader.source(), figure, csvs, panels,
                    of_figure](const std::vector<std::string>& results) {
-    std::vector<std::string> files = csvs, columns;
+    std::vector<std::string> files = csvs;
+    std::vector<Columns> runs;
     for (std::size_t n = 0; n < csvs.size(); ++n) {
       const std::string csv = read_trajectory(results[n]);
       write_file(csvs[n], csv);
-      columns = split(csv.substr(0, csv.find('\n')).substr(2));
+      runs.emplace_back(csv);
     }
     Figure drawn = figure;
+    drawn.footnote = experiment.provenance[0] + ", " + experiment.provenance[1];
     for (const toml::table* table : panels)
-      drawn.panels.push_back(panel(TomlTable(source, *table, "panel" + of_figure), csvs, columns));
+      drawn.panels.push_back(panel(TomlTable(source, *table, "panel" + of_figure), experiment.scene, runs));
     files.push_back((experiment.results / (figure.name + ".svg")).string());
     draw(drawn, files.back());
     return files;

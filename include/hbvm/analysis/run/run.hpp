@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "hbvm/analysis/account.hpp"
+#include "hbvm/analysis/run/error_estimate.hpp"
 #include "hbvm/analysis/run/health.hpp"
+#include "hbvm/analysis/run/recording.hpp"
 #include "hbvm/analysis/run/run_request.hpp"
 #include "hbvm/analysis/run/shadow.hpp"
 #include "hbvm/integrate/checkpoint.hpp"
@@ -57,6 +59,7 @@ struct RunResult {
   Account account;
   Health health;
   std::optional<Shadow> shadow;
+  std::optional<ErrorEstimate> error;
   std::vector<Observed> observables;  ///< those the scene names: the energy, conserved components of momenta
 };
 
@@ -66,6 +69,7 @@ struct RunHooks {
   long every = 1;                                      ///< mesh points a CSV line
   std::function<void(long, long)> progress;            ///< (steps made, of)
   Checkpoints* checkpoints = nullptr;                  ///< where the run is kept, if it is
+  Recording* recording = nullptr;                      ///< filled for a picture, also of a run that fails on the way
 };
 
 /// \throws InputError, IntegrationError, Interrupted

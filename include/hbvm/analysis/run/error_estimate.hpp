@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hbvm/analysis/run/run_request.hpp"
+#include "hbvm/integrate/output_state.hpp"
+
+namespace hbvm {
+
+/// How far the end of a run is from the exact motion: its difference from a run beside it with the same step, more
+/// stages and 16 more digits. Positions, and the momenta and multipliers of the output state.
+struct ErrorEstimate {
+  std::string method, precision;                          ///< of the run beside
+  std::string q, p, lambda;                               ///< the greatest differences; empty without constraints
+  std::vector<double> q_digits, p_digits, lambda_digits;  ///< that are right, of each; at most those of the precision
+  std::string failure;  ///< why the run beside did not reach the end, if it did not; nothing else is known
+};
+
+/// \param method with the k that was chosen \param start where the run began, if not at the start of its scene
+/// \param output_lambda of all constraints
+template <Scalar S>
+ErrorEstimate estimate_error(const RunRequest& request, const Method& method, const std::optional<State<S>>& start,
+                             const Vector<S>& q, const Vector<S>& output_p, const Vector<S>& output_lambda);
+
+/// A decimal with the digits that are right, and one more; of none right, with that one.
+std::string to_right_digits(const std::string& number, double right);
+
+/// Lines for people: the greatest errors, or the failure.
+std::string to_text(const ErrorEstimate& estimate);
+
+#define HBVM_DECLARE(S)                                                                                             \
+  extern template ErrorEstimate estimate_error<S>(const RunRequest&, const Method&, const std::optional<State<S>>&, \
+                                                  const Vector<S>&, const Vector<S>&, const Vector<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,113 @@
+#include "axis_range.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hbvm {
+namespace {
+
+/// The least of 1, 2, 5, 10, 20, ... that is not below x > 0.
+double round_above(double x) {
+  const double power = std::pow(10, std::floor(std::log10(x)));
+  for (const int step : {1, 2, 5})
+    if (step * power >= x * (1 - 1e-12)) return step * power;
+  return 10 * power;
+}
+
+/// The multiples of a step that lie in the range, with room for what rounding does to its ends.
+std::pair<long, long> multiples(const AxisRange& range, double step) {
+  constexpr double slack = 1e-9;
+  return {std::lround(std::ceil(range.from / step - slack)), std::lround(std::floor(range.to / step + slack))};
+}
+
+Tics linear_tics(const AxisRange& range, int most) {
+  double step = round_above(range.length() / most);
+  const auto count = [&] {
+    const auto [first, last] = multiples(range, step);
+    return last - first + 1;
+  };
+  while (count() > most) step = round_above(step * 1.5);
+  Tics result;
+  const auto [first, last] = multiples(range, step);
+  const double greatest = step * static_cast<double>(std::max(std::labs(first), std::labs(last)));
+  // Numbers of more than five digits before the point, or of three zeros behind it, have a power in common.
+  const int exponent = greatest > 0 ? static_cast<int>(std::floor(std::log10(greatest) + 1e-9)) : 0;
+  const int common = exponent >= 5 || exponent <= -3 ? exponent : 0;
+  if (common != 0) result.factor = fmt::format("10^{{{}}}", common);
+  const int decimals = std::max(0, common - static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  for (long n = first; n <= last; ++n) {
+    const double at = step * static_cast<double>(n);
+    result.tics.push_back({at, fmt::format("{:.{}f}", n == 0 ? 0 : at / std::pow(10, common), decimals)});
+  }
+  return result;
+}
+
+/// Powers of a base at integers, at most so many of them with a number.
+Tics power_tics(const AxisRange& range, int base, int most) {
+  const auto [first, last] = multiples(range, 1);
+  long step = 1;
+  for (const long candidate : {1, 2, 3, 4, 5, 10, 20, 50, 100, 200, 500, 1000}) {
+    step = candidate;
+    if ((last - first) / step + 1 <= most) break;
+  }
+  Tics result;
+  for (long n = first; n <= last; ++n)
+    result.tics.push_back({static_cast<double>(n), n % step == 0 ? fmt::format("{}^{{{}}}", base, n) : std::string()});
+  return result;
+}
+
+Tics decimal_tics(const AxisRange& range, int most) {
+  Tics result = power_tics(range, 10, most);
+  constexpr int fine = 8;
+  if (range.length() > fine) return result;
+  // Few powers of ten: 2 and 5 times them bear numbers, too.
+  const bool numbered =
+      std::count_if(result.tics.begin(), result.tics.end(), [](const Tic& t) { return !t.text.empty(); }) < 2;
+  const auto [first, last] = multiples({std::floor(range.from), std::ceil(range.to)}, 1);
+  for (long n = first; n <= last; ++n)
+    for (int digit = 2; digit <= 9; ++digit) {
+      const double at = static_cast<double>(n) + std::log10(digit);
+      if (at < range.from || at > range.to) continue;
+      const bool written = numbered && (digit == 2 || digit == 5);
+      result.tics.push_back({at, written ? fmt::format("{}·10^{{{}}}", digit, n) : std::string()});
+    }
+  return result;
+}
+
+}  // namespace
+
+AxisRange range_of(const std::vector<double>& values) {
+  AxisRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    range.from = std::min(range.from, value);
+    range.to = std::max(range.to, value);
+  }
+  if (range.from > range.to) return {0, 1};
+  // Numbers whose difference a picture cannot show.
+  const double least = 1e-9 * std::max(std::abs(range.from), std::abs(range.to));
+  if (range.length() > least) return range;
+  const double middle = range.from + range.length() / 2, half = middle != 0 ? std::abs(middle) / 10 : 1;
+  return {middle - half, middle + half};
+}
+
+AxisRange widened(const AxisRange& range, double share) {
+  return {range.from - share * range.length(), range.to + share * range.length()};
+}
+
+Tics tics_of(const AxisRange& range, AxisScale scale, int most) {
+  switch (scale) {
+    case AxisScale::linear:
+      return linear_tics(range, most);
+    case AxisScale::binary:
+      return power_tics(range, 2, most);
+    case AxisScale::decimal:
+      return decimal_tics(range, most);
+  }
+  return {};
+}
+
+}  // namespace hbvm

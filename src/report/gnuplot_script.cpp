@@ -1,0 +1,333 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "axis_range.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/report/figure.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Okabe and Ito's colours, told apart by all eyes; black is for what is no curve.
+constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
+constexpr int dashes[] = {1, 2, 4, 5, 3};
+constexpr int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12};
+
+/// In pixels of an SVG.
+constexpr double box_width = 330, box_height = 270, left = 74, above = 34, below = 52, between = 18;
+constexpr double letter_width = 6.6, line_height = 14, title_height = 26, footnote_height = 20;
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
+/// How many letters are seen of UTF-8.
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+struct Placed {
+  double at;  ///< in pixels from below
+  std::size_t curve;
+};
+
+/// Moves labels apart that would stand on each other, as little as may be, and within the box.
+void spread(std::vector<Placed>& labels) {
+  std::sort(labels.begin(), labels.end(), [](const Placed& a, const Placed& b) { return a.at < b.at; });
+  const double distance =
+      std::min(line_height, box_height / static_cast<double>(std::max<std::size_t>(1, labels.size())));
+  // Groups that touch are moved as one, to where their labels are off by least on average.
+  struct Group {
+    double wish;  // the sum of the places wanted for the lowest of it
+    std::size_t first, size;
+    double lowest(double apart) const {
+      return std::clamp(wish / static_cast<double>(size), 0.0, box_height - apart * static_cast<double>(size - 1));
+    }
+  };
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    groups.push_back({labels[i].at, i, 1});
+    while (groups.size() > 1) {
+      const Group &upper = groups.back(), &lower = groups[groups.size() - 2];
+      const double size = static_cast<double>(lower.size);
+      if (lower.lowest(distance) + size * distance <= upper.lowest(distance)) break;
+      const Group both{lower.wish + upper.wish - size * distance * static_cast<double>(upper.size), lower.first,
+                       lower.size + upper.size};
+      groups.pop_back();
+      groups.back() = both;
+    }
+  }
+  for (const Group& group : groups)
+    for (std::size_t i = 0; i < group.size; ++i)
+      labels[group.first + i].at = group.lowest(distance) + distance * static_cast<double>(i);
+}
+
+/// A panel with the ranges of its axes.
+class PanelScript {
+ public:
+  explicit PanelScript(const Panel& panel) : panel_(panel) {
+    std::vector<double> x, y;
+    const auto gather = [&](const PlotPoint& point) {
+      x.push_back(point[0]);
+      y.push_back(std::isfinite(point[0]) ? point[1] : NAN);
+    };
+    for (const Curve& curve : panel.curves) std::for_each(curve.points.begin(), curve.points.end(), gather);
+    for (const Polyline& line : panel.lines) std::for_each(line.points.begin(), line.points.end(), gather);
+    for (const Mark& mark : panel.marks) gather(mark.at);
+    x_ = range_of(x);
+    y_ = range_of(y);
+    constexpr double room = 0.04;
+    if (panel.equal_axes)
+      make_equal(room);
+    else
+      y_ = widened(y_, room);
+    if (panel.x.scale == AxisScale::binary) x_ = widened(x_, room);
+  }
+
+  /// What the labels at the right of its curves need, in pixels.
+  double right() const {
+    std::size_t longest = 0;
+    if (labelled())
+      for (const Curve& curve : panel_.curves) longest = std::max(longest, letters(curve.label));
+    return longest > 0 ? 10 + letter_width * static_cast<double>(longest) : 0;
+  }
+
+  /// \param x, y of the lower left corner of its box, in pixels from the figure's; \param size of the figure
+  /// \param words labels of the figure that are drawn with this panel
+  std::string text(double x, double y, const PlotPoint& size, const std::string& words) {
+    script_ = fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n", x / size[0],
+                          (x + box_width) / size[0]) +
+              fmt::format("set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n", y / size[1],
+                          (y + box_height) / size[1]) +
+              "unset label\n" + words + "set title " + quoted(panel_.title) + " offset 0,-0.4\n";
+    axis("x", panel_.x, x_, 6);
+    axis("y", panel_.y, y_, 6);
+    for (const Polyline& line : panel_.lines) add(line);
+    for (std::size_t i = 0; i < panel_.curves.size(); ++i) add(panel_.curves[i], i);
+    for (const Mark& mark : panel_.marks) add(mark);
+    label_marks();
+    for (const Label& label : panel_.labels) write(label.at, label.text, "black", 0);
+    if (labelled()) label_curves();
+    if (parts_.empty()) parts_.push_back("NaN notitle");
+    std::string plot = "plot ";
+    for (std::size_t i = 0; i < parts_.size(); ++i) plot += (i > 0 ? ", \\\n     " : "") + parts_[i];
+    return script_ + plot + "\n";
+  }
+
+ private:
+  /// No name for the only curve; none beside more curves than have room.
+  bool labelled() const {
+    constexpr std::size_t most = 24;
+    return panel_.curves.size() > 1 && panel_.curves.size() <= most;
+  }
+
+  void make_equal(double room) {
+    const double unit = (1 + 2 * room) * std::max(x_.length() / box_width, y_.length() / box_height);
+    const auto about = [&](const AxisRange& range, double pixels) {
+      const double middle = (range.from + range.to) / 2;
+      return AxisRange{middle - unit * pixels / 2, middle + unit * pixels / 2};
+    };
+    x_ = about(x_, box_width);
+    y_ = about(y_, box_height);
+  }
+
+  void axis(const std::string& name, const Axis& axis, const AxisRange& range, int most) {
+    const Tics tics = tics_of(range, axis.scale, most);
+    const std::string label = axis.label + (tics.factor.empty() ? "" : " / " + tics.factor);
+    script_ += fmt::format("set {0}range [{1:.12g}:{2:.12g}]\nset {0}label {3}{4}\nset {0}tics (", name, range.from,
+                           range.to, quoted(label), name == "x" ? " offset 0,0.2" : "");
+    std::string list;
+    for (const Tic& tic : tics.tics)
+      list += fmt::format("{}{} {:.12g}{}", list.empty() ? "" : ", ", quoted(tic.text), tic.at,
+                          tic.text.empty() ? " 1" : "");
+    script_ += list + ")\n";
+  }
+
+  std::string data(const std::vector<PlotPoint>& points) {
+    const std::string name = fmt::format("$data{}", ++blocks_);
+    script_ += name + " << EOD\n";
+    bool open = false;
+    for (const PlotPoint& point : points) {
+      const bool drawn = std::isfinite(point[0]) && std::isfinite(point[1]);
+      if (drawn) script_ += fmt::format("{:.7g} {:.7g}\n", point[0], point[1]);
+      if (!drawn && open) script_ += "\n";
+      open = drawn;
+    }
+    script_ += "EOD\n";
+    return name + " using 1:2 ";
+  }
+
+  static bool any(const std::vector<PlotPoint>& points) {
+    return std::any_of(points.begin(), points.end(),
+                       [](const PlotPoint& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); });
+  }
+
+  void add(const Curve& curve, std::size_t i) {
+    if (!any(curve.points)) return;
+    const std::string colour = quoted(colours[i % std::size(colours)]);
+    const int dash = dashes[i % std::size(dashes)], mark = marks[i % std::size(marks)];
+    constexpr std::size_t few = 40;
+    const bool differ = panel_.curves.size() > 1 && !panel_.equal_axes;
+    std::string style;
+    if (curve.marked)
+      style = fmt::format("with linespoints lw 1.4 dt {} pt {} ps 0.5", dash, mark);
+    else if (differ && curve.points.size() > few)
+      style = fmt::format("with linespoints lw 1.2 pt {} ps 0.6 pi {}", mark, 1 + curve.points.size() / 8 + i);
+    else
+      style = fmt::format("with lines lw {} dt {}", panel_.equal_axes ? "0.9" : "1.3", differ ? dash : 1);
+    parts_.push_back(data(curve.points) + style + " lc rgb " + colour + " notitle");
+  }
+
+  void add(const Polyline& line) {
+    if (!any(line.points)) return;
+    const char* const style = line.look == Polyline::Look::solid   ? "with lines lw 1.6 lc rgb '#333333'"
+                              : line.look == Polyline::Look::faint ? "with lines lw 0.8 lc rgb '#999999'"
+                                                                   : "with lines lw 1 dt 2 lc rgb '#777777'";
+    parts_.push_back(data(line.points) + style + " notitle");
+  }
+
+  void add(const Mark& mark) {
+    if (!any({mark.at})) return;
+    const char* style = "";
+    switch (mark.look) {
+      case Mark::Look::body:
+        style = "with points pt 7 ps 0.9 lc rgb 'black'";
+        break;
+      case Mark::Look::start:
+        style = "with points pt 6 ps 0.8 lc rgb '#666666'";
+        break;
+      case Mark::Look::fixed:
+        style = "with points pt 9 ps 1.3 lc rgb 'black'";
+        break;
+      case Mark::Look::positive:
+        style = "with points pt 1 ps 1.4 lw 1.5 lc rgb '#D55E00'";
+        break;
+      case Mark::Look::negative:
+        style = "with points pt 2 ps 1.2 lw 1.5 lc rgb '#0072B2'";
+        break;
+    }
+    parts_.push_back(data({mark.at}) + style + " notitle");
+  }
+
+  void write(const PlotPoint& at, const std::string& text, const std::string& colour, double lines_up,
+             double letters_right = 0.7) {
+    script_ += fmt::format("set label {} at {:.9g},{:.9g} left offset {},{} tc rgb {} front\n", quoted(text), at[0],
+                           at[1], letters_right, lines_up, quoted(colour));
+  }
+
+  /// Marks that hide each other have their names in one line.
+  void label_marks() {
+    constexpr double hidden = 8;  // pixels
+    std::vector<std::pair<PlotPoint, std::string>> labels;
+    for (const Mark& mark : panel_.marks) {
+      if (mark.label.empty() || !any({mark.at})) continue;
+      const auto near = [&](const std::pair<PlotPoint, std::string>& label) {
+        return std::abs(label.first[0] - mark.at[0]) * box_width < hidden * x_.length() &&
+               std::abs(label.first[1] - mark.at[1]) * box_height < hidden * y_.length();
+      };
+      const auto found = std::find_if(labels.begin(), labels.end(), near);
+      if (found == labels.end())
+        labels.emplace_back(mark.at, plain(mark.label));
+      else
+        found->second += ", " + plain(mark.label);
+    }
+    for (const auto& [at, text] : labels) write(at, text, "black", 0);
+  }
+
+  /// Where each curve ends: at the right of the box, moved apart, or below a point within it.
+  void label_curves() {
+    std::vector<Placed> labels;
+    for (std::size_t i = 0; i < panel_.curves.size(); ++i) {
+      const Curve& curve = panel_.curves[i];
+      if (curve.label.empty() || !any(curve.points)) continue;
+      const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(),
+                                     [](const PlotPoint& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); });
+      if ((*last)[0] < x_.to - 0.1 * x_.length()) {
+        const bool lowest = (*last)[1] < y_.from + 0.1 * y_.length();
+        write(*last, curve.label, colours[i % std::size(colours)], lowest ? 0 : -0.6, lowest ? 2.5 : 0.7);
+        continue;
+      }
+      labels.push_back({box_height * std::clamp(((*last)[1] - y_.from) / y_.length(), 0.0, 1.0), i});
+    }
+    spread(labels);
+    for (const Placed& label : labels)
+      script_ +=
+          fmt::format("set label {} at graph 1.02,{:.5f} left tc rgb {}\n", quoted(panel_.curves[label.curve].label),
+                      label.at / box_height, quoted(colours[label.curve % std::size(colours)]));
+  }
+
+  const Panel& panel_;
+  AxisRange x_, y_;
+  std::string script_;
+  std::vector<std::string> parts_;
+  int blocks_ = 0;
+};
+
+/// A terminal of gnuplot, and how large its letters are: 1 where a pixel is a pixel.
+struct Terminal {
+  std::string text;
+  double letters;
+};
+
+Terminal terminal_of(const std::string& file, const PlotPoint& size) {
+  constexpr double pixels_an_inch = 96, points_a_pixel = 0.75;
+  if (file.ends_with(".svg"))
+    return {fmt::format("svg size {:.0f},{:.0f} enhanced background rgb 'white'", size[0], size[1]), 1};
+  if (file.ends_with(".pdf"))
+    return {fmt::format("pdfcairo size {:.3f}in,{:.3f}in enhanced background rgb 'white'", size[0] / pixels_an_inch,
+                        size[1] / pixels_an_inch),
+            points_a_pixel};
+  // Twice the pixels, for paper and for fine screens.
+  if (file.ends_with(".png"))
+    return {fmt::format("pngcairo size {:.0f},{:.0f} fontscale 2 linewidth 2 pointscale 2 enhanced background rgb "
+                        "'white'",
+                        2 * size[0], 2 * size[1]),
+            points_a_pixel};
+  throw InputError("a picture is .svg, .pdf or .png, not '" + file + "'");
+}
+
+}  // namespace
+
+std::string plain(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::string_view("^_@&~{}\\").find(c) != std::string_view::npos) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string gnuplot_script(const Figure& figure, const std::string& file) {
+  const std::size_t count = figure.panels.size(), columns = std::min<std::size_t>(count, 2),
+                    rows = columns > 0 ? (count + columns - 1) / columns : 0;
+  std::vector<PanelScript> panels(figure.panels.begin(), figure.panels.end());
+  double right = between;
+  for (const PanelScript& panel : panels) right = std::max(right, panel.right());
+  const double width = left + box_width + right, height = above + box_height + below;
+  const double top = figure.caption.empty() ? 0 : title_height, foot = figure.footnote.empty() ? 0 : footnote_height;
+  const PlotPoint size{static_cast<double>(columns) * width, static_cast<double>(rows) * height + top + foot};
+  const Terminal terminal = terminal_of(file, size);
+  const auto font = [&](double pixels) { return fmt::format("font 'sans,{:g}'", pixels * terminal.letters); };
+  std::string text = "set encoding utf8\nset minussign\nset terminal " + terminal.text + " " + font(12) +
+                     "\nset output " + quoted(file) + "\nset grid lc rgb '#e4e4e4' lw 0.7\nset tics " + font(10) +
+                     " scale 0.6\nunset key\nset border lc rgb '#555555'\nset multiplot\n";
+  std::string words;
+  if (!figure.caption.empty())
+    words += fmt::format("set label 1 {} at screen 0.5,{:.5f} center {}\n", quoted(figure.caption),
+                         1 - 0.55 * title_height / size[1], font(14));
+  if (!figure.footnote.empty())
+    words += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left {} tc rgb '#555555'\n",
+                         quoted(plain(figure.footnote)), 12 / size[0], 0.5 * footnote_height / size[1], font(9));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = static_cast<double>(i % columns) * width + left,
+                 y = foot + static_cast<double>(rows - 1 - i / columns) * height + below;
+    text += panels[i].text(x, y, size, i == 0 ? words : "");
+  }
+  return text + "unset multiplot\n";
+}
+
+}  // namespace hbvm

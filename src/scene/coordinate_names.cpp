@@ -1,0 +1,18 @@
+#include "hbvm/scene/coordinate_names.hpp"
+
+namespace hbvm {
+
+std::vector<std::string> coordinate_names(const Scene& scene, const std::string& of) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& owner) {
+    for (int axis = 0; axis < scene.dimension; ++axis) names.push_back(owner + "." + of + "xyz"[axis]);
+  };
+  for (const SceneBody& body : scene.bodies) add(body.name);
+  for (const SceneRigidBody& body : scene.rigid_bodies) {
+    if (!body.fixed) add(body.name);
+    for (const char* const director : {".d1", ".d2", ".d3"}) add(body.name + director);
+  }
+  return names;
+}
+
+}  // namespace hbvm

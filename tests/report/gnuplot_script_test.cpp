@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hbvm/error.hpp"
+#include "hbvm/report/figure.hpp"
+
+namespace hbvm {
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string script(const Panel& panel) {
+  Figure figure;
+  figure.panels = {panel};
+  return gnuplot_script(figure, "x.svg");
+}
+
+/// What stood in the way of seeing energies of 1e-9: a range of +-0.02 whatever the data.
+TEST(GnuplotScript, ShowsSmallNumbersAtTheirSize) {
+  Panel panel;
+  panel.y.label = "H";
+  panel.curves = {{"", {{0, 0}, {1, 1e-9}}}};
+  const std::string text = script(panel);
+  EXPECT_TRUE(has(text, "set xrange [0:1]\n"));
+  EXPECT_TRUE(has(text, "set yrange [-4e-11:1.04e-09]\n"));
+  EXPECT_TRUE(has(text, "set ylabel 'H / 10^{-9}'"));
+  EXPECT_FALSE(has(text, "offsets"));
+}
+
+TEST(GnuplotScript, NamesCurvesAtTheirEndsAndNotTheOnlyOne) {
+  Panel panel;
+  panel.curves = {{"it's", {{0, 0}, {1, 1}}}};
+  EXPECT_FALSE(has(script(panel), "it''s"));
+  panel.curves.push_back({"other", {{0, 0}, {1, 1}}});
+  const std::string text = script(panel);
+  EXPECT_TRUE(has(text, "'it''s' at graph 1.02"));
+  // At the same place they would stand on each other: 14 of 270 pixels apart, and 1 and 1 are at 0.962 of the height.
+  const auto height = [&](const std::string& name) {
+    const std::string before = "'" + name + "' at graph 1.02,";
+    return std::stod(text.substr(text.find(before) + before.size()));
+  };
+  EXPECT_NEAR(std::abs(height("other") - height("it''s")), 14 / 270.0, 1e-4);
+  EXPECT_LE(std::max(height("other"), height("it''s")), 1);
+}
+
+TEST(GnuplotScript, NamesACurveThatEndsWithin) {
+  Panel panel;
+  panel.curves = {{"a", {{0, 0}, {1, 1}}}, {"b", {{1, 1}, {0.2, 0.5}}}};
+  EXPECT_TRUE(has(script(panel), "set label 'b' at 0.2,0.5 left"));
+}
+
+TEST(GnuplotScript, KeepsManyNamesApart) {
+  Panel panel;
+  for (int i = 0; i < 19; ++i)
+    panel.curves.push_back({"c" + std::to_string(i), {{0, 0}, {1, i == 0 ? 1.0 : 1e-3 * i}}});
+  const std::string text = script(panel);
+  std::vector<double> heights;
+  for (int i = 0; i < 19; ++i) {
+    const std::string before = "'c" + std::to_string(i) + "' at graph 1.02,";
+    ASSERT_TRUE(has(text, before));
+    heights.push_back(std::stod(text.substr(text.find(before) + before.size())));
+  }
+  std::sort(heights.begin(), heights.end());
+  EXPECT_GE(heights.front(), 0);
+  EXPECT_LE(heights.back(), 1);
+  for (std::size_t i = 1; i < heights.size(); ++i) EXPECT_GE(heights[i] - heights[i - 1], 14 / 270.0 - 1e-4);
+}
+
+TEST(GnuplotScript, InterruptsCurvesWhereThereIsNoNumber) {
+  Panel panel;
+  panel.y.scale = AxisScale::decimal;
+  panel.curves = {{"", {{0, -INFINITY}, {1, -3}, {2, -INFINITY}, {3, -4}, {4, -5}}}};
+  EXPECT_TRUE(has(script(panel), "<< EOD\n1 -3\n\n3 -4\n4 -5\nEOD\n"));
+  panel.curves = {{"", {{0, -INFINITY}}}};
+  EXPECT_TRUE(has(script(panel), "plot NaN notitle"));
+}
+
+/// 330 pixels show as many units as 270 do: the same length each.
+TEST(GnuplotScript, MakesAxesEqual) {
+  Panel panel;
+  panel.equal_axes = true;
+  panel.curves = {{"", {{-1, 0}, {1, 0.1}}}};
+  const std::string text = script(panel);
+  double x[2], y[2];
+  ASSERT_EQ(std::sscanf(text.c_str() + text.find("set xrange ["), "set xrange [%lf:%lf]", x, x + 1), 2);
+  ASSERT_EQ(std::sscanf(text.c_str() + text.find("set yrange ["), "set yrange [%lf:%lf]", y, y + 1), 2);
+  EXPECT_NEAR((x[1] - x[0]) / 330, (y[1] - y[0]) / 270, 1e-9);
+  EXPECT_LT(x[0], -1);
+  EXPECT_GT(x[1], 1);
+}
+
+TEST(GnuplotScript, LeavesNamesOfScenesAsTheyAre) {
+  EXPECT_EQ(plain("a_1^{2}@~&\\"), "a\\_1\\^\\{2\\}\\@\\~\\&\\\\");
+  Panel panel;
+  panel.marks = {{{0, 0}, Mark::Look::body, "upper_1"}};
+  EXPECT_TRUE(has(script(panel), "'upper\\_1'"));
+}
+
+TEST(GnuplotScript, NamesMarksThatHideEachOtherInOneLine) {
+  Panel panel;
+  panel.marks = {{{0, 0}, Mark::Look::body, "a"}, {{0, 1e-3}, Mark::Look::body, "b"}, {{1, 1}, Mark::Look::body, "c"}};
+  const std::string text = script(panel);
+  EXPECT_TRUE(has(text, "set label 'a, b' at 0,0 "));
+  EXPECT_TRUE(has(text, "set label 'c' at 1,1 "));
+}
+
+TEST(GnuplotScript, QuotesItsTexts) {
+  Panel panel;
+  panel.title = "the bob's path";
+  EXPECT_TRUE(has(script(panel), "set title 'the bob''s path'"));
+}
+
+TEST(GnuplotScript, RefusesAnotherEnding) {
+  EXPECT_THROW(gnuplot_script({}, "picture.jpg"), InputError);
+  for (const char* const file : {"a.svg", "b.pdf", "c.png"}) EXPECT_TRUE(has(gnuplot_script({}, file), file));
+}
+
+}  // namespace
+}  // namespace hbvm
