@@ -241,23 +241,46 @@ class PanelScript {
   /// Where each curve ends: at the right of the box, moved apart, or below a point within it.
   void label_curves() {
     std::vector<Placed> labels;
+    std::vector<std::size_t> within;
     for (std::size_t i = 0; i < panel_.curves.size(); ++i) {
       const Curve& curve = panel_.curves[i];
       if (curve.label.empty() || !any(curve.points)) continue;
-      const auto last = std::find_if(curve.points.rbegin(), curve.points.rend(),
-                                     [](const PlotPoint& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); });
-      if ((*last)[0] < x_.to - 0.1 * x_.length()) {
-        const bool lowest = (*last)[1] < y_.from + 0.1 * y_.length();
-        write(*last, curve.label, colours[i % std::size(colours)], lowest ? 0 : -0.6, lowest ? 2.5 : 0.7);
+      const PlotPoint last = end_of(curve);
+      if (last[0] < x_.to - 0.1 * x_.length()) {
+        within.push_back(i);
         continue;
       }
-      labels.push_back({box_height * std::clamp(((*last)[1] - y_.from) / y_.length(), 0.0, 1.0), i});
+      labels.push_back({box_height * std::clamp((last[1] - y_.from) / y_.length(), 0.0, 1.0), i});
     }
+    label_within(within);
     spread(labels);
     for (const Placed& label : labels)
       script_ +=
           fmt::format("set label {} at graph 1.02,{:.5f} left tc rgb {}\n", quoted(panel_.curves[label.curve].label),
                       label.at / box_height, quoted(colours[label.curve % std::size(colours)]));
+  }
+
+  static PlotPoint end_of(const Curve& curve) {
+    return *std::find_if(curve.points.rbegin(), curve.points.rend(),
+                         [](const PlotPoint& p) { return std::isfinite(p[0]) && std::isfinite(p[1]); });
+  }
+
+  /// Below the ends of curves; of those that end at the same place, one after another.
+  void label_within(const std::vector<std::size_t>& curves) {
+    for (std::size_t n = 0; n < curves.size(); ++n) {
+      const Curve& curve = panel_.curves[curves[n]];
+      const PlotPoint at = end_of(curve);
+      const bool lowest = at[1] < y_.from + 0.1 * y_.length();
+      double letters_right = lowest ? 2.5 : 0.7;
+      for (std::size_t before = 0; before < n; ++before) {
+        const Curve& other = panel_.curves[curves[before]];
+        const PlotPoint there = end_of(other);
+        if (std::abs(there[1] - at[1]) * box_height < line_height * y_.length() &&
+            std::abs(there[0] - at[0]) * box_width < letter_width * x_.length())
+          letters_right += static_cast<double>(letters(other.label)) + 1;
+      }
+      write(at, curve.label, colours[curves[n] % std::size(colours)], lowest ? 0 : -0.6, letters_right);
+    }
   }
 
   const Panel& panel_;

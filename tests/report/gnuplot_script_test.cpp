@@ -50,6 +50,14 @@ TEST(GnuplotScript, NamesACurveThatEndsWithin) {
   EXPECT_TRUE(has(script(panel), "set label 'b' at 0.2,0.5 left"));
 }
 
+TEST(GnuplotScript, NamesCurvesThatEndTogetherOneAfterAnother) {
+  Panel panel;
+  panel.curves = {{"first", {{1, 1}, {0, 0.5}}}, {"second", {{1, 0}, {0, 0.5}}}};
+  const std::string text = script(panel);
+  EXPECT_TRUE(has(text, "set label 'first' at 0,0.5 left offset 0.7,"));
+  EXPECT_TRUE(has(text, "set label 'second' at 0,0.5 left offset 6.7,"));
+}
+
 TEST(GnuplotScript, KeepsManyNamesApart) {
   Panel panel;
   for (int i = 0; i < 19; ++i)

@@ -88,8 +88,8 @@ Figure audit_figure(const std::string& folder) {
                                    {{0, 8}}, (path / "energy.csv").string()));
   const MethodPtr method = hbvm_of({2, 2});
   figure.panels.push_back(panel_of("HBVM(2,2), 50 digits: what converges how",
-                                   {{Quantity::lagmul, method, "mpfr:50", "multiplier (lagmul)"},
-                                    {Quantity::p, method, "mpfr:50", "raw p"},
+                                   {{Quantity::lagmul, method, "mpfr:50", "propagated λ"},
+                                    {Quantity::p, method, "mpfr:50", "propagated p"},
                                     {Quantity::tangential_p, method, "mpfr:50", "tangential p"},
                                     {Quantity::q, method, "mpfr:50", "q"}},
                                    {{0, 1}, {1, 2}, {3, 4}}, (path / "components.csv").string()));
