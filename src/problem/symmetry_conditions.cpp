@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace hbvm {
@@ -31,6 +32,7 @@ class Conditions {
     for (const EffectTerm<S>& term : problem_.potential.terms) effect(term);
     for (const Constraint<S>& constraint : problem_.constraints)
       std::visit([&](const auto& form) { form.stays(*this); }, constraint.form);
+    common_points();
     return std::move(rows_);
   }
 
@@ -41,6 +43,9 @@ class Conditions {
     const Place at = place(x);
     if (!at.weights.empty()) center_stays(at);
   }
+
+  /// x_i = 0: seen together with the other components.
+  void vanishes(const Displacement<S>& x, Index component) { vanishing_.emplace_back(&x, component); }
 
   /// n.x.
   void component_stays(const Vector<S>& n, const Displacement<S>& x) { component_stays(vector(n), place(x)); }
@@ -217,9 +222,33 @@ class Conditions {
     }
   }
 
+  /// A rotation mixes the components of x = 0, so that all together stay where one does not. Those set aside follow
+  /// from the others, and count.
+  void common_points() {
+    const auto same = [](const Displacement<S>& x, const Displacement<S>& y) {
+      return x.shift.size() == y.shift.size() && x.shift == y.shift &&
+             std::equal(x.blocks.begin(), x.blocks.end(), y.blocks.begin(), y.blocks.end(),
+                        [](const auto& a, const auto& b) { return a.offset == b.offset && a.weight == b.weight; });
+    };
+    std::vector<std::pair<const Displacement<S>*, Index>> all = vanishing_;
+    for (const RedundantConstraint<S>& redundant : problem_.redundant)
+      if (const auto* form = std::get_if<CommonPoint<S>>(&redundant.constraint.form))
+        all.emplace_back(&form->x, form->component);
+    for (const auto& [x, component] : vanishing_) {
+      std::set<Index> components;
+      for (const auto& [y, other] : all)
+        if (same(*x, *y)) components.insert(other);
+      if (components.size() == d_)
+        length_stays(*x);
+      else
+        component_stays(Vector<S>(Vector<S>::Unit(problem_.dimension, component)), *x);
+    }
+  }
+
   const Problem<S>& problem_;
   Mpfr unit_;
   std::size_t d_, rotations_;
+  std::vector<std::pair<const Displacement<S>*, Index>> vanishing_;
   std::vector<UncertainRow> rows_;
 };
 

@@ -29,6 +29,8 @@ class Assembler {
     for (const SceneBody& body : scene_.bodies) at_line(body.line, "body '" + body.name + "'", [&] { add(body); });
     for (const SceneRigidBody& body : scene_.rigid_bodies)
       at_line(body.line, "rigid_body '" + body.name + "'", [&] { add(body); });
+    for (const SceneAttachment& attachment : scene_.attachments)
+      at_line(attachment.line, "attachment '" + attachment.name + "'", [&] { add(attachment); });
     std::size_t number = 0;
     for (const SceneConstraint& constraint : scene_.constraints)
       at_line(constraint.line, "constraint " + std::to_string(++number) + " (" + constraint.kind + ")",
@@ -44,13 +46,21 @@ class Assembler {
   }
 
  private:
-  /// A body's place among the coordinates, or a point's place in space.
+  /// Where a body or point is, by the coordinates.
   struct Place {
-    std::optional<Index> offset;
-    Vector<S> position;     // of a point
+    Displacement<S> x;
+    Frame<S> frame;
     std::optional<S> mass;  // scalar
-    Matrix<S> mass_matrix;
+    Matrix<S> mass_matrix;  // of a body
     std::optional<S> charge;
+    std::string rigid_body = {};  // that it is a point of
+
+    bool is_fixed() const { return x.blocks.empty(); }
+  };
+  struct RigidBody {
+    Displacement<S> reference, center;
+    Frame<S> frame;
+    S mass;
   };
 
   Problem<S>& problem() { return result_.problem; }
@@ -88,15 +98,17 @@ class Assembler {
 
   void add(const ScenePoint& point) {
     Place place;
-    place.position = vector(point.position);
+    place.x.shift = vector(point.position);
     place.charge = number(point.charge);
     places_.emplace(point.name, std::move(place));
   }
 
   void add(const SceneBody& body) {
     Place place;
-    place.offset = problem().m();
-    problem().blocks.push_back({*place.offset, true});
+    const Index offset = problem().m();
+    place.x.blocks.push_back({offset, S(1)});
+    place.frame.of = Frame<S>::Of::nothing;
+    problem().blocks.push_back({offset, true});
     place.charge = number(body.charge);
     if (body.mass) {
       place.mass = number(*body.mass);
@@ -121,45 +133,39 @@ class Assembler {
     const Matrix<S> moment = symmetric(matrix(body.second_moment), "second_moment");
     const Index origin = problem().m();
     // x = r + sum_a X_a d_a: the mass matrix is [[m, m c^T], [m c, J]] times the identity of space, r fixed: J alone.
-    const Index first = body.fixed ? 0 : 1, blocks = first + 3;
+    const Index first = body.fixed ? 0 : 1, blocks = first + d_;
     Matrix<S> coefficients(blocks, blocks);
     if (!body.fixed) coefficients(0, 0) = mass;
-    for (Index a = 0; a < 3; ++a) {
+    for (Index a = 0; a < d_; ++a) {
       if (!body.fixed) coefficients(0, a + 1) = coefficients(a + 1, 0) = mass * center[a];
-      for (Index b = 0; b < 3; ++b) coefficients(first + a, first + b) = moment(a, b);
+      for (Index b = 0; b < d_; ++b) coefficients(first + a, first + b) = moment(a, b);
     }
-    Matrix<S> M = Matrix<S>::Zero(3 * blocks, 3 * blocks);
+    Matrix<S> M = Matrix<S>::Zero(d_ * blocks, d_ * blocks);
     for (Index a = 0; a < blocks; ++a)
       for (Index b = 0; b < blocks; ++b)
-        for (Index j = 0; j < 3; ++j) M(3 * a + j, 3 * b + j) = coefficients(a, b);
+        for (Index j = 0; j < d_; ++j) M(d_ * a + j, d_ * b + j) = coefficients(a, b);
     problem().mass.add_full(M);
 
     const Matrix<S> directors = matrix(body.directors);
     const Vector<S> omega = vector(body.angular_velocity);
-    if (!body.fixed) {
+    RigidBody rigid{{}, {}, {Frame<S>::Of::rigid_body}, mass};
+    if (body.fixed) {
+      rigid.reference.shift = reference;
+    } else {
+      rigid.reference.blocks.push_back({origin, S(1)});
       problem().blocks.push_back({origin, true});
       append(positions_, reference);
       append(velocities_, vector(body.velocity));
     }
-    Displacement<S> mass_center;
-    if (body.fixed)
-      mass_center.shift = reference;
-    else
-      mass_center.blocks.push_back({origin, S(1)});
-    for (Index a = 0; a < 3; ++a) {
-      const Index offset = origin + 3 * (first + a);
+    for (Index a = 0; a < d_; ++a) {
+      const Index offset = origin + d_ * (first + a);
+      rigid.frame.directors.push_back(offset);
       const Vector<S> director = directors.row(a).transpose();
       append(positions_, director);
       problem().blocks.push_back({offset, false});
-      Vector<S> rate(3);
-      for (Index j = 0; j < 3; ++j) {
-        const Index k = (j + 1) % 3, l = (j + 2) % 3;
-        rate[j] = omega[k] * director[l] - omega[l] * director[k];
-      }
-      append(velocities_, rate);
-      if (center[a] != 0) mass_center.blocks.push_back({offset, center[a]});
-      for (Index b = a; b < 3; ++b) {
-        const Displacement<S> x{{{offset, S(1)}}, {}}, y{{{origin + 3 * (first + b), S(1)}}, {}};
+      append(velocities_, turned(omega, director));
+      for (Index b = a; b < d_; ++b) {
+        const Displacement<S> x{{{offset, S(1)}}, {}}, y{{{origin + d_ * (first + b), S(1)}}, {}};
         ConstraintForms<S> orthonormal = Rod<S>{x, S(1)};
         if (b > a) orthonormal = DisplacementProduct<S>{x, y, S(0)};
         problem().constraints.push_back(
@@ -167,8 +173,41 @@ class Assembler {
              std::move(orthonormal)});
       }
     }
-    append(momenta_, Vector<S>::Zero(3 * blocks));
-    mass_centers_.push_back({std::move(mass_center), mass});
+    append(momenta_, Vector<S>::Zero(d_ * blocks));
+    rigid.center = point_of(rigid, center);
+    rigid_bodies_.emplace(body.name, std::move(rigid));
+  }
+
+  /// omega x v; in the plane omega is one number.
+  static Vector<S> turned(const Vector<S>& omega, const Vector<S>& v) {
+    Vector<S> result(v.size());
+    if (v.size() == 2) {
+      result << -omega[0] * v[1], omega[0] * v[0];
+      return result;
+    }
+    for (Index j = 0; j < 3; ++j) {
+      const Index k = (j + 1) % 3, l = (j + 2) % 3;
+      result[j] = omega[k] * v[l] - omega[l] * v[k];
+    }
+    return result;
+  }
+
+  /// The point with these components in the frame of a rigid body.
+  static Displacement<S> point_of(const RigidBody& body, const Vector<S>& at) {
+    Displacement<S> x = body.reference;
+    const auto parts = body.frame.direction(at).blocks;
+    x.blocks.insert(x.blocks.end(), parts.begin(), parts.end());
+    return x;
+  }
+
+  void add(const SceneAttachment& attachment) {
+    const RigidBody& body = rigid_bodies_.at(attachment.of);
+    Place place;
+    place.x = point_of(body, vector(attachment.at));
+    place.frame = body.frame;
+    place.charge = number(attachment.charge);
+    place.rigid_body = attachment.of;
+    places_.emplace(attachment.name, std::move(place));
   }
 
   const Place& place(const std::string& name) const { return places_.at(name); }
@@ -179,26 +218,55 @@ class Assembler {
     Vector<S> shift = Vector<S>::Zero(d_);
     bool shifted = false;
     for (const auto& [name, weight] : {std::pair(a, 1), std::pair(b, -1)}) {
-      const Place& end = place(name);
-      if (end.offset) {
-        x.blocks.push_back({*end.offset, S(weight)});
-      } else {
-        shift += S(weight) * end.position;
-        shifted = shifted || end.position != Vector<S>::Zero(d_);
-      }
+      const Displacement<S>& end = place(name).x;
+      for (const auto& block : end.blocks) add(block.offset, S(weight) * block.weight, x);
+      if (end.shift.size() == 0) continue;
+      shift += S(weight) * end.shift;
+      shifted = shifted || end.shift != Vector<S>::Zero(d_);
     }
-    if (shifted) x.shift = shift;
+    std::erase_if(x.blocks, [](const auto& block) { return block.weight == 0; });
+    if (shifted && !cancels(a, b, shift)) x.shift = shift;
     return x;
+  }
+
+  /// Adds to the weight of a block, which two points of one body share.
+  static void add(Index offset, const S& weight, Displacement<S>& x) {
+    for (auto& block : x.blocks) {
+      if (block.offset != offset) continue;
+      block.weight += weight;
+      return;
+    }
+    x.blocks.push_back({offset, weight});
+  }
+
+  /// Whether a point of a rigid body that is fixed in space is another there, but for rounding.
+  bool cancels(const std::string& a, const std::string& b, const Vector<S>& difference) const {
+    const Place &one = place(a), &other = place(b);
+    if (!one.is_fixed() || !other.is_fixed() || (one.rigid_body.empty() && other.rigid_body.empty())) return false;
+    const S size = max_norm(one.x.shift) + max_norm(other.x.shift);
+    return max_norm(difference) <= consistency_tolerance<S>() * size;
   }
 
   void add(const SceneConstraint& c) {
     ConstraintUse<S> use;
     use.dimension = d_;
     std::string name = c.kind;
-    with_constraint_form<S>(c.kind, [&]<class Form>() {
-      for (const ConstraintKey& key : Form::keys) give(c, key, use, name);
-      problem().constraints.push_back({name, form_of(Form::from(use))});
+    with_constraint_kind<S>(c.kind, [&]<class Kind>() {
+      for (const ConstraintKey& key : Kind::keys)
+        if (!key.optional || c.has(key.name)) give(c, key, use, name);
+      auto made = Kind::from(use);
+      if constexpr (requires { made.front().second; }) {
+        for (auto& [part, form] : made) add(name + " (" + part + ")", form_of(std::move(form)));
+      } else {
+        add(name, form_of(std::move(made)));
+      }
     });
+  }
+
+  void add(const std::string& name, ConstraintForms<S> form) {
+    Constraint<S> constraint{name, std::move(form)};
+    if (coordinates(constraint, d_).empty()) throw InputError("all its ends are fixed in space");
+    problem().constraints.push_back(std::move(constraint));
   }
 
   /// The value of a key; whom it names is added to the name of the constraint: "rod 'a'-'b'", "plane of 'a'".
@@ -208,12 +276,13 @@ class Assembler {
       case Takes::pair: {
         const auto& [a, b] = c.pairs.find(key.name)->second;
         use.pairs.emplace(key.name, difference(a, b));
+        use.frames.emplace(key.name, std::array{place(a).frame, place(b).frame});
         name += (name == c.kind ? " '" : ", '") + a + "'-'" + b + "'";
         break;
       }
       case Takes::body: {
         const std::string& body = c.bodies.find(key.name)->second;
-        use.bodies.emplace(key.name, *place(body).offset);
+        use.bodies.emplace(key.name, place(body).x.blocks.front().offset);
         name += (name == c.kind ? " of '" : ", '") + body + "'";
         break;
       }
@@ -268,20 +337,31 @@ class Assembler {
         use.instances.push_back(std::move(i));
       }
     } else {
+      const auto named = [&](const std::string& name) {
+        return !effect.on || std::count(effect.on->begin(), effect.on->end(), name) > 0;
+      };
       for (const SceneBody& body : scene_.bodies) {
-        if (effect.on && std::count(effect.on->begin(), effect.on->end(), body.name) == 0) continue;
+        if (!named(body.name)) continue;
         const Place& p = place(body.name);
-        auto i = instance(Effect::acts == Acts::about_a_center ? difference(body.name, effect.center)
-                                                               : Displacement<S>{{{*p.offset, S(1)}}, {}});
+        auto i = instance(Effect::acts == Acts::about_a_center ? difference(body.name, effect.center) : p.x);
         i.mass_matrix = p.mass_matrix;
         give(body.name, Effect::needs_mass, Effect::needs_charge, i, 0);
         use.instances.push_back(std::move(i));
       }
       if constexpr (Effect::acts == Acts::on_each_body) {
-        if (effect.on) return;
-        for (const auto& [x, mass] : mass_centers_) {
-          auto i = instance(x);
-          i.mass_matrix = Matrix<S>::Identity(d_, d_) * mass;
+        for (const SceneRigidBody& body : scene_.rigid_bodies) {
+          if (!named(body.name)) continue;
+          const RigidBody& rigid = rigid_bodies_.at(body.name);
+          auto i = instance(rigid.center);
+          i.mass_matrix = Matrix<S>::Identity(d_, d_) * rigid.mass;
+          use.instances.push_back(std::move(i));
+        }
+      } else if (effect.on) {
+        for (const SceneAttachment& attachment : scene_.attachments) {
+          if (!named(attachment.name)) continue;
+          if (place(attachment.name).is_fixed()) throw InputError("'" + attachment.name + "' is fixed in space");
+          auto i = instance(difference(attachment.name, effect.center));
+          give(attachment.name, Effect::needs_mass, Effect::needs_charge, i, 0);
           use.instances.push_back(std::move(i));
         }
       }
@@ -291,7 +371,8 @@ class Assembler {
   void give(const std::string& name, bool mass, bool charge, typename EffectUse<S>::Instance& i, int end) const {
     const Place& p = place(name);
     if (mass && !p.mass)
-      throw InputError("'" + name + "' has " + (p.offset ? "a mass matrix" : "no mass") + "; a scalar mass is needed");
+      throw InputError("'" + name + "' has " + (p.mass_matrix.size() > 0 ? "a mass matrix" : "no mass") +
+                       "; a scalar mass is needed");
     if (mass) i.masses[end] = *p.mass;
     if (charge && !p.charge) throw InputError("'" + name + "' has no charge");
     if (charge) i.charges[end] = *p.charge;
@@ -300,9 +381,12 @@ class Assembler {
   /// The pairs an effect names, or all: of bodies, and for charges of bodies and points.
   std::vector<std::pair<std::string, std::string>> pairs(const SceneEffect& effect, bool charged) const {
     std::vector<std::pair<std::string, std::string>> result;
+    const auto fixed = [&](const std::string& a, const std::string& b) {
+      return place(a).is_fixed() && place(b).is_fixed();
+    };
     if (effect.between) {
       for (const auto& [a, b] : *effect.between) {
-        if (!place(a).offset && !place(b).offset) throw InputError("'" + a + "' and '" + b + "' are both fixed points");
+        if (fixed(a, b)) throw InputError("'" + a + "' and '" + b + "' are both fixed points");
         result.emplace_back(a, b);
       }
       return result;
@@ -310,12 +394,16 @@ class Assembler {
     std::vector<std::string> names;
     for (const SceneBody& body : scene_.bodies)
       if (!charged || body.charge) names.push_back(body.name);
-    const std::size_t bodies = names.size();
-    if (charged)
-      for (const ScenePoint& point : scene_.points)
-        if (point.charge) names.push_back(point.name);
-    for (std::size_t a = 0; a < bodies; ++a)
-      for (std::size_t b = a + 1; b < names.size(); ++b) result.emplace_back(names[a], names[b]);
+    for (const SceneAttachment& attachment : scene_.attachments)
+      if (charged && attachment.charge) names.push_back(attachment.name);
+    for (const ScenePoint& point : scene_.points)
+      if (charged && point.charge) names.push_back(point.name);
+    const auto together = [&](const std::string& a, const std::string& b) {
+      return !place(a).rigid_body.empty() && place(a).rigid_body == place(b).rigid_body;
+    };
+    for (std::size_t a = 0; a < names.size(); ++a)
+      for (std::size_t b = a + 1; b < names.size(); ++b)
+        if (!fixed(names[a], names[b]) && !together(names[a], names[b])) result.emplace_back(names[a], names[b]);
     return result;
   }
 
@@ -426,7 +514,7 @@ class Assembler {
   Assembled<S> result_;
   std::map<std::string, Place> places_;
   std::vector<S> positions_, velocities_, momenta_;
-  std::vector<std::pair<Displacement<S>, S>> mass_centers_;  // of rigid bodies, with their masses
+  std::map<std::string, RigidBody> rigid_bodies_;
 };
 
 }  // namespace

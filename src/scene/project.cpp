@@ -97,17 +97,17 @@ Scene project(const Scene& scene) {
     if (!body.fixed) {
       body.position = take(q);
       body.velocity = take(v);
-      offset += 3;
+      offset += scene.dimension;
     }
-    // d_a' = omega x d_a gives omega = 1/2 sum d_a x d_a' for orthonormal directors.
-    Vector<S> omega = Vector<S>::Zero(3);
-    for (std::size_t a = 0; a < 3; ++a) {
+    // d_a' = omega x d_a gives omega = 1/2 sum d_a x d_a' for orthonormal directors, two in the plane or three.
+    Vector<S> omega = Vector<S>::Zero(d == 2 ? 1 : 3);
+    for (std::size_t a = 0; a < d; ++a) {
       body.directors[a] = take(q);
-      for (Index j = 0; j < 3; ++j) {
-        const Index k = (j + 1) % 3, l = (j + 2) % 3;
+      for (Index j = 0; j < omega.size(); ++j) {
+        const Index k = d == 2 ? 0 : (j + 1) % 3, l = d == 2 ? 1 : (j + 2) % 3;
         omega[j] += (q[offset + k] * v[offset + l] - q[offset + l] * v[offset + k]) / 2;
       }
-      offset += 3;
+      offset += scene.dimension;
     }
     body.angular_velocity = as_expressions(omega, 0);
   }

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -18,8 +20,8 @@ class SceneReader {
 
   void read(const toml::table& root) {
     TomlTable top(source_, root, "scene");
-    top.expect({"title", "source", "dimension", "observables", "constants", "point", "body", "rigid_body", "constraint",
-                "effect"});
+    top.expect({"title", "source", "dimension", "observables", "constants", "point", "body", "rigid_body", "attachment",
+                "constraint", "effect"});
     scene_.title = top.optional_string("title");
     scene_.source = top.optional_string("source");
     const long dimension = top.integer("dimension");
@@ -30,6 +32,7 @@ class SceneReader {
     for (const toml::table* table : top.tables("point")) point(TomlTable(source_, *table, "point"));
     for (const toml::table* table : top.tables("body")) body(TomlTable(source_, *table, "body"));
     for (const toml::table* table : top.tables("rigid_body")) rigid_body(TomlTable(source_, *table, "rigid_body"));
+    for (const toml::table* table : top.tables("attachment")) attachment(TomlTable(source_, *table, "attachment"));
     for (const toml::table* table : top.tables("constraint")) constraint(TomlTable(source_, *table, "constraint"));
     for (const toml::table* table : top.tables("effect")) effect(TomlTable(source_, *table, "effect"));
     if (const toml::node* const node = top.take("observables")) {
@@ -102,46 +105,137 @@ class SceneReader {
   }
 
   void rigid_body(TomlTable table) {
-    if (scene_.dimension != 3) table.fail("a rigid body needs dimension = 3");
     const std::string name = new_name(table, "rigid_body");
     const bool fixed = table.has("fixed_at");
     SceneRigidBody b{name,
                      fixed,
-                     table.vector(fixed ? "fixed_at" : "position", 3),
-                     fixed ? SceneVector{} : table.vector("velocity", 3),
+                     table.vector(fixed ? "fixed_at" : "position", d_),
+                     fixed ? SceneVector{} : table.vector("velocity", d_),
                      table.number("mass"),
-                     table.vector("center", 3),
-                     table.matrix("second_moment", 3),
-                     table.matrix("directors", 3),
-                     table.vector("angular_velocity", 3),
+                     table.vector("center", d_),
+                     table.matrix("second_moment", d_),
+                     table.matrix("directors", d_),
+                     d_ == 2 ? SceneVector{table.number("angular_velocity")} : table.vector("angular_velocity", 3),
                      table.line()};
     table.finish();
     rigid_.insert(b.name);
     scene_.rigid_bodies.push_back(std::move(b));
   }
 
-  /// Refuses a name that is not among the bodies (and points).
-  void check_name(const TomlTable& table, const std::string& name, bool point_allowed) const {
-    if (bodies_.contains(name) || (point_allowed && points_.contains(name))) return;
+  void attachment(TomlTable table) {
+    const std::string name = new_name(table, "attachment");
+    add_attachment(table, name, table.string("of"), table.vector("at", d_));
+  }
+
+  /// \param table with the body and the point read
+  void add_attachment(TomlTable& table, const std::string& name, const std::string& of, SceneVector at) {
+    SceneAttachment a{name, of, std::move(at), table.optional_number("charge"), table.line()};
+    table.finish();
+    if (!rigid_.contains(of)) {
+      const std::string guess = nearest(of, {rigid_.begin(), rigid_.end()});
+      table.fail(bodies_.contains(of) || points_.contains(of) || attachments_.contains(of)
+                     ? "'" + of + "' is no rigid body"
+                     : "there is no rigid body '" + of + "'" +
+                           (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
+    }
+    attachments_.emplace(name, of);
+    scene_.attachments.push_back(std::move(a));
+  }
+
+  /// A table { of = "bar", at = [...] } where a name may stand: the attachment "bar[...]", which may stand elsewhere.
+  std::string attachment_in_place(TomlTable table) {
+    const std::string of = table.string("of");
+    SceneVector at = table.vector("at", d_);
+    std::string name = of + "[";
+    for (const Expression& e : at) name += (&e == &at.front() ? "" : ", ") + e.text();
+    name += "]";
+    const auto known = std::find_if(scene_.attachments.begin(), scene_.attachments.end(),
+                                    [&](const SceneAttachment& a) { return a.name == name; });
+    if (known == scene_.attachments.end()) {
+      if (!names_.insert(name).second) table.fail("there is another body or point called '" + name + "'");
+      add_attachment(table, name, of, std::move(at));
+      return name;
+    }
+    const auto charge = table.optional_number("charge");
+    table.finish();
+    const auto differs = [](const Expression& a, const Expression& b) { return a.text() != b.text(); };
+    if (known->of != of || !std::equal(at.begin(), at.end(), known->at.begin(), known->at.end(), std::not_fn(differs)))
+      table.fail("there is another attachment called '" + name + "'");
+    if (charge && known->charge && differs(*charge, *known->charge))
+      table.fail("'" + name + "' has the charge " + known->charge->text() + " elsewhere");
+    if (charge) known->charge = charge;
+    return name;
+  }
+
+  /// What may stand where a body is named.
+  struct Allowed {
+    bool points = false, attachments = false, rigid_bodies = false;
+  };
+
+  /// Refuses a name that is not among the bodies or what is allowed besides.
+  void check_name(const TomlTable& table, const std::string& name, const Allowed& allowed) const {
+    if (bodies_.contains(name) || (allowed.points && points_.contains(name)) ||
+        (allowed.attachments && attachments_.contains(name)) || (allowed.rigid_bodies && rigid_.contains(name)))
+      return;
     if (points_.contains(name)) table.fail("'" + name + "' is a fixed point; a body is needed");
-    if (rigid_.contains(name)) table.fail("'" + name + "' is a rigid body; a body of [[body]] is needed");
+    if (rigid_.contains(name))
+      table.fail("'" + name + "' is a rigid body; " +
+                 (allowed.attachments ? "name a point of it: { of = \"" + name + "\", at = [...] }"
+                                      : "a body of [[body]] is needed"));
+    if (const auto at = attachments_.find(name); at != attachments_.end())
+      table.fail("'" + name + "' is a point of a rigid body; " +
+                 (allowed.rigid_bodies ? "name the rigid body, '" + at->second + "'" : "a body of [[body]] is needed"));
     std::vector<std::string> candidates(bodies_.begin(), bodies_.end());
-    if (point_allowed) candidates.insert(candidates.end(), points_.begin(), points_.end());
+    if (allowed.points) candidates.insert(candidates.end(), points_.begin(), points_.end());
+    if (allowed.rigid_bodies) candidates.insert(candidates.end(), rigid_.begin(), rigid_.end());
+    if (allowed.attachments)
+      for (const auto& [attachment, of] : attachments_) candidates.push_back(attachment);
     const std::string guess = nearest(name, candidates);
     table.fail("there is no body '" + name + "'" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
   }
 
-  std::array<std::string, 2> pair(TomlTable& table, std::string_view key) const {
-    const std::vector<std::string> names = table.strings(key);
-    if (names.size() != 2) table.fail("'" + std::string(key) + "' must name two bodies or points");
-    check_pair(table, key, names[0], names[1]);
-    return {names[0], names[1]};
+  /// A name, or the name of the attachment that a table describes in place.
+  std::string name(const TomlTable& table, const toml::node& node, const std::string& where) {
+    if (const toml::table* const place = node.as_table())
+      return attachment_in_place(TomlTable(source_, *place, table.what() + ": a point of a rigid body"));
+    return table.to_string(node, where);
+  }
+
+  std::vector<std::string> names(TomlTable& table, std::string_view key) {
+    const toml::node& node = table.require(key);
+    const toml::array* const array = node.as_array();
+    if (!array) table.fail(node, "'" + std::string(key) + "' must be an array of names");
+    std::vector<std::string> result;
+    for (const toml::node& entry : *array)
+      result.push_back(name(table, entry, "each entry of '" + std::string(key) + "'"));
+    return result;
+  }
+
+  std::array<std::string, 2> pair(TomlTable& table, std::string_view key) {
+    const std::vector<std::string> ends = names(table, key);
+    if (ends.size() != 2) table.fail("'" + std::string(key) + "' must name two bodies or points");
+    check_pair(table, key, ends[0], ends[1]);
+    return {ends[0], ends[1]};
   }
 
   void check_pair(const TomlTable& table, std::string_view key, const std::string& a, const std::string& b) const {
-    check_name(table, a, true);
-    check_name(table, b, true);
+    for (const std::string& end : {a, b}) check_name(table, end, {.points = true, .attachments = true});
     if (a == b) table.fail("'" + std::string(key) + "' names '" + a + "' twice");
+  }
+
+  /// What a body or point moves with: itself, its rigid body, or nothing for a fixed point.
+  std::string carrier(const std::string& name) const {
+    const auto at = attachments_.find(name);
+    return at != attachments_.end() ? at->second : points_.contains(name) ? std::string() : name;
+  }
+
+  /// Refuses ends that all move together, at distances that never change.
+  void check_ends(const TomlTable& table, const std::vector<std::string>& ends) const {
+    std::set<std::string> carriers;
+    for (const std::string& end : ends) carriers.insert(carrier(end));
+    if (carriers.size() > 1) return;
+    const std::string all = ends.size() == 2 ? "both" : "all", &of = *carriers.begin();
+    table.fail(all + " ends are " + (of.empty() ? "fixed points" : "points of the rigid body '" + of + "'"));
   }
 
   void constraint(TomlTable table) {
@@ -149,23 +243,27 @@ class SceneReader {
     c.kind = table.string("kind");
     table.rename("constraint " + std::to_string(scene_.constraints.size() + 1) + " (" + c.kind + ")");
     c.line = table.line();
-    const bool known = with_constraint_form<double>(c.kind, [&]<class Form>() {
-      for (const ConstraintKey& key : Form::keys) value(table, key, c);
+    const bool known = with_constraint_kind<double>(c.kind, [&]<class Kind>() {
+      if constexpr (requires { Kind::in_space_only; })
+        if (d_ != 3) table.fail("it needs dimension = 3; in the plane bodies turn about a 'ball_joint'");
+      for (const ConstraintKey& key : Kind::keys) value(table, key, c);
     });
     if (!known) {
       const std::string guess = nearest(c.kind, constraint_kinds());
       table.fail("unknown kind of constraint" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
     }
-    const auto fixed = [&](const auto& pair) {
-      return points_.contains(pair.second[0]) && points_.contains(pair.second[1]);
-    };
-    if (!c.pairs.empty() && c.bodies.empty() && std::all_of(c.pairs.begin(), c.pairs.end(), fixed))
-      table.fail(c.pairs.size() == 1 ? "both ends are fixed points" : "all ends are fixed points");
+    std::vector<std::string> ends;
+    for (const auto& [key, pair] : c.pairs) ends.insert(ends.end(), pair.begin(), pair.end());
+    if (!ends.empty() && c.bodies.empty()) check_ends(table, ends);
     table.finish();
     scene_.constraints.push_back(std::move(c));
   }
 
-  void value(TomlTable& table, const ConstraintKey& key, SceneConstraint& c) const {
+  void value(TomlTable& table, const ConstraintKey& key, SceneConstraint& c) {
+    if (key.optional && !table.has(key.name)) {
+      table.take(key.name);
+      return;
+    }
     using Takes = ConstraintKey::Takes;
     switch (key.takes) {
       case Takes::pair:
@@ -173,7 +271,7 @@ class SceneReader {
         break;
       case Takes::body: {
         const std::string name = table.string(key.name);
-        check_name(table, name, false);
+        check_name(table, name, {});
         c.bodies.emplace(key.name, name);
         break;
       }
@@ -221,7 +319,7 @@ class SceneReader {
     return kinds;
   }
 
-  void acts(TomlTable& table, SceneEffect& e, Acts acts) const {
+  void acts(TomlTable& table, SceneEffect& e, Acts acts) {
     if (acts == Acts::about_a_center) {
       e.center = table.string("center");
       if (!points_.contains(e.center))
@@ -230,8 +328,9 @@ class SceneReader {
     if (acts != Acts::between_pairs) {
       table.take("on");
       if (!table.has("on")) return;
-      e.on = table.strings("on");
-      for (const std::string& name : *e.on) check_name(table, name, false);
+      e.on = names(table, "on");
+      const bool each = acts == Acts::on_each_body;  // a rigid body by its centre of mass; a point of it has none
+      for (const std::string& body : *e.on) check_name(table, body, {.attachments = !each, .rigid_bodies = each});
       for (std::size_t i = 0; i < e.on->size(); ++i)
         if (std::count(e.on->begin(), e.on->end(), (*e.on)[i]) > 1) table.fail("'on' names '" + (*e.on)[i] + "' twice");
       return;
@@ -242,15 +341,17 @@ class SceneReader {
     const toml::array* const array = between->as_array();
     const bool list = array && !array->empty() && array->front().is_array();
     if (!list) {
-      const auto names = pair(table, "between");
-      e.between->emplace_back(names[0], names[1]);
+      const auto ends = pair(table, "between");
+      check_rigid(table, ends);
+      e.between->emplace_back(ends[0], ends[1]);
       return;
     }
     for (const toml::node& entry : *array) {
-      const toml::array* const names = entry.as_array();
-      if (!names || names->size() != 2) table.fail(entry, "each pair of 'between' must name two bodies or points");
-      const std::string a = table.to_string((*names)[0], "each name"), b = table.to_string((*names)[1], "each name");
+      const toml::array* const ends = entry.as_array();
+      if (!ends || ends->size() != 2) table.fail(entry, "each pair of 'between' must name two bodies or points");
+      const std::string a = name(table, (*ends)[0], "each name"), b = name(table, (*ends)[1], "each name");
       check_pair(table, "between", a, b);
+      check_rigid(table, {a, b});
       for (const auto& [x, y] : *e.between)
         if ((x == a && y == b) || (x == b && y == a))
           table.fail(entry, "the pair '" + a + "', '" + b + "' stands twice");
@@ -258,10 +359,16 @@ class SceneReader {
     }
   }
 
+  /// Refuses a force within a rigid body.
+  void check_rigid(const TomlTable& table, const std::array<std::string, 2>& ends) const {
+    if (!carrier(ends[0]).empty()) check_ends(table, {ends.begin(), ends.end()});
+  }
+
   const TomlSource& source_;
   Scene& scene_;
   std::size_t d_ = 0;
   std::set<std::string> names_, points_, bodies_, rigid_;
+  std::map<std::string, std::string> attachments_;  // with their rigid bodies
 };
 
 }  // namespace

@@ -116,13 +116,21 @@ std::string write_scene(const Scene& scene) {
     w.key("center", text(b.center));
     w.key("second_moment", text(b.second_moment));
     w.key("directors", text(b.directors));
-    w.key("angular_velocity", text(b.angular_velocity));
+    w.key("angular_velocity", scene.dimension == 2 ? text(b.angular_velocity.front()) : text(b.angular_velocity));
+  }
+  for (const SceneAttachment& a : scene.attachments) {
+    w.table("attachment");
+    w.key("name", quoted(a.name));
+    w.key("of", quoted(a.of));
+    w.key("at", text(a.at));
+    w.optional("charge", a.charge);
   }
   for (const SceneConstraint& c : scene.constraints) {
     w.table("constraint");
     w.key("kind", quoted(c.kind));
-    with_constraint_form<double>(c.kind, [&]<class Form>() {
-      for (const ConstraintKey& key : Form::keys) w.key(std::string(key.name), text(c, key));
+    with_constraint_kind<double>(c.kind, [&]<class Kind>() {
+      for (const ConstraintKey& key : Kind::keys)
+        if (!key.optional || c.has(key.name)) w.key(std::string(key.name), text(c, key));
     });
   }
   for (const SceneEffect& e : scene.effects) {

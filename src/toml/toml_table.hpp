@@ -35,6 +35,7 @@ class TomlTable {
 
   const TomlSource& source() const { return source_; }
   std::size_t line() const { return line_; }
+  const std::string& what() const { return what_; }
   void rename(std::string what) { what_ = std::move(what); }
   [[noreturn]] void fail(const std::string& what) const { source_.fail(line_, what_ + ": " + what); }
   [[noreturn]] void fail(const toml::node& node, const std::string& what) const;

@@ -26,6 +26,7 @@ class Evaluation {
     for (const SceneBody& b : scene.bodies) each(b.mass, b.mass_matrix, b.position, b.velocity, b.momentum, b.charge);
     for (const SceneRigidBody& b : scene.rigid_bodies)
       each(b.position, b.velocity, b.mass, b.center, b.second_moment, b.directors, b.angular_velocity);
+    for (const SceneAttachment& a : scene.attachments) each(a.at, a.charge);
     for (const SceneConstraint& c : scene.constraints) {
       all(c.numbers);
       all(c.vectors);

@@ -6,8 +6,8 @@
 
 namespace hbvm {
 
-/// A constraint of this form as a scene would make it, with random numbers: its pairs are bodies 0 and 1, 1 and 2, ...,
-/// its bodies the bodies 1, 2, ... of d coordinates each.
+/// A constraint of this form as a scene would make it, the first if it makes several, with random numbers: its pairs
+/// are bodies 0 and 1, 1 and 2, ..., its bodies the bodies 1, 2, ... of d coordinates each.
 template <class Form, Scalar S>
 Constraint<S> any_constraint(Index d, RandomValues<S>& random) {
   ConstraintUse<S> use;
@@ -36,7 +36,9 @@ Constraint<S> any_constraint(Index d, RandomValues<S>& random) {
     }
   }
   Constraint<S> constraint{std::string(Form::kind), {}};
-  if constexpr (requires { Form::from(use).index(); })
+  if constexpr (requires { Form::from(use).front().second; })
+    std::visit([&](const auto& form) { constraint.form = form; }, Form::from(use).front().second);
+  else if constexpr (requires { Form::from(use).index(); })
     std::visit([&](const auto& form) { constraint.form = form; }, Form::from(use));
   else
     constraint.form = Form::from(use);

@@ -1,7 +1,9 @@
 #include "hbvm/scene/assemble.hpp"
 
+#include "hbvm/problem/momenta.hpp"
 #include "hbvm/problem/point.hpp"
 #include "printing.hpp"
+#include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {
@@ -609,6 +611,210 @@ offset = 0
   expect_words(inconsistency<double>(text), {"constraint 2 (plane of 'a')", "constraint 1", "1.00e-10", "more digits"});
   EXPECT_EQ(inconsistency<Quad>(text), "");
   EXPECT_EQ(inconsistency<Mpfr>(text), "");
+}
+
+/// The scene of joined bodies against its formulas, in coordinates on no symmetry of it.
+class JoinedBodies : public ::testing::Test {
+ protected:
+  /// The point r + at.(d1, d2, d3) of the body whose reference point is at `offset`.
+  Vector<Mpfr> point(Index offset, const std::vector<const char*>& at) const {
+    Vector<Mpfr> x = q.segment(offset, 3);
+    for (std::size_t a = 0; a < 3; ++a)
+      x += q.segment(offset + 3 * (static_cast<Index>(a) + 1), 3) * literal<Mpfr>(at[a]);
+    return x;
+  }
+  Vector<Mpfr> director(Index offset, Index a) const { return q.segment(offset + 3 * a, 3); }
+  static Mpfr length(const Vector<Mpfr>& x) { return Mpfr(sqrt(Mpfr(x.dot(x)))); }
+
+  PrecisionScope digits{50};
+  Assembled<Mpfr> scene = assembled<Mpfr>(joined_bodies);
+  const Vector<Mpfr> q = generic(scene.problem.m(), 5);
+  static constexpr Index bead = 0, base = 3, arm = 15, bob = 27;  // offsets of the coordinates
+  const Vector<Mpfr> hook{{Mpfr(3), Mpfr(3), Mpfr(-1)}};
+};
+
+TEST_F(JoinedBodies, ConstraintsSayWhichPartTheyAre) {
+  ASSERT_EQ(scene.problem.m(), 3 + 3 * 12);
+  ASSERT_EQ(scene.problem.nu(), 18 + 5 + 3 + 1 + 1);
+  const std::vector<std::string> names{"hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (point, x)",
+                                       "hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (point, y)",
+                                       "hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (point, z)",
+                                       "hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (axis, 1)",
+                                       "hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (axis, 2)",
+                                       "ball_joint 'arm[0, 1/2, 0]'-'bob[0, 0, 0]' (point, x)",
+                                       "ball_joint 'arm[0, 1/2, 0]'-'bob[0, 0, 0]' (point, y)",
+                                       "ball_joint 'arm[0, 1/2, 0]'-'bob[0, 0, 0]' (point, z)",
+                                       "rod 'left'-'hook'"};
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(scene.problem.constraints[18 + i].name, names[i]);
+}
+
+TEST_F(JoinedBodies, ConstraintsAreThoseOfTheirPoints) {
+  const Vector<Mpfr> g = Point<Mpfr>(scene.problem).constraints(q);
+  const Vector<Mpfr> hinge = point(base, {"1", "0", "0"}) - point(arm, {"0", "-1/2", "0"});
+  const Vector<Mpfr> ball = point(arm, {"0", "1/2", "0"}) - point(bob, {"0", "0", "0"});
+  for (Index i = 0; i < 3; ++i) {
+    expect_near(g[18 + i], hinge[i], 10, "hinge");
+    expect_near(g[23 + i], ball[i], 10, "ball joint");
+  }
+  // The hinge's axes are d3 of the base and -d1 of the arm, whose other directors are across it.
+  expect_near(magnitude(g[21]), magnitude(Mpfr(director(base, 3).dot(director(arm, 2)))), 10, "axis");
+  expect_near(magnitude(g[22]), magnitude(Mpfr(director(base, 3).dot(director(arm, 3)))), 10, "axis");
+  const Vector<Mpfr> rod = point(bob, {"3", "0", "0"}) - hook;
+  expect_near(g[26], Mpfr(rod.dot(rod) - 6), 1'000, "rod");
+  expect_near(g[27], Mpfr(director(arm, 1).dot(Vector<Mpfr>(2 * director(bob, 1) - director(bob, 3)))), 100, "angle");
+}
+
+TEST_F(JoinedBodies, EffectsActOnTheirPoints) {
+  const Vector<Mpfr> left = point(bob, {"3", "0", "0"}), right = point(bob, {"0", "-1", "1/4"}),
+                     at = q.segment(bead, 3);
+  const Mpfr half = Mpfr(1) / 2;
+  const auto height = [&](const Vector<Mpfr>& x) { return Mpfr(x[1] / 2 - x[2]); };
+  Mpfr V = -height(point(arm, {"0", "0", "0"})) - 3 * height(point(bob, {"1/10", "1/5", "0"}));
+  // All charged pairs but those of one body.
+  const auto coulomb = [&](const Vector<Mpfr>& x, const Vector<Mpfr>& y, const Mpfr& product) {
+    V += literal<Mpfr>("0.7") * product / length(Vector<Mpfr>(x - y));
+  };
+  coulomb(at, left, 3 * half);
+  coulomb(at, right, -3);
+  coulomb(at, hook, 6);
+  coulomb(left, hook, 1);
+  coulomb(right, hook, -2);
+  for (const Vector<Mpfr>& x : {Vector<Mpfr>(at - right), Vector<Mpfr>(point(base, {"0", "2", "0"}) - left)}) {
+    const Mpfr stretch = length(x) - half;
+    V += stretch * stretch;
+  }
+  for (const Vector<Mpfr>& x : {Vector<Mpfr>(at - hook), Vector<Mpfr>(point(arm, {"1/3", "0", "1"}) - hook)})
+    V += 3 * half * x.dot(x);
+  expect_near(Point<Mpfr>(scene.problem).energy(q, Vector<Mpfr>::Zero(q.size())), V, 1'000, "potential energy");
+}
+
+/// The forces are the derivatives of that energy.
+TEST_F(JoinedBodies, ForcesAreDerivatives) {
+  Point<Mpfr> at(scene.problem);
+  const Vector<Mpfr> zero = Vector<Mpfr>::Zero(q.size()), v = generic(q.size(), 2);
+  const Mpfr step = literal<Mpfr>("1e-16");
+  const Mpfr slope =
+      (at.energy(Vector<Mpfr>(q - step * v), zero) - at.energy(Vector<Mpfr>(q + step * v), zero)) / (2 * step);
+  EXPECT_LE(magnitude(Mpfr(at.forces(q, zero).applied.dot(v) - slope)), literal<Mpfr>("1e-26"));
+}
+
+std::string conserved(const std::string& text) {
+  std::string names;
+  for (const auto& component : conserved_momenta(assembled<double>(text).problem))
+    names += (names.empty() ? "" : ", ") + component.name();
+  return names;
+}
+
+/// The scene without what acts on it, and without the rod to the hook.
+std::string free_chain() {
+  std::string text = joined_bodies.substr(0, joined_bodies.find("[[effect]]"));
+  return changed(text, "[[constraint]]\nkind = \"rod\"\nbetween = [\"left\", \"hook\"]\nlength = \"sqrt(6)\"\n", "");
+}
+
+/// Joints keep all momenta, though a rotation mixes the components of a common point.
+TEST(JoinedMomenta, OfAFreeChainAreAllConserved) {
+  EXPECT_EQ(conserved(free_chain()), "P_x, P_y, P_z, L_x, L_y, L_z");
+  EXPECT_EQ(assembled<double>(free_chain()).problem.nu(), 27);
+}
+
+TEST(JoinedMomenta, OfAChainThatHangsAreThoseAboutTheNail) {
+  const std::string joint =
+      "[[constraint]]\nkind = \"ball_joint\"\nbetween = [\"nail\", { of = \"base\", at = [0, 0, 0] }]\n";
+  const std::string nail = "[[point]]\nname = \"nail\"\nposition = [0, 0, 0]\n";
+  std::string text = changed(free_chain(), "[[body]]", nail + "[[body]]") + joint;
+  for (const auto& [from, to] : {std::pair("velocity = [1, 0, 0]", "velocity = [0, 0, 0]"),
+                                 std::pair("velocity = [1, \"5/2\", 0]", "velocity = [0, \"5/2\", 0]"),
+                                 std::pair("velocity = [1, 4, 0]", "velocity = [0, 4, 0]")})
+    text = changed(text, from, to);
+  EXPECT_EQ(conserved(text), "L_x, L_y, L_z");
+  const std::string gravity = "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, -1, 0]\n";
+  EXPECT_EQ(conserved(text + gravity), "L_y");
+  // A hinge in space leaves the rotations about its axis; the base turns about z.
+  const std::string hinge = changed(joint, "\"ball_joint\"", "\"hinge\"\naxis = [0, 0, 1]");
+  EXPECT_EQ(conserved(changed(text, joint, hinge)), "L_z");
+  EXPECT_EQ(conserved(changed(text, joint, hinge) + gravity), "");
+}
+
+/// A body on a fixed point needs no second one there, but a hinge must be at that point.
+TEST(Hinge, OfABodyWithAFixedPointIsItsAxis) {
+  const auto top = [](const char* post, const char* at) {
+    return std::string("dimension = 3\n[[point]]\nname = \"post\"\nposition = ") + post +
+           "\n[[rigid_body]]\nname = \"top\"\nfixed_at = [\"1/3\", \"1/7\", \"sqrt(2)\"]\nmass = 1\ncenter = [0, 0, "
+           "1]\n"
+           "second_moment = [[1, 0, 0], [0, 1, 0], [0, 0, 2]]\ndirectors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
+           "angular_velocity = [0, 0, 3]\n"
+           "[[constraint]]\nkind = \"hinge\"\nbetween = [\"post\", { of = \"top\", at = " +
+           at + " }]\naxis = [0, 0, 1]\n";
+  };
+  const PrecisionScope digits(50);
+  const std::string written_otherwise = "[\"2/6\", \"1 - 6/7\", \"2/sqrt(2)\"]";
+  EXPECT_EQ(assembled<double>(top(written_otherwise.c_str(), "[0, 0, 0]")).problem.nu(), 8);
+  EXPECT_EQ(assembled<Mpfr>(top(written_otherwise.c_str(), "[0, 0, 0]")).problem.nu(), 8);
+  expect_words(inconsistency<double>(top("[0, 0, 0]", "[0, 0, 0]")),
+               {"test.toml:", "hinge", "fixed in space", "apart"});
+  // At another point of its axis, above the fixed one, three of the common point follow from the body's own.
+  const auto above = assembled<Mpfr>(top("[\"1/3\", \"1/7\", \"sqrt(2) + 2\"]", "[0, 0, 2]"));
+  EXPECT_EQ(above.problem.nu(), 8);
+  EXPECT_EQ(above.problem.redundant.size(), 3u);
+}
+
+TEST(Hinge, OfAMassPointIsRefused) {
+  const std::string text = changed(joined_bodies, "{ of = \"base\", at = [1, 0, 0] }", "\"bead\"");
+  expect_words(inconsistency<double>(text),
+               {"test.toml:" + std::to_string(line_of(text, "kind = \"hinge\"") - 1), "hinge", "no directions"});
+}
+
+TEST(Rod, OfPointsThatAreBothFixedIsRefused) {
+  const std::string scene = R"(dimension = 2
+[[point]]
+name = "nail"
+position = [0, 1]
+[[rigid_body]]
+name = "plate"
+fixed_at = [0, 0]
+mass = 1
+center = [0, 1]
+second_moment = [[1, 0], [0, 2]]
+directors = [[1, 0], [0, 1]]
+angular_velocity = 1
+)";
+  const std::string pair = "between = [\"nail\", { of = \"plate\", at = [0, 0] }]\n";
+  expect_words(inconsistency<double>(scene + "[[constraint]]\nkind = \"rod\"\n" + pair + "length = 1\n"),
+               {"test.toml:13: ", "rod", "fixed in space"});
+  expect_words(inconsistency<double>(scene + "[[constraint]]\nkind = \"ball_joint\"\n" + pair),
+               {"test.toml:13: ", "ball_joint", "fixed in space"});
+  expect_words(inconsistency<double>(scene + "[[effect]]\nkind = \"spring\"\nstiffness = 1\n" + pair),
+               {"test.toml:13: ", "spring", "fixed"});
+}
+
+/// Bars whose hinges have one direction move in a plane, whatever the hinges say of it: a loop of four has three
+/// constraints more than it needs.
+TEST(Assemble, SetsAsideThreeOfALoopOfParallelHinges) {
+  const auto bar = [](const std::string& name, const std::string& position, const std::string& d1,
+                      const std::string& d2) {
+    return "[[rigid_body]]\nname = \"" + name + "\"\nposition = " + position +
+           "\nvelocity = [0, 0, 0]\nmass = 1\ncenter = [0, 0, 0]\n"
+           "second_moment = [[\"1/3\", 0, 0], [0, \"1/30\", 0], [0, 0, \"1/20\"]]\ndirectors = [" +
+           d1 + ", " + d2 + ", [0, 0, 1]]\nangular_velocity = [0, 0, 0]\n";
+  };
+  const auto hinge = [](const std::string& a, const std::string& b) {
+    return "[[constraint]]\nkind = \"hinge\"\nbetween = [" + a + ", " + b + "]\naxis = [0, 0, 1]\n";
+  };
+  const auto end = [](const std::string& name, const std::string& x) {
+    return "{ of = \"" + name + "\", at = [\"" + x + "\", 0, 0] }";
+  };
+  const std::string text =
+      "dimension = 3\n[[point]]\nname = \"A\"\nposition = [0, 0, 0]\n[[point]]\nname = \"B\"\nposition = [2.3, 0, "
+      "0]\n" +
+      bar("crank", "[-0.8, 0.6, 0]", "[-0.8, 0.6, 0]", "[-0.6, -0.8, 0]") +
+      bar("coupler", "[-0.8, 0.6, 0]", "[0.8, 0.6, 0]", "[-0.6, 0.8, 0]") +
+      bar("rocker", "[2.3, 0, 0]", "[-0.28, 0.96, 0]", "[-0.96, -0.28, 0]") + hinge("\"A\"", end("crank", "-1")) +
+      hinge(end("crank", "0"), end("coupler", "0")) + hinge(end("coupler", "3"), end("rocker", "5/2")) +
+      hinge(end("rocker", "0"), "\"B\"");
+  const auto scene = assembled<Quad>(text);
+  EXPECT_EQ(scene.problem.m(), 36);
+  EXPECT_EQ(scene.problem.nu(), 35);
+  EXPECT_EQ(scene.problem.redundant.size(), 3u);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <random>
 
 #include "hbvm/scene/assemble.hpp"
+#include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {
@@ -264,9 +265,145 @@ TEST(MalformedScenes, NoBody) { expect_message(refusal("dimension = 2\n"), "test
 
 TEST(MalformedScenes, NulByte) { expect_message(refusal(every_key + '\0'), "test.toml:", {}); }
 
-TEST(MalformedScenes, PlanarRigidBody) {
-  const std::string text = "dimension = 2\n[[rigid_body]]\nname = \"top\"\n";
-  expect_message(refusal(text), "test.toml:2: ", {"rigid_body", "dimension"});
+TEST(MalformedScenes, PlanarRigidBodyWithVectorsOfSpace) {
+  const std::string text =
+      "dimension = 2\n[[rigid_body]]\nname = \"top\"\nfixed_at = [0, 0]\nmass = 1\ncenter = [0, 1]\n"
+      "second_moment = [[1, 0], [0, 1]]\ndirectors = [[1, 0], [0, 1]]\nangular_velocity = [0, 0, 1]\n";
+  expect_message(refusal(text), "test.toml:9: ", {"rigid_body 'top'", "'angular_velocity'", "number"});
+  expect_message(refusal(changed(text, "center = [0, 1]", "center = [0, 0, 1]")),
+                 "test.toml:6: ", {"'center'", "3 entries instead of 2"});
+}
+
+/// The scene of joined bodies with one thing wrong.
+class MalformedJoint : public ::testing::TestWithParam<Malformed> {};
+
+TEST_P(MalformedJoint, IsRefusedWithFileLineAndKey) {
+  const Malformed& m = GetParam();
+  const std::string text = changed(joined_bodies, m.from, m.to);
+  const std::string message = refusal(text);
+  ASSERT_NE(message, "") << "not refused";
+  expect_message(message, "test.toml:" + std::to_string(line_of(text, m.at)) + ": ", m.words);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Joints, MalformedJoint,
+    ::testing::Values(
+        Malformed{"UnknownRigidBody",
+                  "of = \"bob\"\nat = [3",
+                  "of = \"bobb\"\nat = [3",
+                  "[[attachment]]\nname = \"left\"",
+                  {"attachment 'left'", "'bobb'", "did you mean 'bob'"}},
+        Malformed{"OfABody",
+                  "of = \"bob\"\nat = [3",
+                  "of = \"bead\"\nat = [3",
+                  "[[attachment]]\nname = \"left\"",
+                  {"attachment 'left'", "'bead' is no rigid body"}},
+        Malformed{"UnknownRigidBodyInPlace",
+                  "{ of = \"base\", at = [1, 0, 0] }",
+                  "{ of = \"basis\", at = [1, 0, 0] }",
+                  "{ of = \"basis\"",
+                  {"constraint 1 (hinge)", "'basis'", "did you mean 'base'"}},
+        Malformed{"TooShort", "at = [3, 0, 0]", "at = [3, 0]", "at = [3, 0]", {"'at'", "2 entries instead of 3"}},
+        Malformed{"TooShortInPlace",
+                  "{ of = \"base\", at = [1, 0, 0] }",
+                  "{ of = \"base\", at = [1] }",
+                  "{ of = \"base\", at = [1] }",
+                  {"constraint 1 (hinge)", "'at'", "1 entries instead of 3"}},
+        Malformed{"MissingAt", "at = [3, 0, 0]\n", "", "[[attachment]]\nname = \"left\"", {"'at'", "missing"}},
+        Malformed{"MisspeltKeyInPlace",
+                  "{ of = \"base\", at = [1, 0, 0] }",
+                  "{ of = \"base\", att = [1, 0, 0] }",
+                  "{ of = \"base\", att",
+                  {"'att'", "'at'"}},
+        Malformed{"UnknownKeyInPlace",
+                  "{ of = \"base\", at = [1, 0, 0] }",
+                  "{ of = \"base\", at = [1, 0, 0], colour = 1 }",
+                  "{ of = \"base\", at = [1, 0, 0], colour",
+                  {"'colour'"}},
+        Malformed{"NamedAsABody",
+                  "name = \"left\"",
+                  "name = \"bead\"",
+                  "[[attachment]]\nname = \"bead\"",
+                  {"attachment 'bead'", "another"}},
+        Malformed{"NamedAsAnotherPointInPlace",
+                  "name = \"left\"",
+                  "name = \"base[1, 0, 0]\"",
+                  "{ of = \"base\", at = [1, 0, 0] }",
+                  {"another attachment", "base[1, 0, 0]"}},
+        Malformed{"PointNamedAsOneInPlace",
+                  "name = \"hook\"",
+                  "name = \"base[1, 0, 0]\"",
+                  "{ of = \"base\", at = [1, 0, 0] }",
+                  {"another body or point", "base[1, 0, 0]"}},
+        Malformed{"RodOnARigidBody",
+                  "between = [\"left\", \"hook\"]",
+                  "between = [\"bob\", \"hook\"]",
+                  "[[constraint]]\nkind = \"rod\"",
+                  {"rod", "'bob' is a rigid body", "name a point of it", "{ of = \"bob\", at = [...] }"}},
+        Malformed{"RodWithinARigidBody",
+                  "between = [\"left\", \"hook\"]",
+                  "between = [\"left\", \"right\"]",
+                  "[[constraint]]\nkind = \"rod\"",
+                  {"rod", "both ends are points of the rigid body 'bob'"}},
+        Malformed{"AngleWithinARigidBody",
+                  "first = [{ of = \"arm\", at = [1, 0, 0] }, { of = \"arm\", at = [0, 0, 0] }]",
+                  "first = [\"left\", \"right\"]",
+                  "[[constraint]]\nkind = \"angle\"",
+                  {"angle", "all ends are points of the rigid body 'bob'"}},
+        Malformed{"HingeWithinARigidBody",
+                  "{ of = \"base\", at = [1, 0, 0] }",
+                  "{ of = \"arm\", at = [1, 0, 0] }",
+                  "[[constraint]]\nkind = \"hinge\"",
+                  {"hinge", "both ends are points of the rigid body 'arm'"}},
+        Malformed{"SamePointTwice",
+                  "{ of = \"base\", at = [1, 0, 0] }",
+                  "{ of = \"arm\", at = [0, \"-1/2\", 0] }",
+                  "[[constraint]]\nkind = \"hinge\"",
+                  {"hinge", "twice"}},
+        Malformed{"SpringWithinARigidBody",
+                  "[\"bead\", \"right\"]",
+                  "[\"left\", \"right\"]",
+                  "[[effect]]\nkind = \"spring\"",
+                  {"spring", "both ends are points of the rigid body 'bob'"}},
+        Malformed{"UnknownAttachment",
+                  "between = [\"left\", \"hook\"]",
+                  "between = [\"leftt\", \"hook\"]",
+                  "[[constraint]]\nkind = \"rod\"",
+                  {"'leftt'", "did you mean 'left'"}},
+        Malformed{"GravityOnAPoint",
+                  "on = [\"arm\", \"bob\"]",
+                  "on = [\"arm\", \"left\"]",
+                  "[[effect]]\nkind = \"uniform_gravity\"",
+                  {"uniform_gravity", "'left' is a point of a rigid body", "'bob'"}},
+        Malformed{"TrapOnARigidBody",
+                  "on = [\"bead\", {",
+                  "on = [\"bob\", {",
+                  "[[effect]]\nkind = \"trap\"",
+                  {"trap", "'bob' is a rigid body", "name a point of it"}},
+        Malformed{"TwoCharges",
+                  "on = [\"bead\", { of = \"arm\", at = [\"1/3\", 0, 1] }]",
+                  "on = [{ of = \"arm\", at = [1, 0, 0], charge = 1 }, { of = \"arm\", at = [1, 0, 0], charge = 2 }]",
+                  "on = [{ of",
+                  {"arm[1, 0, 0]", "charge 1"}},
+        Malformed{"MissingAxis", "axis = [0, 0, 2]\n", "", "[[constraint]]\nkind = \"hinge\"", {"hinge", "'axis'"}},
+        Malformed{"MisspeltSecondAxis", "second_axis", "seccond_axis", "seccond_axis", {"'second_axis'"}},
+        Malformed{"NumberAsName",
+                  "between = [\"left\", \"hook\"]",
+                  "between = [\"left\", 7]",
+                  "between = [\"left\", 7]",
+                  {"'between'", "must be a string"}}),
+    name_of_malformed);
+
+TEST(MalformedScenes, PlaneOfAnAttachment) {
+  const std::string text =
+      joined_bodies + "[[constraint]]\nkind = \"plane\"\nbody = \"left\"\nnormal = [0, 0, 1]\noffset = 0\n";
+  expect_message(refusal(text), "test.toml:", {"plane", "'left' is a point of a rigid body"});
+}
+
+TEST(MalformedScenes, HingeInThePlane) {
+  std::string text = write_scene(load_scene("double_physical_pendulum"));
+  text = changed(text, "kind = \"ball_joint\"", "kind = \"hinge\"\naxis = [0, 0, 1]");
+  expect_message(refusal(text), "test.toml:", {"hinge", "dimension = 3", "'ball_joint'"});
 }
 
 TEST(MalformedScenes, BodyAsSingleTable) {

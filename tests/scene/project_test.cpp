@@ -1,6 +1,7 @@
 #include "hbvm/scene/project.hpp"
 
 #include "printing.hpp"
+#include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {
@@ -130,6 +131,29 @@ TYPED_TEST(Project, OfARigidBodyKeepsPositionAndRates) {
   this->expect_near(top.directors[1], {"-1", "0", "0"}, "d_2");
   this->expect_near(top.directors[2], {"0", "0", "1"}, "d_3");
   this->expect_near(top.angular_velocity, {"5/4", "5/2", "-5"}, "angular velocity");
+}
+
+/// In the plane the nearest rotation of directors 5/4 times too long is by the same angle, at 5/4 the rate.
+TYPED_TEST(Project, OfAPlanarRigidBodyKeepsPositionAndRates) {
+  const Scene scene = this->projected(
+      "dimension = 2\n[[rigid_body]]\nname = \"plate\"\nposition = [1, 2]\nvelocity = [4, 5]\nmass = 1\n"
+      "center = [0, 0]\nsecond_moment = [[2, 0], [0, 2]]\ndirectors = [[0.75, 1], [-1, 0.75]]\n"
+      "angular_velocity = -4\n");
+  const SceneRigidBody& plate = scene.rigid_bodies[0];
+  this->expect_near(plate.position, {"1", "2"}, "position");
+  this->expect_near(plate.velocity, {"4", "5"}, "velocity");
+  this->expect_near(plate.directors[0], {"3/5", "4/5"}, "d_1");
+  this->expect_near(plate.directors[1], {"-4/5", "3/5"}, "d_2");
+  this->expect_near(plate.angular_velocity, {"-5"}, "angular velocity");
+}
+
+/// Bodies that were drawn apart are joined again.
+TYPED_TEST(Project, OfJoinedBodiesIsAccepted) {
+  const std::string text = changed(joined_bodies, "position = [\"3/2\", 0, 0]", "position = [1.49, 0.01, 0]");
+  EXPECT_THROW(assemble<TypeParam>(read_scene(text, "test.toml")), InputError);
+  const Scene joined = this->projected(text);
+  EXPECT_EQ(joined.attachments.size(), 11u);
+  EXPECT_EQ(assemble<TypeParam>(joined).problem.nu(), 28);
 }
 
 TYPED_TEST(Project, IsAcceptedAndKeepsWhatItDoesNotMove) {

@@ -3,6 +3,7 @@
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/scene.hpp"
 #include "printing.hpp"
+#include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {
@@ -271,6 +272,46 @@ TEST(LoadScene, SuggestsTheNearestName) {
 TEST(BuiltInScenes, AreThePapersFour) {
   for (const char* name : {"simple_pendulum", "modified_pendulum", "conical_pendulum", "tethered_satellites"})
     EXPECT_EQ(load_scene(name).name, name);
+}
+
+/// Named attachments first, then those described in place, each once, in the order in which they are met.
+TEST(ReadAttachments, ByNameAndInPlace) {
+  const Scene scene = read_scene(joined_bodies, "joined.toml");
+  const std::vector<std::string> names{"left",           "right",         "base[1, 0, 0]", "arm[0, -1/2, 0]",
+                                       "arm[0, 1/2, 0]", "bob[0, 0, 0]",  "arm[1, 0, 0]",  "arm[0, 0, 0]",
+                                       "bob[2, 0, -1]",  "base[0, 2, 0]", "arm[1/3, 0, 1]"};
+  ASSERT_EQ(scene.attachments.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(scene.attachments[i].name, names[i]);
+  EXPECT_EQ(scene.attachments[0].of, "bob");
+  EXPECT_EQ(value(scene.attachments[0].at[0], scene), 3);
+  ASSERT_TRUE(scene.attachments[1].charge);
+  EXPECT_EQ(value(*scene.attachments[1].charge, scene), -1);
+  EXPECT_EQ(scene.attachments[1].line, line_of(joined_bodies, "name = \"right\"") - 1);
+  EXPECT_EQ(scene.attachments[3].of, "arm");
+  EXPECT_EQ(scene.attachments[3].line, line_of(joined_bodies, "{ of = \"base\", at = [1, 0, 0] }"));
+  using Names = std::array<std::string, 2>;
+  EXPECT_EQ(scene.constraints[0].pairs.at("between"), (Names{"base[1, 0, 0]", "arm[0, -1/2, 0]"}));
+  EXPECT_TRUE(scene.constraints[0].has("second_axis"));
+  EXPECT_EQ(scene.constraints[2].pairs.at("between"), (Names{"left", "hook"}));
+  EXPECT_EQ(*scene.effects[0].on, (std::vector<std::string>{"arm", "bob"}));
+  EXPECT_EQ(scene.effects[3].on->back(), "arm[1/3, 0, 1]");
+}
+
+TEST(ReadAttachments, AChargeCountsWhereverThePointStands) {
+  const std::string text = changed(joined_bodies, "on = [\"bead\", { of = \"arm\", at = [\"1/3\", 0, 1] }]",
+                                   "on = [{ of = \"arm\", at = [0, \"1/2\", 0], charge = 5 }]");
+  const Scene scene = read_scene(text, "joined.toml");
+  ASSERT_TRUE(scene.attachments[4].charge);
+  EXPECT_EQ(value(*scene.attachments[4].charge, scene), 5);
+}
+
+TEST(ReadRigidBody, InThePlaneTurnsAtANumber) {
+  const Scene scene = load_scene("double_physical_pendulum");
+  const SceneRigidBody& lower = scene.rigid_bodies[1];
+  ASSERT_EQ(lower.angular_velocity.size(), 1u);
+  EXPECT_EQ(value(lower.angular_velocity[0], scene), -1);
+  EXPECT_EQ(lower.directors.size(), 2u);
+  EXPECT_EQ(lower.second_moment[1].size(), 2u);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {
@@ -58,6 +59,18 @@ TEST(WriteScene, OfEverySceneThatIsShippedReadsBack) {
 }
 
 TEST(WriteScene, OfEveryKeyReadsBack) { expect_round_trip(read_scene(every_key, "every_key")); }
+
+TEST(WriteScene, OfJoinedBodiesReadsBack) {
+  const Scene scene = read_scene(joined_bodies, "joined");
+  expect_round_trip(scene);
+  const Scene read = read_scene(write_scene(scene), "joined");
+  ASSERT_EQ(read.attachments.size(), scene.attachments.size());
+  for (std::size_t i = 0; i < read.attachments.size(); ++i) {
+    EXPECT_EQ(read.attachments[i].name, scene.attachments[i].name);
+    EXPECT_EQ(read.attachments[i].of, scene.attachments[i].of);
+    EXPECT_EQ(read.attachments[i].charge.has_value(), scene.attachments[i].charge.has_value());
+  }
+}
 
 TEST(WriteScene, KeepsObservables) {
   expect_round_trip(read_scene(

@@ -37,7 +37,8 @@ struct SceneBody {
   std::size_t line = 0;
 };
 
-/// A rigid body in natural coordinates: reference point (unless fixed) and three directors.
+/// A rigid body in natural coordinates: reference point (unless fixed) and d directors. Vectors and matrices have d
+/// entries a row; in the plane the angular velocity is one number.
 struct SceneRigidBody {
   std::string name;
   bool fixed = false;
@@ -51,7 +52,16 @@ struct SceneRigidBody {
   std::size_t line = 0;
 };
 
-/// A constraint by its kind, which says the keys: see ConstraintForms.
+/// A point fixed in the frame of a rigid body, which constraints and effects name like a body.
+struct SceneAttachment {
+  std::string name;
+  std::string of;  ///< the rigid body
+  SceneVector at;  ///< in its frame, from the reference point
+  std::optional<Expression> charge;
+  std::size_t line = 0;
+};
+
+/// A constraint by its kind, which says the keys: see ConstraintForms and ConstraintGroups.
 struct SceneConstraint {
   std::string kind;
   std::map<std::string, std::array<std::string, 2>, std::less<>> pairs;
@@ -60,6 +70,11 @@ struct SceneConstraint {
   std::map<std::string, SceneVector, std::less<>> vectors;
   std::map<std::string, SceneMatrix, std::less<>> matrices;
   std::size_t line = 0;
+
+  bool has(std::string_view key) const {
+    return pairs.contains(key) || bodies.contains(key) || numbers.contains(key) || vectors.contains(key) ||
+           matrices.contains(key);
+  }
 };
 
 struct SceneEffect {
@@ -80,6 +95,7 @@ struct Scene {
   std::vector<ScenePoint> points;
   std::vector<SceneBody> bodies;
   std::vector<SceneRigidBody> rigid_bodies;
+  std::vector<SceneAttachment> attachments;
   std::vector<SceneConstraint> constraints;
   std::vector<SceneEffect> effects;
   std::vector<std::string> observables;  ///< among energy, linear_momentum, angular_momentum

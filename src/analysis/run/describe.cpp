@@ -27,6 +27,7 @@ std::string describe_in(const Scene& scene) {
   if (!scene.source.empty()) line("source", scene.source);
   line("space", fmt::format("{} dimensions", scene.dimension));
   line("bodies", fmt::format("{}, and {} rigid", scene.bodies.size(), scene.rigid_bodies.size()));
+  if (!scene.attachments.empty()) line("attachments", std::to_string(scene.attachments.size()));
   line("coordinates m", std::to_string(problem.m()));
   line("constraints nu", std::to_string(problem.nu()));
   line("degrees of freedom", std::to_string(problem.m() - problem.nu()));

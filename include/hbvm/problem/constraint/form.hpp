@@ -13,7 +13,7 @@ namespace hbvm {
 /// What a form of g says of itself, all of it: a constraint at most quadratic in q.
 ///
 ///     kind, keys          as a scene names it, and its keys besides
-///     from(use)           made of the values of the keys; \throws InputError
+///     from(use)           made of the values of the keys, of one form or as ConstraintParts; \throws InputError
 ///     coordinates(d)      those that g depends on
 ///     value(d, q)         g with the size of its terms
 ///     gradient_size(d, r) an upper bound of the sum of the magnitudes in grad g where max |q_i| = r

@@ -5,8 +5,10 @@
 #include <variant>
 #include <vector>
 
+#include "hbvm/problem/constraint/common_point.hpp"
 #include "hbvm/problem/constraint/displacement_product.hpp"
 #include "hbvm/problem/constraint/form.hpp"
+#include "hbvm/problem/constraint/hinge.hpp"
 #include "hbvm/problem/constraint/plane.hpp"
 #include "hbvm/problem/constraint/quadric.hpp"
 #include "hbvm/problem/constraint/rod.hpp"
@@ -18,7 +20,12 @@ template <Scalar S>
 using ConstraintForms = std::variant<Rod<S>,      //
                                      Quadric<S>,  //
                                      Plane<S>,    //
-                                     DisplacementProduct<S>>;
+                                     DisplacementProduct<S>, CommonPoint<S>>;
+
+/// What a scene can name besides: a kind and keys that stand for several g of those forms. A new one is its file, and
+/// its name here.
+template <Scalar S>
+using ConstraintGroups = std::tuple<Hinge<S>>;
 
 /// What an evaluator of the gradient of one of them holds.
 template <class Forms>
@@ -37,14 +44,23 @@ void for_each_constraint_form(F&& f) {
   }(static_cast<ConstraintForms<S>*>(nullptr));
 }
 
-/// Calls `f.operator()<Form>()` for the form of that kind; false if there is none.
+/// Calls `f.operator()<Kind>()` for every form and every group.
 template <Scalar S, class F>
-bool with_constraint_form(std::string_view kind, F&& f) {
+void for_each_constraint_kind(F&& f) {
+  for_each_constraint_form<S>(f);
+  [&]<class... Group>(std::tuple<Group...>*) {
+    (f.template operator()<Group>(), ...);
+  }(static_cast<ConstraintGroups<S>*>(nullptr));
+}
+
+/// Calls `f.operator()<Kind>()` for the form or group of that kind; false if there is none.
+template <Scalar S, class F>
+bool with_constraint_kind(std::string_view kind, F&& f) {
   bool found = false;
-  for_each_constraint_form<S>([&]<class Form>() {
-    if (kind != Form::kind) return;
+  for_each_constraint_kind<S>([&]<class Kind>() {
+    if (kind != Kind::kind) return;
     found = true;
-    f.template operator()<Form>();
+    f.template operator()<Kind>();
   });
   return found;
 }
@@ -52,7 +68,7 @@ bool with_constraint_form(std::string_view kind, F&& f) {
 /// The kinds as scenes name them.
 inline std::vector<std::string> constraint_kinds() {
   std::vector<std::string> kinds;
-  for_each_constraint_form<double>([&]<class Form>() { kinds.emplace_back(Form::kind); });
+  for_each_constraint_kind<double>([&]<class Kind>() { kinds.emplace_back(Kind::kind); });
   return kinds;
 }
 
