@@ -26,15 +26,17 @@ void expect_message(const std::string& message, const std::string& where, const 
   EXPECT_EQ(message.find('\n'), std::string::npos) << "more than one line: " << message;
 }
 
-class MalformedScene : public ::testing::TestWithParam<Malformed> {};
-
-TEST_P(MalformedScene, IsRefusedWithFileLineAndKey) {
-  const Malformed& m = GetParam();
-  const std::string text = changed(every_key, m.from, m.to);
+/// That the scene with this change is refused.
+void expect_refusal(const std::string& whole, const Malformed& m) {
+  const std::string text = changed(whole, m.from, m.to);
   const std::string message = refusal(text);
   ASSERT_NE(message, "") << "not refused";
   expect_message(message, "test.toml:" + std::to_string(line_of(text, m.at)) + ": ", m.words);
 }
+
+class MalformedScene : public ::testing::TestWithParam<Malformed> {};
+
+TEST_P(MalformedScene, IsRefusedWithFileLineAndKey) { expect_refusal(every_key, GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Toml, MalformedScene,
@@ -277,13 +279,7 @@ TEST(MalformedScenes, PlanarRigidBodyWithVectorsOfSpace) {
 /// The scene of joined bodies with one thing wrong.
 class MalformedJoint : public ::testing::TestWithParam<Malformed> {};
 
-TEST_P(MalformedJoint, IsRefusedWithFileLineAndKey) {
-  const Malformed& m = GetParam();
-  const std::string text = changed(joined_bodies, m.from, m.to);
-  const std::string message = refusal(text);
-  ASSERT_NE(message, "") << "not refused";
-  expect_message(message, "test.toml:" + std::to_string(line_of(text, m.at)) + ": ", m.words);
-}
+TEST_P(MalformedJoint, IsRefusedWithFileLineAndKey) { expect_refusal(joined_bodies, GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Joints, MalformedJoint,
