@@ -10,7 +10,7 @@ std::vector<std::string> coordinate_names(const Scene& scene, const std::string&
   for (const SceneBody& body : scene.bodies) add(body.name);
   for (const SceneRigidBody& body : scene.rigid_bodies) {
     if (!body.fixed) add(body.name);
-    for (const char* const director : {".d1", ".d2", ".d3"}) add(body.name + director);
+    for (int d = 1; d <= scene.dimension; ++d) add(body.name + ".d" + std::to_string(d));
   }
   return names;
 }

@@ -1,5 +1,6 @@
 #include "hbvm/scene/sketch.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -15,6 +16,7 @@ class Sketcher {
   Sketch made() {
     for (const SceneBody& body : scene_.bodies) add({body.name, block(), true, charge(body.charge)});
     for (const SceneRigidBody& body : scene_.rigid_bodies) add(body);
+    for (const SceneAttachment& attachment : scene_.attachments) add(attachment);
     for (const ScenePoint& point : scene_.points)
       add({point.name, {{}, vector(point.position)}, false, charge(point.charge)});
     for (const SceneConstraint& constraint : scene_.constraints)
@@ -47,19 +49,37 @@ class Sketcher {
   }
 
   void add(const SceneRigidBody& body) {
-    const Displacement<double> reference = body.fixed ? Displacement<double>{{}, vector(body.position)} : block();
-    const Vector<double> center = vector(body.center);
-    const std::size_t first = add({body.name, reference, false});
-    Displacement<double> mass_center = reference;
-    for (int a = 0; a < 3; ++a) {
-      const auto director = block().blocks.front();
-      Displacement<double> end = reference;
-      end.blocks.push_back(director);
-      sketch_.links.push_back(
-          {first, add({body.name + ".d" + std::to_string(a + 1), end, false}), Sketch::Joins::body});
-      if (center[a] != 0) mass_center.blocks.push_back({director.offset, center[a]});
-    }
-    sketch_.links.push_back({first, add({body.name + ".center", mass_center, true}), Sketch::Joins::body});
+    RigidBody& added = rigid_bodies_[body.name];
+    added.reference = body.fixed ? Displacement<double>{{}, vector(body.position)} : block();
+    for (int d = 0; d < scene_.dimension; ++d) added.directors.push_back(block().blocks.front().offset);
+    added.place = add({body.name + ".reference", added.reference, false, 0, false});
+    // Where nothing is fastened to it, its directors show how it is turned.
+    const auto fastened = [&](const SceneAttachment& attachment) { return attachment.of == body.name; };
+    if (std::none_of(scene_.attachments.begin(), scene_.attachments.end(), fastened))
+      for (int d = 0; d < scene_.dimension; ++d)
+        add_point(added, body.name + ".d" + std::to_string(d + 1), Vector<double>::Unit(scene_.dimension, d), false, 0);
+    add_point(added, body.name, vector(body.center), true, 0);
+  }
+
+  void add(const SceneAttachment& attachment) {
+    add_point(rigid_bodies_.at(attachment.of), attachment.name, vector(attachment.at), false,
+              charge(attachment.charge));
+  }
+
+  /// A rigid body: the place of its reference point, and where the coordinates of its directors begin.
+  struct RigidBody {
+    Displacement<double> reference;
+    std::vector<Index> directors;
+    std::size_t place = 0;
+  };
+
+  /// The point of a body with these coordinates in its frame, and a line to it.
+  void add_point(const RigidBody& body, const std::string& name, const Vector<double>& in_frame, bool has_mass,
+                 double charge) {
+    Displacement<double> at = body.reference;
+    for (std::size_t d = 0; d < body.directors.size(); ++d)
+      if (const double x = in_frame[static_cast<Index>(d)]; x != 0) at.blocks.push_back({body.directors[d], x});
+    sketch_.links.push_back({body.place, add({name, at, has_mass, charge, has_mass}), Sketch::Joins::body});
   }
 
   void link(const std::array<std::string, 2>& ends, Sketch::Joins as) {
@@ -69,6 +89,7 @@ class Sketcher {
   const Scene& scene_;
   Sketch sketch_;
   std::map<std::string, std::size_t> numbers_;
+  std::map<std::string, RigidBody> rigid_bodies_;
   Index offset_ = 0;
 };
 

@@ -56,13 +56,29 @@ TEST(Sketch, ShowsTheMassCentreOfARigidBody) {
     scene.rigid_bodies.front().position = {Expression::parse("2"), Expression::parse("3"), Expression::parse("4")};
     const Sketch found = sketch(scene);
     const std::vector<double> q = start_of(scene);
-    const std::array<double, 3> at = found.position(place_of(found, "top.center"), q);
+    const std::array<double, 3> at = found.position(place_of(found, "top"), q);
     // center = (1/10, -1/20, 1), directors (3, -6, 2)/7, (6, 2, -3)/7, (2, 3, 6)/7.
     const double expected[] = {2 + (0.3 - 0.3 + 2) / 7, 3 + (-0.6 - 0.1 + 3) / 7, 4 + (0.2 + 0.15 + 6) / 7};
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(at[i], expected[i], 1e-14) << i << fixed;
-    EXPECT_EQ(found.position(place_of(found, "top"), q), (std::array{2.0, 3.0, 4.0}));
+    EXPECT_EQ(found.position(place_of(found, "top.reference"), q), (std::array{2.0, 3.0, 4.0}));
     EXPECT_EQ(found.links.size(), 4u);
+    EXPECT_TRUE(found.places[place_of(found, "top")].labelled);
+    EXPECT_FALSE(found.places[place_of(found, "top.reference")].labelled);
   }
+}
+
+/// A bar that begins where the other ends: both attachments of the joint are at one place.
+TEST(Sketch, ShowsAttachmentsOfRigidBodies) {
+  const Scene scene = load_scene("double_physical_pendulum");
+  const Sketch found = sketch(scene);
+  const std::vector<double> q = start_of(scene);
+  ASSERT_EQ(scene.attachments.size(), 2u);
+  const std::array<double, 3> end = found.position(place_of(found, scene.attachments[0].name), q),
+                              begin = found.position(place_of(found, scene.attachments[1].name), q);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(end[i], begin[i], 1e-15);
+  EXPECT_NEAR(end[0], 0.6, 1e-15);
+  EXPECT_NEAR(end[1], -0.8, 1e-15);
+  EXPECT_EQ(found.links.size(), 4u) << "to the mass centre and the attachment of each";
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct Sketch {
     Displacement<double> at;  ///< without blocks: fixed in space
     bool has_mass = true;
     double charge = 0;
+    bool labelled = true;  ///< its name is one of the scene's; no helping point of a rigid body
   };
   enum class Joins { rod, spring, body };  ///< body: two places of one rigid body
   struct Link {
@@ -31,8 +32,9 @@ struct Sketch {
   std::array<double, 3> position(std::size_t i, const std::vector<double>& q) const;
 };
 
-/// Bodies, points and rigid bodies (reference point, centre of mass, the ends of its directors) of a scene, with its
-/// rods and those of its springs that it names.
+/// Bodies, points and rigid bodies of a scene, with its rods and those of its springs that it names. A rigid body has
+/// its name at its centre of mass; lines lead there from its reference point, and to its attachments, or to the ends of
+/// its directors if it has none.
 Sketch sketch(const Scene& scene);
 
 }  // namespace hbvm

@@ -1,5 +1,6 @@
 #include "hbvm/analysis/run/run_figure.hpp"
 
+#include <algorithm>
 #include <functional>
 
 namespace hbvm {
@@ -37,11 +38,23 @@ Curve curve_of(const std::string& label, const Recording& recording,
   return curve;
 }
 
+/// Those that keep rigid bodies rigid are many, and say little beside others.
+bool is_of_directors(const std::string& constraint) { return constraint.starts_with("directors "); }
+
+/// Its name, or by its number if that is too long to stand beside a panel.
+std::string label_of(const Recording& recording, std::size_t constraint) {
+  constexpr std::size_t longest = 20;
+  const std::string& name = recording.constraints[constraint];
+  return name.size() <= longest ? plain(name) : "λ_{" + std::to_string(constraint + 1) + "}";
+}
+
 Panel multipliers_panel(const Recording& recording) {
   Panel panel = against_time("Lagrange multipliers", {"λ"});
+  const bool all = std::all_of(recording.constraints.begin(), recording.constraints.end(), is_of_directors);
   for (std::size_t i = 0; i < recording.constraints.size(); ++i)
-    panel.curves.push_back(curve_of(plain(recording.constraints[i]), recording,
-                                    [i](const Recording::Sample& sample) { return sample.lambda[i]; }));
+    if (all || !is_of_directors(recording.constraints[i]))
+      panel.curves.push_back(curve_of(label_of(recording, i), recording,
+                                      [i](const Recording::Sample& sample) { return sample.lambda[i]; }));
   return panel;
 }
 
@@ -83,7 +96,7 @@ Panel motion_panel(const Sketch& sketch, const Recording& recording, const Proje
   for (std::size_t i = 0; i < sketch.places.size(); ++i) {
     const Sketch::Place& place = sketch.places[i];
     const PlotPoint at = project(sketch.position(i, last), projection);
-    const std::string label = moving <= most_labels ? place.name : "";
+    const std::string label = moving <= most_labels && place.labelled ? place.name : "";
     if (place.has_mass) {
       Curve path;
       for (const Recording::Sample& sample : recording.samples)

@@ -49,6 +49,19 @@ TEST(RunFigure, ShowsAMotionInSpaceFromTwoSides) {
   EXPECT_EQ(figure.panels[1].title, "Motion, seen along y");
 }
 
+/// A planar pin of two rigid bodies is two constraints, beside six that keep them rigid; a top has no others.
+TEST(RunFigure, ShowsMultipliersOfJointsBeforeThoseOfRigidity) {
+  for (const auto& [name, curves] : {std::pair("double_physical_pendulum", 2u), std::pair("heavy_top", 6u)}) {
+    const Scene scene = load_scene(name);
+    const Figure figure = run_figure(sketch(scene), recorded(scene));
+    const Panel& multipliers = figure.panels[figure.panels.size() - 2];
+    EXPECT_EQ(multipliers.title, "Lagrange multipliers");
+    EXPECT_EQ(multipliers.curves.size(), curves) << name;
+    for (const Panel& panel : figure.panels)
+      for (const Mark& mark : panel.marks) EXPECT_EQ(mark.label.find('.'), std::string::npos) << mark.label;
+  }
+}
+
 TEST(RunFigure, ShowsErrorsByTheirLogarithms) {
   const Scene scene = load_scene("double_pendulum");
   const Recording recording = recorded(scene);
