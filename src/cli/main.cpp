@@ -6,7 +6,9 @@
 #include "commands.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/interruption.hpp"
+#include "hbvm/nearest.hpp"
 #include "hbvm/version.hpp"
+#include "words.hpp"
 
 namespace {
 
@@ -35,15 +37,15 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   hbvm::add_study_command(app);
   hbvm::add_audit_command(app);
   hbvm::add_stability_command(app);
+  hbvm::add_completion_command(app);
+  hbvm::add_help_command(app);
   try {
     const CLI::App* command = &app;
-    for (int i = 1; i < argc && argv[i][0] != '-' && command->get_require_subcommand_min() > 0; ++i) {
-      const auto named = command->get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[i]; });
-      if (named.empty()) throw hbvm::InputError("unknown command '" + std::string(argv[i]) + "' (see hbvm --help)");
-      command = named.front();
-    }
+    for (int i = 1; i < argc && argv[i][0] != '-' && command->get_require_subcommand_min() > 0; ++i)
+      command = hbvm::find_command(*command, argv[i]);
     if (argc > 1 && argv[1][0] == '-' && !app.get_option_no_throw(argv[1]))
-      throw hbvm::InputError("unknown option '" + std::string(argv[1]) + "' before a command (see hbvm --help)");
+      throw hbvm::InputError("unknown option '" + std::string(argv[1]) + "' before a command" +
+                             hbvm::did_you_mean(argv[1], hbvm::option_names(app)) + " (see hbvm --help)");
     app.parse(argc, argv);  // runs the subcommand
     return ok;
   } catch (const CLI::Success& request) {  // --help, --version
@@ -51,7 +53,8 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   } catch (const CLI::RuntimeError& finding) {  // a check that did not hold, already reported
     return finding.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    return report(bad_input, std::string(error.what()) + " (see hbvm --help)");
+    const std::string unexpected = hbvm::unexpected_word(app);  // comes before what is missing for its sake
+    return report(bad_input, unexpected.empty() ? std::string(error.what()) + " (see hbvm --help)" : unexpected);
   } catch (const hbvm::InputError& error) {
     return report(bad_input, error.what());
   } catch (const hbvm::Interrupted& end) {

@@ -10,6 +10,7 @@
 #include "hbvm/analysis/run/run_figure.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/project.hpp"
+#include "hbvm/scene/with_start.hpp"
 #include "hbvm/write_file.hpp"
 
 namespace hbvm {
@@ -21,11 +22,12 @@ struct ProjectArguments {
 };
 
 void project_command(const ProjectArguments& o) {
-  const Scene scene = load_scene(o.scene);
+  const std::string given = scene_text(o.scene);
+  const Scene scene = read_scene(given, o.scene);
   const std::string text = with_scalar(Precision::parse(o.precision), [&]<Scalar S>() {
-    const Scene projected = project<S>(scene);
-    assemble<S>(projected);  // what is written must be accepted
-    return write_scene(projected);
+    const std::string projected = with_start(given, project<S>(scene));
+    assemble<S>(read_scene(projected, o.scene));  // what is written must be accepted
+    return projected;
   });
   if (!o.out) {
     std::cout << text;
@@ -71,7 +73,8 @@ void add_scene_command(CLI::App& app) {
     auto o = std::make_shared<ProjectArguments>();
     CLI::App* const command =
         check ? scene->add_subcommand("check", "Explain a scene: dimensions, effects, energy, momenta")
-              : scene->add_subcommand("project", "Write the nearest scene whose initial state fulfils the constraints");
+              : scene->add_subcommand(
+                    "project", "Write the nearest scene whose initial state fulfils the constraints, comments and all");
     command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
     command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
     if (!check) command->add_option("--out", o->out, "Write to this file instead of standard output");

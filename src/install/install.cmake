@@ -1,4 +1,4 @@
-# Headers, library, package files for CMake and pkg-config, and the program with its manual pages.
+# Headers, library, package files for CMake and pkg-config, and the program with its completion and manual pages.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hbvm)
 set(made ${CMAKE_CURRENT_BINARY_DIR}/install)
@@ -15,6 +15,11 @@ install(FILES ${made}/hbvm.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 if(HBVM_PROGRAM)
   install(TARGETS hbvm_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set(completion ${made}/completion/hbvm)
+  add_custom_command(OUTPUT ${completion} COMMAND ${CMAKE_COMMAND} -E make_directory ${made}/completion
+                     COMMAND hbvm_program completion > ${completion} DEPENDS hbvm_program VERBATIM)
+  add_custom_target(hbvm_completion ALL DEPENDS ${completion})
+  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
   find_program(HELP2MAN help2man)
   if(HELP2MAN)
     # A page of the program and one of each command, from what --help says.

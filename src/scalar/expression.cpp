@@ -38,7 +38,7 @@ class Parser {
   NodePtr parse() {
     NodePtr root = sum();
     skip_blanks();
-    if (at_ != text_.size()) fail("does not fit here");
+    if (at_ != text_.size()) fail("does not fit here" + product_meant());
     return root;
   }
 
@@ -50,6 +50,13 @@ class Parser {
   [[noreturn]] void fail(const std::string& what) const {
     const std::string found = at_ < text_.size() ? "'" + std::string(1, text_[at_]) + "' " : "the end ";
     throw ExpressionError(quoted(text_) + ", column " + std::to_string(at_ + 1) + ": " + found + what);
+  }
+
+  /// "2pi" and "2(a + b)" are products to those who write them.
+  std::string product_meant() const {
+    if (at_ == 0 || at_ == text_.size() || !(is_name_start(text_[at_]) || text_[at_] == '(')) return {};
+    const std::string product = std::string(text_.substr(0, at_)) + "*" + std::string(text_.substr(at_));
+    return "; a product is written " + quoted(std::string_view(product));
   }
 
   NodePtr make(Kind kind, NodePtr left = nullptr, NodePtr right = nullptr, std::string text = {}) {
@@ -129,7 +136,7 @@ class Parser {
   }
 
   void close() {
-    if (!accept(')')) fail("comes where ')' is expected");
+    if (!accept(')')) fail("comes where ')' is expected" + product_meant());
   }
 
   NodePtr decimal() {

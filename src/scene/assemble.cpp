@@ -506,7 +506,8 @@ class Assembler {
   void report(Index a, const std::string& what, const S& residual, const S& tolerance) const {
     if (magnitude(residual) <= tolerance) return;
     throw InputError(scene_.name + ": the initial " + what + " is not consistent with " + name(a) + ": residual " +
-                     to_scientific(residual, 3) + ", tolerance " + to_scientific(tolerance, 3) + " at this precision");
+                     to_scientific(residual, 3) + ", tolerance " + to_scientific(tolerance, 3) +
+                     " at this precision; `hbvm scene project` writes the nearest scene that is");
   }
 
   const Scene& scene_;

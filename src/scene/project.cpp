@@ -54,10 +54,14 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, c
   throw_no_position(name);
 }
 
+/// Entries of v as decimals; those that are what they were keep their expressions.
 template <Scalar S>
-SceneVector as_expressions(const Vector<S>& v, Index offset) {
+SceneVector as_expressions(const Vector<S>& v, Index offset, const SceneVector& were, const Constants& constants) {
   SceneVector result;
-  for (Index j = 0; j < 3 && offset + j < v.size(); ++j) result.push_back(Expression::parse(to_text(v[offset + j])));
+  for (std::size_t j = 0; j < were.size(); ++j) {
+    const S& entry = v[offset + static_cast<Index>(j)];
+    result.push_back(evaluate<S>(were[j], constants) == entry ? were[j] : Expression::parse(to_text(entry)));
+  }
   return result;
 }
 
@@ -82,34 +86,32 @@ Scene project(const Scene& scene) {
   Scene result = scene;
   const auto d = static_cast<std::size_t>(scene.dimension);
   Index offset = 0;
-  const auto take = [&](const Vector<S>& from) {
-    SceneVector text = as_expressions(from, offset);
-    text.erase(text.begin() + static_cast<std::ptrdiff_t>(d), text.end());
-    return text;
+  const auto take = [&](const Vector<S>& from, SceneVector& to) {
+    to = as_expressions(from, offset, to, scene.constants);
   };
   for (SceneBody& body : result.bodies) {
-    body.position = take(q);
-    body.velocity = take(v);
-    body.momentum.clear();
+    take(q, body.position);
+    take(v, body.velocity);
+    take(p, body.momentum);
     offset += scene.dimension;
   }
   for (SceneRigidBody& body : result.rigid_bodies) {
     if (!body.fixed) {
-      body.position = take(q);
-      body.velocity = take(v);
+      take(q, body.position);
+      take(v, body.velocity);
       offset += scene.dimension;
     }
     // d_a' = omega x d_a gives omega = 1/2 sum d_a x d_a' for orthonormal directors, two in the plane or three.
     Vector<S> omega = Vector<S>::Zero(d == 2 ? 1 : 3);
     for (std::size_t a = 0; a < d; ++a) {
-      body.directors[a] = take(q);
+      take(q, body.directors[a]);
       for (Index j = 0; j < omega.size(); ++j) {
         const Index k = d == 2 ? 0 : (j + 1) % 3, l = d == 2 ? 1 : (j + 2) % 3;
         omega[j] += (q[offset + k] * v[offset + l] - q[offset + l] * v[offset + k]) / 2;
       }
       offset += scene.dimension;
     }
-    body.angular_velocity = as_expressions(omega, 0);
+    body.angular_velocity = as_expressions(omega, 0, body.angular_velocity, scene.constants);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "hbvm/nearest.hpp"
 #include "hbvm/problem/constraint/registry.hpp"
 #include "hbvm/problem/effect/registry.hpp"
 #include "hbvm/scene/scene.hpp"
@@ -39,11 +40,8 @@ class SceneReader {
       scene_.observables = top.strings("observables");
       const std::vector<std::string> known{"energy", "linear_momentum", "angular_momentum"};
       for (const std::string& name : scene_.observables)
-        if (std::count(known.begin(), known.end(), name) == 0) {
-          const std::string guess = nearest(name, known);
-          top.fail(*node,
-                   "unknown observable '" + name + "'" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
-        }
+        if (std::count(known.begin(), known.end(), name) == 0)
+          top.fail(*node, "unknown observable '" + name + "'" + did_you_mean(name, known));
     }
     if (scene_.bodies.empty() && scene_.rigid_bodies.empty()) top.fail("there is no [[body]]");
   }
@@ -131,13 +129,10 @@ class SceneReader {
   void add_attachment(TomlTable& table, const std::string& name, const std::string& of, SceneVector at) {
     SceneAttachment a{name, of, std::move(at), table.optional_number("charge"), table.line()};
     table.finish();
-    if (!rigid_.contains(of)) {
-      const std::string guess = nearest(of, {rigid_.begin(), rigid_.end()});
+    if (!rigid_.contains(of))
       table.fail(bodies_.contains(of) || points_.contains(of) || attachments_.contains(of)
                      ? "'" + of + "' is no rigid body"
-                     : "there is no rigid body '" + of + "'" +
-                           (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
-    }
+                     : "there is no rigid body '" + of + "'" + did_you_mean(of, {rigid_.begin(), rigid_.end()}));
     attachments_.emplace(name, of);
     scene_.attachments.push_back(std::move(a));
   }
@@ -190,8 +185,7 @@ class SceneReader {
     if (allowed.rigid_bodies) candidates.insert(candidates.end(), rigid_.begin(), rigid_.end());
     if (allowed.attachments)
       for (const auto& [attachment, of] : attachments_) candidates.push_back(attachment);
-    const std::string guess = nearest(name, candidates);
-    table.fail("there is no body '" + name + "'" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
+    table.fail("there is no body '" + name + "'" + did_you_mean(name, candidates));
   }
 
   /// A name, or the name of the attachment that a table describes in place.
@@ -248,10 +242,7 @@ class SceneReader {
         if (d_ != 3) table.fail("it needs dimension = 3; in the plane bodies turn about a 'ball_joint'");
       for (const ConstraintKey& key : Kind::keys) value(table, key, c);
     });
-    if (!known) {
-      const std::string guess = nearest(c.kind, constraint_kinds());
-      table.fail("unknown kind of constraint" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
-    }
+    if (!known) table.fail("unknown kind of constraint" + did_you_mean(c.kind, constraint_kinds()));
     std::vector<std::string> ends;
     for (const auto& [key, pair] : c.pairs) ends.insert(ends.end(), pair.begin(), pair.end());
     if (!ends.empty() && c.bodies.empty()) check_ends(table, ends);
@@ -305,10 +296,7 @@ class SceneReader {
       }
       acts(table, e, Effect::acts);
     });
-    if (!known) {
-      const std::string guess = nearest(e.kind, effect_kinds());
-      table.fail("unknown kind of effect" + (guess.empty() ? "" : ": did you mean '" + guess + "'?"));
-    }
+    if (!known) table.fail("unknown kind of effect" + did_you_mean(e.kind, effect_kinds()));
     table.finish();
     scene_.effects.push_back(std::move(e));
   }
@@ -382,9 +370,9 @@ Scene read_scene(const std::string& toml, const std::string& name) {
   return scene;
 }
 
-Scene load_scene(const std::string& path_or_name) {
+std::string scene_text(const std::string& path_or_name) {
   for (const auto& [name, text] : built_in_scenes())
-    if (name == path_or_name) return read_scene(text, name);
+    if (name == path_or_name) return text;
   std::ifstream file(path_or_name, std::ios::binary);
   std::string text;
   if (file) {
@@ -393,7 +381,7 @@ Scene load_scene(const std::string& path_or_name) {
     while (text.size() <= limit && (file.read(buffer, sizeof buffer) || file.gcount() > 0))
       text.append(buffer, static_cast<std::size_t>(file.gcount()));
     if (text.size() > limit) throw InputError(path_or_name + ": too large for a scene");
-    if (!file.bad() && (!text.empty() || file.eof())) return read_scene(text, path_or_name);
+    if (!file.bad() && (!text.empty() || file.eof())) return text;
   }
   std::vector<std::string> names;
   for (const auto& [name, unused] : built_in_scenes()) names.push_back(name);
@@ -401,5 +389,7 @@ Scene load_scene(const std::string& path_or_name) {
   throw InputError("unknown scene '" + path_or_name + "': no readable file and no built-in scene" +
                    (guess.empty() ? std::string("; see `hbvm scenes`") : "; did you mean '" + guess + "'?"));
 }
+
+Scene load_scene(const std::string& path_or_name) { return read_scene(scene_text(path_or_name), path_or_name); }
 
 }  // namespace hbvm

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hbvm/nearest.hpp"
 #include "toml/toml_flaw.hpp"
 
 namespace hbvm {
@@ -34,14 +35,19 @@ toml::table TomlSource::parse() const {
   }
 }
 
-std::string TomlSource::number_at(const toml::source_position& begin) const {
-  if (begin.line == 0 || begin.line > line_starts_.size()) return {};
-  std::size_t at = line_starts_[begin.line - 1];
+std::size_t TomlSource::offset_of(const toml::source_position& place) const {
+  if (place.line == 0 || place.line > line_starts_.size()) return text_.size();
+  std::size_t at = line_starts_[place.line - 1];
   // Columns count characters, which may take several bytes: continuation bytes are 10xxxxxx.
-  for (std::size_t column = 1; column < begin.column && at < text_.size(); ++column) {
+  for (std::size_t column = 1; column < place.column && at < text_.size(); ++column) {
     ++at;
     while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0) == 0x80) ++at;
   }
+  return at;
+}
+
+std::string TomlSource::number_at(const toml::source_position& begin) const {
+  std::size_t at = offset_of(begin);
   std::string number;
   for (; at < text_.size(); ++at) {
     const char c = text_[at];
@@ -75,8 +81,8 @@ void TomlTable::missing(const std::vector<std::string>& keys) const {
   // A misspelt key is more likely than a forgotten one.
   for (const auto& [present, value] : table_) {
     if (known_.contains(present.str())) continue;
-    const std::string guess = nearest(present.str(), keys);
-    if (!guess.empty()) fail(value, "unknown key '" + std::string(present.str()) + "': did you mean '" + guess + "'?");
+    if (!nearest(present.str(), keys).empty())
+      fail(value, "unknown key '" + std::string(present.str()) + "'" + did_you_mean(present.str(), keys));
   }
   fail("the key '" + keys.front() + "' is missing");
 }
@@ -185,38 +191,14 @@ std::vector<const toml::table*> TomlTable::tables(std::string_view key) {
 void TomlTable::finish() const {
   for (const auto& [key, value] : table_) {
     if (known_.contains(key.str())) continue;
-    const std::string guess = nearest(key.str(), {known_.begin(), known_.end()});
-    fail(value, "unknown key '" + std::string(key.str()) + "'" +
-                    (guess.empty() ? std::string() : ": did you mean '" + guess + "'?"));
+    fail(value,
+         "unknown key '" + std::string(key.str()) + "'" + did_you_mean(key.str(), {known_.begin(), known_.end()}));
   }
 }
 
 void TomlTable::expect(const std::vector<std::string>& keys) {
   known_.insert(keys.begin(), keys.end());
   finish();
-}
-
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-  std::string best;
-  std::size_t least = word.size() / 2 + 1;
-  for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> row(candidate.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= word.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j < row.size(); ++j) {
-        const std::size_t replaced = diagonal + (word[i - 1] != candidate[j - 1]);
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-      }
-    }
-    if (row.back() < least) {
-      least = row.back();
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 }  // namespace hbvm

@@ -17,8 +17,12 @@ class TomlSource {
   TomlSource(std::string text, std::string name);
 
   const std::string& name() const { return name_; }
+  /// Without the byte order mark that it may have begun with.
+  const std::string& text() const { return text_; }
   toml::table parse() const;
   [[noreturn]] void fail(std::size_t line, const std::string& what) const;
+  /// Where in the text a place is; its end if it is none.
+  std::size_t offset_of(const toml::source_position& place) const;
   /// The characters of a number that stands at this place.
   std::string number_at(const toml::source_position& begin) const;
 
@@ -74,8 +78,5 @@ class TomlTable {
   std::size_t line_;
   std::set<std::string, std::less<>> known_;
 };
-
-/// The candidate nearest to `word` in edits, if near enough to be what was meant; else empty.
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace hbvm

@@ -42,7 +42,7 @@ TEST(SceneCheck, RefusesBadInput) {
   expect_refused({"scene", "check", "kepler", "--out", "x"}, {"--out"});
   expect_refused({"scene", "check", folder.write("bad.toml", "dimension = 4\n")}, {"bad.toml:1", "'dimension'"});
   expect_refused({"scene", "check", folder.write("off.toml", inconsistent_pendulum())},
-                 {"off.toml", "position", "rod", "1.25e+00"});
+                 {"off.toml", "position", "rod", "1.25e+00", "hbvm scene project"});
   std::string twice = pendulum("1");
   twice += twice.substr(twice.find("[[constraint]]"), twice.find("[[effect]]") - twice.find("[[constraint]]"));
   const std::string report = hbvm({"scene", "check", folder.write("twice.toml", twice)}).out;
@@ -83,6 +83,16 @@ TEST(SceneProject, PrintsTheSceneWithoutAFile) {
   EXPECT_EQ(hbvm({"scene", "project", from, "--out", to}).code, 0);
   EXPECT_EQ(printed.out, text_of(to));
   EXPECT_EQ(read_scene(printed.out, "printed").title, "Pendulum");
+}
+
+TEST(SceneProject, KeepsComments) {
+  const Folder folder;
+  std::string text = inconsistent_pendulum();
+  text.insert(0, "# of mine\n");
+  text.insert(text.find("mass = 1") + 8, "  # kilograms");
+  const std::string projected = hbvm({"scene", "project", folder.write("from.toml", text)}).out;
+  EXPECT_TRUE(projected.starts_with("# of mine\n"));
+  EXPECT_NE(projected.find("mass = 1  # kilograms\n"), std::string::npos) << projected;
 }
 
 TEST(SceneProject, RefusesBadInput) {

@@ -181,7 +181,7 @@ inline std::string refusal(const std::string& text, const std::string& name = "t
   return {};
 }
 
-/// The number of a scene in 50 digits.
+/// The number of a scene with 50 digits.
 inline Mpfr value(const Expression& e, const Scene& scene) { return evaluate<Mpfr>(e, scene.constants); }
 
 }  // namespace hbvm

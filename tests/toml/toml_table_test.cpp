@@ -102,14 +102,6 @@ TEST(TomlTables, GuessWhatAMisspeltKeyWasMeantToBe) {
   EXPECT_EQ(refused([&] { odd.table.finish(); }), "file.toml:1: table 't': unknown key 'qwertz'");
 }
 
-TEST(TomlTables, TheNearestWordIsThatOfTheFewestEdits) {
-  EXPECT_EQ(nearest("lenght", {"length", "weight", "mass"}), "length");
-  EXPECT_EQ(nearest("mas", {"mars", "mass", "mas"}), "mas");
-  EXPECT_EQ(nearest("abcd", {"abxy"}), "abxy") << "half of it";
-  EXPECT_EQ(nearest("abcd", {"axyz"}), "");
-  EXPECT_EQ(nearest("x", {}), "");
-}
-
 TEST(TomlSources, AreTextOfOneMarkAtMost) {
   const std::string mark = "\xEF\xBB\xBF";
   EXPECT_EQ(TomlSource(mark + "a = 1\n", "f").parse()["a"].value<int>(), 1);

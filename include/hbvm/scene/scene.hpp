@@ -113,6 +113,10 @@ Scene read_scene(const std::string& toml, const std::string& name);
 /// A scene as TOML that read_scene takes back.
 std::string write_scene(const Scene& scene);
 
+/// The text of a scene file, or of a built-in scene by its name.
+/// \throws InputError
+std::string scene_text(const std::string& path_or_name);
+
 /// The scene of a file, or a built-in one by its name.
 /// \throws InputError
 Scene load_scene(const std::string& path_or_name);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hbvm {
+
+/// The candidate of the fewest edits (a character put in, taken out or replaced) from `word`, if at most half of its
+/// characters differ; else empty.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// The end of a message about an unknown word: ": did you mean 'length'?", or nothing if no candidate is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace hbvm

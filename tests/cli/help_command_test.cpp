@@ -1,0 +1,20 @@
+#include "cli/program.hpp"
+
+namespace hbvm {
+namespace {
+
+TEST(HelpCommand, SaysWhatTheOptionSays) {
+  for (const Arguments& command : {Arguments{}, {"run"}, {"audit"}, {"scene"}, {"scene", "check"}}) {
+    const Outcome asked = hbvm(Arguments{"help"} + command);
+    EXPECT_EQ(asked.code, 0) << asked.err;
+    EXPECT_EQ(asked.out, hbvm(command + Arguments{"--help"}).out);
+  }
+}
+
+TEST(HelpCommand, RefusesWhatIsNoCommand) {
+  expect_refused({"help", "runn"}, {"'runn'", "did you mean 'run'?"});
+  expect_refused({"help", "scene", "draw"}, {"'draw'"});
+}
+
+}  // namespace
+}  // namespace hbvm
