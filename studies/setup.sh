@@ -6,6 +6,21 @@ test_packages="libgtest-dev libflint-arb-dev libflint-dev pkg-config doxygen cla
 clang_packages="clang libclang-rt-14-dev"
 speed_packages="libbenchmark-dev libflint-arb-dev libflint-dev"
 
+# What apt-get says, in one line that grows on a terminal, and in a few elsewhere.
+show_installing() {
+  awk -v terminal="$([ -t 1 ] && echo yes)" '
+    / newly installed/ { all = $3 }
+    /^Get:/ { ++fetched }
+    /^Setting up / { ++ready }
+    /^(Get:|Setting up )/ {
+      line = sprintf("  %d fetched, %d ready of %d packages", fetched, ready, all)
+      if (terminal) printf "\r%s", line
+      else if (++lines % 25 == 0) print line
+      fflush()
+    }
+    END { if (line) print (terminal ? "\r" : "") line }'
+}
+
 # Installs those of the named Debian packages that are missing.
 need_packages() {
   local missing="" package sudo=""
@@ -17,7 +32,8 @@ need_packages() {
   [ "$(id -u)" = 0 ] || sudo="sudo"
   $sudo apt-get update -qq
   # --no-remove: Boost 1.81 and the distribution's 1.74 exclude each other, and no other package may swap them.
-  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-remove --no-install-recommends $missing >/dev/null
+  $sudo env DEBIAN_FRONTEND=noninteractive DEBCONF_NOWARNINGS=yes apt-get install -y --no-remove --no-install-recommends $missing |
+    show_installing
 }
 
 # build PRESET [CMAKE OPTION ...]

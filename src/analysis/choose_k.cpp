@@ -126,7 +126,8 @@ ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind sol
       low = middle + 1;
   }
   return {high,
-          "U is not a polynomial: the least k whose psi_hat agrees with that of k + s to round-off over the first " +
+          "U is not a polynomial: the least k whose force coefficients agree with those of k + s to round-off over the "
+          "first " +
               std::to_string(first_steps) + " steps"};
 }
 

@@ -43,7 +43,7 @@ std::vector<Claim> filtered(std::vector<Claim> claims, const std::string& filter
     if (labels.find(claim.label + "; ") == std::string::npos) labels += claim.label + "; ";
   std::erase_if(claims, [&](const Claim& c) {
     const std::string all =
-        c.label + "\n" + std::string(name_of(c.quantity)) + "\n" + c.problem + "\n" + c.method_text();
+        readable(c.label) + "\n" + std::string(name_of(c.quantity)) + "\n" + c.problem + "\n" + c.method_text();
     return lower(all).find(wanted) == std::string::npos;
   });
   if (claims.empty())
@@ -138,10 +138,10 @@ void audit_command(const AuditArguments& o) {
 void add_audit_command(CLI::App& app) {
   auto o = std::make_shared<AuditArguments>();
   CLI::App* const command =
-      app.add_subcommand("audit", "Decide the paper's claims, or your own, in as many digits as it takes");
+      app.add_subcommand("audit", "Decide the paper's claims, or your own, with as many digits as it takes");
   command->add_option("--claims", o->claims,
                       "Only claims whose label, quantity, problem or method holds this text; or a TOML file of claims");
-  auto* const quick = command->add_flag("--quick", o->quick, "s = 1, 2, 3 (default): well under two minutes");
+  auto* const quick = command->add_flag("--quick", o->quick, "s = 1, 2, 3 (default): about a minute");
   command->add_flag("--full", o->full, "s = 1 .. 8, 12 and 20, every problem: a third of an hour, see --out")
       ->excludes(quick);
   command->add_option("--method", o->method, "Audit the Runge-Kutta tableau in this TOML file: A, b, c as exact text");

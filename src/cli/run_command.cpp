@@ -16,6 +16,7 @@
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "hbvm/scene/coordinate_names.hpp"
 #include "hbvm/step/registry.hpp"
 #include "hbvm/version.hpp"
 #include "progress_bar.hpp"
@@ -144,42 +145,58 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // a path need not be UTF-8
 }
 
-/// Lines "q_1  0.123  15.2 digits", with the digits of the second column where they are known.
-void print_list(const char* name, const std::vector<std::string>& values, const std::vector<double>& digits = {}) {
+/// A vector of the state: its symbol, and what its components are called in tables if they have names there.
+struct Quantity {
+  std::string symbol;
+  std::vector<std::string> names = {};
+};
+
+std::size_t widest(const std::vector<std::string>& texts) {
   std::size_t width = 0;
-  for (const std::string& value : values) width = std::max(width, digits.empty() ? 0 : value.size());
+  for (const std::string& text : texts) width = std::max(width, text.size());
+  return width;
+}
+
+/// Lines "q_1  upper.x  0.123  15.2 digits", with the digits of the value where they are known.
+void print_list(const Quantity& quantity, const std::vector<std::string>& values,
+                const std::vector<double>& digits = {}) {
+  const std::size_t of_names = widest(quantity.names), of_values = digits.empty() ? 0 : widest(values);
   for (std::size_t i = 0; i < values.size(); ++i)
-    fmt::print("  {:<14} {:<{}}{}\n", fmt::format("{}_{}", name, i + 1), values[i], width,
+    fmt::print("  {:<{}}{:<{}}{:<{}}{}\n", fmt::format("{}_{}", quantity.symbol, i + 1), of_names > 0 ? 7 : 15,
+               i < quantity.names.size() ? quantity.names[i] : "",
+               of_names > 0 ? std::max<std::size_t>(of_names + 2, 8) : 0, values[i], of_values,
                digits.empty() ? "" : fmt::format("  {:.1f} digits", digits[i]));
 }
 
 /// Values with the digits that are right and one more.
-void print_right_digits(const char* name, std::vector<std::string> values, const std::vector<double>& digits) {
+void print_right_digits(const Quantity& quantity, std::vector<std::string> values, const std::vector<double>& digits) {
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = to_right_digits(values[i], digits[i]);
-  print_list(name, values, digits);
+  print_list(quantity, values, digits);
 }
 
 /// The state at the end, to the digits that are right if they are known.
-void print_state(const RunResult& result) {
+void print_state(const Scene& scene, const RunResult& result) {
+  const Quantity q{"q", coordinate_names(scene)}, p{"p", coordinate_names(scene, "p")}, lambda{"lambda"};
   fmt::print("state at t = {}\n", result.t);
-  const char* const of_output = "output state (p tangential, exact multiplier; its energy is off by {})\n";
+  const char* const of_output =
+      "output state: p projected to the tangent space, and the multiplier there; its energy is off by {}\n";
   if (result.error && result.error->failure.empty()) {
     const ErrorEstimate& error = *result.error;
-    print_right_digits("q", result.q, error.q_digits);
+    print_right_digits(q, result.q, error.q_digits);
     if (!result.lambda.empty()) fmt::print(fmt::runtime(of_output), to_scientific(result.output_delta_H, 3));
-    print_right_digits("p", result.output_p, error.p_digits);
-    print_right_digits("lambda", result.output_lambda, error.lambda_digits);
+    print_right_digits(p, result.output_p, error.p_digits);
+    print_right_digits(lambda, result.output_lambda, error.lambda_digits);
     fmt::print("{}", to_text(error));
     return;
   }
   const Shadow shadow = result.shadow.value_or(Shadow{});
-  print_list("q", result.q, shadow.q);
-  print_list("p", result.p, shadow.p);
-  print_list("lambda", result.lambda);
+  print_list(q, result.q, shadow.q);
+  print_list(p, result.p, shadow.p);
+  print_list(lambda, result.lambda);
   if (!result.lambda.empty()) {
     fmt::print(fmt::runtime(of_output), to_scientific(result.output_delta_H, 3));
-    print_list("p", result.output_p);
-    print_list("lambda", result.output_lambda);
+    print_list(p, result.output_p);
+    print_list(lambda, result.output_lambda);
   }
   fmt::print("{}", result.error ? to_text(*result.error) : "digits not assessed (--error)\n");
 }
@@ -205,9 +222,16 @@ void print(const RunRequest& request, const RunResult& result) {
   fmt::print("{}: {}\n", request.scene.name, request.scene.title);
   fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method->text(), request.precision.name(),
              name_of(request.solver), result.steps, result.step);
-  print_state(result);
-  fmt::print("errors over the mesh\n  {:<14} {}\n  {:<14} {}\n  {:<14} {}\n", "e_H", to_scientific(result.e_H, 3),
-             "e_g", to_scientific(result.e_g, 3), "e_hid", to_scientific(result.e_hid, 3));
+  print_state(request.scene, result);
+  fmt::print("greatest errors at mesh points\n");
+  const auto error = [](const char* what, const char* symbol, const std::string& value) {
+    fmt::print("  {:<20}{:<8}{}\n", what, symbol, to_scientific(value, 3));
+  };
+  error("energy", "e_H", result.e_H);
+  if (!result.lambda.empty()) {
+    error("constraints", "e_g", result.e_g);
+    error("hidden constraints", "e_hid", result.e_hid);
+  }
   fmt::print("{}", to_text(result.health));
   if (result.shadow) fmt::print("{}", to_text(*result.shadow));
   if (!result.observables.empty()) fmt::print("conserved by the exact motion\n");

@@ -33,7 +33,7 @@ HbvmName HbvmName::parse(std::string_view text) {
     }
   }
   throw InputError("unknown method '" + std::string(text) +
-                   "': use hbvm:K,S with whole numbers K >= S >= 1, as hbvm:5,3, or hbvm:auto,S");
+                   "': use hbvm:K,S with whole numbers K >= S >= 1, e.g. hbvm:5,3, or hbvm:auto,S");
 }
 
 }  // namespace hbvm

@@ -108,7 +108,7 @@ long FixedPoint<S>::iterate() {
     // The matrix of (lam) at nodes near the solution serves all sweeps: it multiplies a change that goes to 0.
     if (!sweep(papers || rule_.is_coarse()))
       throw StageFailure(FailureCause::near_singular_constraints,
-                         "the linear system (lam) for the multipliers is singular", "0", rule_.sweeps() + 1);
+                         "the linear system for the multipliers, (29), is singular", "0", rule_.sweeps() + 1);
     rule_.show_change(x_.gamma, gamma_before_);
     if (papers) rule_.show_change(x_.psi, psi_before_, &h_);
     if (rule_.is_coarse()) {

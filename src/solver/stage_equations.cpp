@@ -62,9 +62,18 @@ void StageEquations<S>::measure_time() {
 template <Scalar S>
 void StageEquations<S>::describe_parts() {
   const Index s = method_.s, k = method_.k, m = problem_.m();
-  parts_ = {{"velocities h M^-1 gamma"}, {"positions at c"},    {"positions at c_hat"}, {"coefficients psi_hat"},
-            {"constraint gradients"},    {"matrix of (lam)"},   {"factors of (lam)"},   {"right-hand side of (lam)"},
-            {"solution of (lam)"},       {"coefficients zeta"}, {"coefficients gamma"}, {"residual of (lam)"}};
+  parts_ = {{"velocity coefficients h M^-1 gamma (48)"},
+            {"positions at constraint nodes (48)"},
+            {"positions at quadrature nodes (48)"},
+            {"force coefficients psi_hat (50)"},
+            {"constraint gradients"},
+            {"matrix for the multipliers (29)"},
+            {"LU for the multipliers (29)"},
+            {"right-hand side for the multipliers (29)"},
+            {"multipliers at the nodes (29)"},
+            {"constraint-force coefficients zeta (49)"},
+            {"momentum coefficients gamma (54)"},
+            {"hidden constraints at the nodes (52)"}};
   const auto stages = static_cast<std::uint64_t>(s);
   parts_[velocities].per_call = stages * problem_.mass.operations();
   parts_[velocities].per_call.add(Op::multiply, s * m + m);

@@ -11,9 +11,9 @@ namespace hbvm {
 
 const std::vector<MethodFamily>& method_families() {
   static const std::vector<MethodFamily> families{
-      {"hbvm", "hbvm:K,S with whole numbers K >= S >= 1, as hbvm:5,3, or hbvm:auto,S", hbvm_method},
+      {"hbvm", "hbvm:K,S with whole numbers K >= S >= 1, e.g. hbvm:5,3, or hbvm:auto,S", hbvm_method},
       {"rattle", "rattle", rattle_method},
-      {"lobatto", "lobatto:S with S >= 2, as lobatto:3", lobatto_method},
+      {"lobatto", "lobatto:S with S >= 2, e.g. lobatto:3", lobatto_method},
       {"compose", "compose:rattle,P with an even order P", composition_method},
       {"tableau", "tableau:FILE, or tableau:FILE+project", tableau_method},
   };

@@ -16,14 +16,14 @@ OperationCounts operations(std::initializer_list<std::pair<Op, Index>> counts) {
   return result;
 }
 
-/// The numbers of each line of the table, by its name; names fill the first 26 columns.
+/// The numbers of each line of the table, by its name; names fill the first 42 columns.
 std::map<std::string, std::vector<std::string>> rows(const std::string& text) {
   std::map<std::string, std::vector<std::string>> result;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    std::string name = line.substr(0, 26);
+    std::string name = line.substr(0, 42);
     name.erase(name.find_last_not_of(' ') + 1);
-    std::istringstream cells(line.substr(std::min<std::size_t>(26, line.size())));
+    std::istringstream cells(line.substr(std::min<std::size_t>(42, line.size())));
     for (std::string cell; cells >> cell;) result[name].push_back(cell);
   }
   return result;
@@ -51,7 +51,9 @@ TEST(AccountText, HasALineForEachAndTheSums) {
   EXPECT_EQ(table.at("all of the solver"), (Cells{"0", "0", "100", "0", "0", "0", "8", "62.5%"}));
 }
 
-TEST(AccountText, BeginsWithStepsAndSweeps) { EXPECT_TRUE(to_text(account()).starts_with("3 steps, 10 sweeps;")); }
+TEST(AccountText, BeginsWithStepsAndIterations) {
+  EXPECT_TRUE(to_text(account()).starts_with("3 steps, 10 iterations;"));
+}
 
 TEST(AccountText, ShowsEffectsBeforeTheSolver) {
   Account mixed = account();

@@ -97,7 +97,7 @@ TYPED_TEST_SUITE(Crossing, AllScalars, ScalarNames);
 
 TYPED_TEST(Crossing, OfASingularPositionChangesASineThreefoldWhereverTheMeshLies) {
   using S = TypeParam;
-  const S step = sqrt(epsilon<S>()) * 1000;  // condition 1e-6/epsilon: more than double could tell apart in 50 digits
+  const S step = sqrt(epsilon<S>()) * 1000;  // condition 1e-6/epsilon: more than double could tell apart with 50 digits
   for (const char* offset : {"1/2", "0.4", "0.1", "1e-3"}) {
     std::vector<S> heights;
     for (int n = -2; n <= 3; ++n) heights.push_back(step * (S(n) - literal<S>(offset)));

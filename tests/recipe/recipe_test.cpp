@@ -7,7 +7,8 @@
 namespace hbvm {
 namespace {
 
-/// The force is that of its formula: differences of U in 60 digits, where that of a pair is -strength Q Q exp(-r/l)/r.
+/// The force is that of its formula: differences of U with 60 digits, where that of a pair is -strength Q Q
+/// exp(-r/l)/r.
 TEST(Recipe, GivesTheForceOfItsFormula) {
   const PrecisionScope digits(60);
   EffectUse<Mpfr> use;

@@ -43,7 +43,7 @@ void round_to_double(const Matrix<S>& from, Matrix<double>& to) {
   for (Index i = 0; i < from.size(); ++i) to.data()[i] = approximately(from.data()[i]);
 }
 
-/// J takes any direction to the derivative of the residual along it: by central differences in 60 digits.
+/// J takes any direction to the derivative of the residual along it: by central differences with 60 digits.
 void expect_derivative(const Scene& text, int k, int s, bool banded) {
   const PrecisionScope digits(60);
   const Assembled<Mpfr> scene = assemble<Mpfr>(text, Consistency::unchecked);

@@ -119,11 +119,13 @@ void expect_operations(const OperationCounts& found, std::uint64_t times, const 
 }
 
 /// The part that a sweep of the fixed-point iteration has not.
-constexpr const char* newtons_part = "residual of (lam)";
+constexpr const char* newtons_part = "hidden constraints at the nodes (52)";
 
-const std::set<std::string> constraint_parts{"positions at c",   "constraint gradients",     "matrix of (lam)",
-                                             "factors of (lam)", "right-hand side of (lam)", "solution of (lam)",
-                                             "coefficients zeta"};
+const std::set<std::string> constraint_parts{
+    "positions at constraint nodes (48)",       "constraint gradients",
+    "matrix for the multipliers (29)",          "LU for the multipliers (29)",
+    "right-hand side for the multipliers (29)", "multipliers at the nodes (29)",
+    "constraint-force coefficients zeta (49)"};
 
 TEST(Accounting, KnowsEveryEffectOfTheRegistry) {
   std::set<std::string> registered, used;
@@ -178,7 +180,7 @@ TEST(Accounting, ASceneOfConstantForcesEvaluatesOnceInAll) {
     const Account account = run(bodies(2, rod) + effect(2, "uniform_gravity"), 4, 2, "1/32", "1");
     EXPECT_EQ(account.steps, 32u);
     EXPECT_EQ(evaluations(account, "uniform_gravity"), 1u);
-    EXPECT_EQ(line_of(account, "positions at c_hat").calls, 0u);
+    EXPECT_EQ(line_of(account, "positions at quadrature nodes (48)").calls, 0u);
   }
 }
 
@@ -187,7 +189,7 @@ TEST(Accounting, ASceneOfConstantForcesEvaluatesOnceInAll) {
 TEST(Accounting, AConstantForceCostsTheSolverExactSumsWhereItActs) {
   const std::string along_y = "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, -1, 0]\n";
   const Account without = sweeps(bodies(3, true), 3, 2, 5), with = sweeps(bodies(3, true) + along_y, 3, 2, 5);
-  EXPECT_EQ(line_of(with, "coefficients psi_hat").calls, 5u);
+  EXPECT_EQ(line_of(with, "force coefficients psi_hat (50)").calls, 5u);
   for (const AccountLine& line : solver_lines(without)) {
     const AccountLine found = line_of(with, line.name);
     EXPECT_EQ(found.calls, line.calls) << line.name;
@@ -201,9 +203,9 @@ TEST(Accounting, AConstantForceCostsTheSolverExactSumsWhereItActs) {
         expected.add(Op::negate, count.negate);
       }
     };
-    if (line.name == "coefficients psi_hat") add_each({.add = 2, .subtract = 4});
+    if (line.name == "force coefficients psi_hat (50)") add_each({.add = 2, .subtract = 4});
     // The two sums of p0 and its carry are replaced by the two exact ones, the rest's factor and its sums.
-    if (line.name == "coefficients gamma" || line.name == "right-hand side of (lam)")
+    if (line.name == "momentum coefficients gamma (54)" || line.name == "right-hand side for the multipliers (29)")
       add_each({.add = 2 * 2 + 4 - 2, .subtract = 2 * 4, .multiply = 1, .negate = 1});
     EXPECT_EQ(found.operations, expected) << line.name;
   }
@@ -251,9 +253,9 @@ TEST(Accounting, TheSolversOperationsAreLinesOfTheirOwn) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       EXPECT_EQ(lines[i].name, expected[i].name);
       // zeta of the multipliers before they are corrected, and after
-      EXPECT_EQ(lines[i].calls, lines[i].name == newtons_part          ? 0u
-                                : lines[i].name == "coefficients zeta" ? 10u
-                                                                       : 5u)
+      EXPECT_EQ(lines[i].calls, lines[i].name == newtons_part                                ? 0u
+                                : lines[i].name == "constraint-force coefficients zeta (49)" ? 10u
+                                                                                             : 5u)
           << lines[i].name;
       EXPECT_EQ(lines[i].operations, expected[i].operations) << lines[i].name << " with " << kind;
     }
@@ -273,15 +275,16 @@ TEST(Accounting, WithoutConstraintsNoConstraintRoutineIsEntered) {
           if (constraint) constraint_lines.insert(line.name);
           if (line.name == newtons_part) continue;
           // For k = s the nodes c are c_hat.
-          const bool idle = (!rod && constraint) || (k == s && line.name == "positions at c");
+          const bool idle = (!rod && constraint) || (k == s && line.name == "positions at constraint nodes (48)");
           // One multiplier at one node is divided by, without factors.
-          EXPECT_EQ(line.operations.total() != 0, !idle && !(line.name == "factors of (lam)" && s == 1)) << line.name;
-          if (line.name == "matrix of (lam)" || line.name == "factors of (lam)") {
+          EXPECT_EQ(line.operations.total() != 0, !idle && !(line.name == "LU for the multipliers (29)" && s == 1))
+              << line.name;
+          if (line.name == "matrix for the multipliers (29)" || line.name == "LU for the multipliers (29)") {
             // Once a step at least; not once a sweep.
             EXPECT_EQ(line.calls >= account.steps && line.calls < account.sweeps, !idle) << line.name;
             continue;
           }
-          const std::uint64_t times = line.name == "coefficients zeta" ? 2 : 1;
+          const std::uint64_t times = line.name == "constraint-force coefficients zeta (49)" ? 2 : 1;
           EXPECT_EQ(line.calls, idle ? 0 : times * account.sweeps) << line.name;
         }
         EXPECT_EQ(constraint_lines, constraint_parts);
@@ -319,24 +322,26 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
       expect_operations(line_of(account, part).operations, times, each, part);
     };
     // The middle of the step is q0, its carry and half a displacement.
-    expect("velocities h M^-1 gamma", {.add = 2 * m, .multiply = s * d + s * m + m});
-    expect("positions at c", {.add = s * (s - 1) * m + s * m, .multiply = s * s * m});
-    expect("positions at c_hat", {.add = k * (s - 1) * m + k * m, .multiply = k * s * m});
-    expect("coefficients psi_hat", {.add = s * (k - 1) * m, .multiply = s * k * m});
+    expect("velocity coefficients h M^-1 gamma (48)", {.add = 2 * m, .multiply = s * d + s * m + m});
+    expect("positions at constraint nodes (48)", {.add = s * (s - 1) * m + s * m, .multiply = s * s * m});
+    expect("positions at quadrature nodes (48)", {.add = k * (s - 1) * m + k * m, .multiply = k * s * m});
+    expect("force coefficients psi_hat (50)", {.add = s * (k - 1) * m, .multiply = s * k * m});
     // At each node x = a - b, x + x for a, minus that for b, and half of the latter.
     expect("constraint gradients", {.add = s * d, .subtract = s * d, .multiply = s * d, .negate = s * d});
-    expect("matrix of (lam)", {.add = s * s * (m - 1), .multiply = s * s * (m + 1)});
+    expect("matrix for the multipliers (29)", {.add = s * s * (m - 1), .multiply = s * s * (m + 1)});
     // gamma of the multipliers so far, its velocities at the nodes, what they leave of the constraint, and that over h.
-    expect("right-hand side of (lam)", {.add = (s - 1) * m + 2 * m + s * (s - 1) * m + s * (m - 1),
-                                        .subtract = s * m,
-                                        .multiply = s * m + (s - 1) * m + s * m + s * d + s * s * m + s * m,
-                                        .divide = s});
+    expect("right-hand side for the multipliers (29)",
+           {.add = (s - 1) * m + 2 * m + s * (s - 1) * m + s * (m - 1),
+            .subtract = s * m,
+            .multiply = s * m + (s - 1) * m + s * m + s * d + s * s * m + s * m,
+            .divide = s});
     // Two equations: a quotient and a product to factor, two products and two quotients to solve.
-    expect("factors of (lam)", {.subtract = 1, .multiply = 1, .divide = 1});
-    expect("solution of (lam)", {.add = s, .subtract = 2, .multiply = 2, .divide = 2});
+    expect("LU for the multipliers (29)", {.subtract = 1, .multiply = 1, .divide = 1});
+    expect("multipliers at the nodes (29)", {.add = s, .subtract = 2, .multiply = 2, .divide = 2});
     // Twice: of the multipliers so far, and of those corrected.
-    expect("coefficients zeta", {.add = 2 * (s * m + s * (s - 1) * m), .multiply = 2 * (s * m + s * s * m)});
-    expect("coefficients gamma",
+    expect("constraint-force coefficients zeta (49)",
+           {.add = 2 * (s * m + s * (s - 1) * m), .multiply = 2 * (s * m + s * s * m)});
+    expect("momentum coefficients gamma (54)",
            {.add = (s - 1) * m + 2 * m, .subtract = s * m, .multiply = s * m + (s - 1) * m + s * m});
   }
 }

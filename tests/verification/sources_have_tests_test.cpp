@@ -12,7 +12,7 @@ namespace {
 const std::map<std::string, std::string>& exceptions() {
   static const std::map<std::string, std::string> reasons{
       {"analysis/audit/audit_figure",
-       "thousands of steps in 50 digits, ten times over; interval_ladder_test holds its errors"},
+       "thousands of steps with 50 digits, ten times over; interval_ladder_test holds its errors"},
       {"analysis/audit/sensitivity", "the floors it gives decide auditor_test, round_off_test and both ladders' tests"},
       {"analysis/stability/figures", "runs of 2^20 steps; measure_test and walk_test hold what it shows"},
       {"analysis/study/conservation_study", "a kind of study: study_test runs one with right and wrong figures"},

@@ -18,7 +18,7 @@ class TableauMethod final : public MethodByTemplate<TableauMethod> {
   std::string text() const override;
   std::string title() const override;
   std::string key() const override;
-  /// That its author states, or its conditions show in 50 digits.
+  /// That its author states, or its conditions show with 50 digits.
   int order() const override;
   int stages() const override { return tableau_.stages(); }
   int terms() const override { return tableau_.stages(); }

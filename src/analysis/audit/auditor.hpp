@@ -78,7 +78,7 @@ class Auditor {
   Motion motion_;
   std::optional<CoefficientCheck> coefficients_;
   std::vector<std::size_t> steps_, intervals_;  ///< claims about a step, and about an interval
-  std::optional<Ladders> deep_;                 ///< the errors of one step in 100 digits
+  std::optional<Ladders> deep_;                 ///< the errors of one step with 100 digits
   std::set<std::size_t> settled_;               ///< claims whose verdict what is left to do cannot change
 };
 

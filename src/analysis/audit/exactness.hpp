@@ -11,7 +11,7 @@ namespace hbvm {
 ///
 ///     H: mu s <= 2k, (evaik); of a tableau mu <= 2 if it is symplectic, mu <= 1 from order 2 on
 ///     angular momentum: k = s, or mu <= 2, where the further nodes change nothing; of a tableau if it is symplectic
-///     g, of degree 2: always;  forth and back: always; of a tableau if it is symmetric
+///     g, of degree 2: always;  there and back: always; of a tableau if it is symmetric
 ///
 /// Of other methods, what they keep by construction.
 /// \param check of the coefficients of HBVM or a tableau, on which all this rests, or null \throws InputError

@@ -22,6 +22,13 @@ std::string_view name_of(Form form) {
 }
 std::string_view name_of(Span span) { return span == Span::step ? "step" : "interval"; }
 
+/// The names of claims' files, but for two that say little to who has not read those.
+std::string_view readable(Quantity quantity) {
+  return quantity == Quantity::lagmul   ? "extrapolated lambda"
+         : quantity == Quantity::sweeps ? "iterations"
+                                        : hbvm::name_of(quantity);
+}
+
 /// To three decimals, or a power of ten.
 std::string short_text(double x) {
   if (!std::isfinite(x)) return "---";
@@ -134,7 +141,7 @@ Table audit_table(const std::vector<Finding>& findings) {
     if (is_new)
       table.groups.push_back({c.problem == "tableau" ? "coefficients" : c.problem, {on_one_line(c.problem)}, {}});
     const bool rate = (c.form == Form::at_least || c.form == Form::exactly) && c.problem != "tableau";
-    std::vector<std::string> row{on_one_line(c.label), std::string(hbvm::name_of(c.quantity)),
+    std::vector<std::string> row{on_one_line(hbvm::readable(c.label)), std::string(readable(c.quantity)),
                                  rate ? std::string(name_of(c.span)) : ""};
     if (named)
       row.push_back(on_one_line(c.method_text()));

@@ -10,6 +10,7 @@
 #include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
+#include "hbvm/scene/coordinate_names.hpp"
 
 namespace hbvm {
 namespace {
@@ -29,6 +30,14 @@ std::string describe_in(const Scene& scene) {
   line("bodies", fmt::format("{}, and {} rigid", scene.bodies.size(), scene.rigid_bodies.size()));
   if (!scene.attachments.empty()) line("attachments", std::to_string(scene.attachments.size()));
   line("coordinates m", std::to_string(problem.m()));
+  const std::vector<std::string> names = coordinate_names(scene);
+  const auto d = static_cast<std::size_t>(scene.dimension);
+  for (std::size_t i = 0; i < names.size(); i += d) {
+    std::string of_one_point;
+    for (std::size_t j = i; j < std::min(i + d, names.size()); ++j)
+      of_one_point += fmt::format("{}q_{} = {}", j > i ? ", " : "", j + 1, names[j]);
+    line("", of_one_point);
+  }
   line("constraints nu", std::to_string(problem.nu()));
   line("degrees of freedom", std::to_string(problem.m() - problem.nu()));
   Index listed = 0;

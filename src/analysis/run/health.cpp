@@ -134,8 +134,13 @@ Health HealthWatch<S>::report(const Method& method) {
 }
 
 std::string to_text(const Health& health) {
-  std::string text = fmt::format("what the run is worth\n  {:<14} {}\n  {:<14} {}\n  {:<14} {}\n", "condition",
-                                 health.condition, "worst_e_H", health.worst_e_H, "worst_hidden", health.worst_hidden);
+  std::string text = "what the run is worth\n";
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<36}{}\n", what, value);
+  };
+  line("energy error, of H's greatest term", health.worst_e_H);
+  line("condition of the Gram matrix", health.condition);
+  line("velocity off the tangent space", health.worst_hidden);
   for (const Warning& warning : health.warnings) text += fmt::format("  WARNING {}: {}\n", warning.name, warning.text);
   return text;
 }

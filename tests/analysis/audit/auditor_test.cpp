@@ -31,7 +31,7 @@ Claim with_wrong_weight(Claim claim, const char* relative) {
   return claim;
 }
 
-/// A weight wrong by 1e-93 shows in 100 digits alone, as an energy error of some ten thousand times what is allowed,
+/// A weight wrong by 1e-93 shows with 100 digits alone, as an energy error of some ten thousand times what is allowed,
 /// though nobody looks at the coefficients.
 TEST(Auditor, ConservationIsToWhatRoundOffExplains) {
   const Claim energy = conserved(Quantity::H, "quartic_oscillator", {4, 2});

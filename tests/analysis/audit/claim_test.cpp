@@ -16,5 +16,12 @@ TEST(Claims, NameTheirMethod) {
   EXPECT_EQ(claim.method_text(), "Gauss, two stages");
 }
 
+TEST(Claims, AreReadableWithThePrintedPaper) {
+  EXPECT_EQ(readable("ord2s"), "Theorem 5 (ord2s)");
+  EXPECT_EQ(readable("ord2sk, one step"), "Theorem 9 (ord2sk), one step");
+  EXPECT_EQ(readable("superconvergence"), "superconvergence");
+  EXPECT_EQ(readable("ord2s of mine"), "ord2s of mine");
+}
+
 }  // namespace
 }  // namespace hbvm

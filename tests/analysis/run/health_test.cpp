@@ -170,7 +170,8 @@ TEST(Health, OfALightEndIsThatOfTheLightEnd) {
 TEST(HealthText, HasALineForEach) {
   const std::string text = to_text(Health{"2", "3e-16", "1e-4", {{"energy_lost", "a"}, {"step_too_large", "b"}}});
   EXPECT_EQ(text,
-            "what the run is worth\n  condition      2\n  worst_e_H      3e-16\n  worst_hidden   1e-4\n"
+            "what the run is worth\n  energy error, of H's greatest term  3e-16\n"
+            "  condition of the Gram matrix        2\n  velocity off the tangent space      1e-4\n"
             "  WARNING energy_lost: a\n  WARNING step_too_large: b\n");
 }
 

@@ -41,4 +41,8 @@ struct Claim {
 Claim make_claim(const std::string& label, Quantity quantity, const std::string& problem, Span span, Form form,
                  double predicted);
 
+/// A label for readers of the printed paper: "Theorem 5 (ord2s), one step" for "ord2s, one step". Labels of no
+/// statement there are left as they are.
+std::string readable(const std::string& label);
+
 }  // namespace hbvm

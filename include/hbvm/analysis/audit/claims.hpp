@@ -10,7 +10,7 @@ namespace hbvm {
 
 enum class Extent {
   quick,  ///< s = 1, 2, 3 and the smaller problems: under two minutes
-  full    ///< s = 1 .. 8, all problems, and s = 12 and 20 in 200 digits
+  full    ///< s = 1 .. 8, all problems, and s = 12 and 20 with 200 digits
 };
 
 /// The paper's statements and those that are known beyond it, each with the label of the theorem, corollary or remark

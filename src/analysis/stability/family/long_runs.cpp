@@ -6,7 +6,7 @@
 namespace hbvm {
 namespace {
 
-/// The same method with as many nodes as its energy needs to be exact in double, in quad and in 50 digits.
+/// The same method with as many nodes as its energy needs to be exact in double, in quad and with 50 digits.
 struct Methods {
   std::string in_double, in_quad, in_50_digits;
   Methods(const char* all) : in_double(all), in_quad(all), in_50_digits(all) {}

@@ -5,7 +5,7 @@
 namespace hbvm {
 
 void add_reversal(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "forth and back", collection);
+  const Family family(cases, "there and back", collection);
   const std::vector<std::string> all{"double", "quad", "mpfr:50"};
   std::vector<std::array<std::string, 4>> runs{{"kepler", "hbvm:12,4", "1/32", "2"},
                                                {"double_pendulum", "hbvm:3,3", "1/32", "1"},

@@ -1,0 +1,233 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.hpp"
+#include "hbvm/read_file.hpp"
+#include "verification/sources.hpp"
+
+namespace hbvm {
+namespace {
+
+std::string page(const std::string& name) { return read_file(project / name); }
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
+using Row = std::vector<std::string>;
+
+/// A table of a page: its rows, each cell by the name of its column and its place.
+struct MarkdownTable {
+  Row header;
+  std::vector<Row> rows;
+
+  std::size_t column(const std::string& name, std::size_t nth = 0) const {
+    for (std::size_t i = 0; i < header.size(); ++i)
+      if (header[i] == name && nth-- == 0) return i;
+    ADD_FAILURE() << "there is no column " << name;
+    return 0;
+  }
+};
+
+Row cells(const std::string& line) {
+  Row result;
+  for (std::size_t at = 1; at < line.size();) {
+    const std::size_t end = std::min(line.find('|', at), line.size());
+    result.push_back(trimmed(line.substr(at, end - at)));
+    at = end + 1;
+  }
+  return result;
+}
+
+/// The first table of the text whose header begins so.
+MarkdownTable table_of(const std::string& text, const std::string& header) {
+  MarkdownTable table;
+  for (const std::string& line : lines_of(text)) {
+    if (table.header.empty()) {
+      if (line.starts_with(header)) table.header = cells(line);
+    } else if (line.starts_with("|--") || line.starts_with("|:-")) {
+      continue;
+    } else if (line.starts_with("|")) {
+      table.rows.push_back(cells(line));
+    } else {
+      break;
+    }
+  }
+  EXPECT_FALSE(table.rows.empty()) << header;
+  return table;
+}
+
+/// A quoted number is the computed one to its own digits; below `round_off`, of its size.
+void expect_quoted(const std::string& quoted, const std::string& computed, double round_off, const std::string& where) {
+  const double q = std::stod(quoted), c = std::stod(computed);
+  if (std::abs(q) < round_off) {
+    EXPECT_LT(std::abs(c), round_off) << where;
+    EXPECT_LT(std::abs(std::log10(q / c)), 1) << where << ": " << quoted << ", computed " << computed;
+    return;
+  }
+  const std::string mantissa = quoted.substr(0, quoted.find('e'));
+  const auto point = mantissa.find('.');
+  const auto decimals = point == std::string::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
+  const double exponent = quoted.find('e') == std::string::npos ? 0 : std::stod(quoted.substr(quoted.find('e') + 1));
+  EXPECT_LE(std::abs(q - c), 0.501 * std::pow(10, exponent - decimals))
+      << where << ": " << quoted << ", computed " << computed;
+}
+
+nlohmann::json json_result(const Arguments& arguments) {
+  const Outcome outcome = hbvm(arguments + Arguments{"--json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  return nlohmann::json::parse(outcome.out);
+}
+
+TEST(ReadmeFigures, OfTheSatellitesAreThoseOfTheRuns) {
+  const MarkdownTable quoted = table_of(page("studies/tethered_satellites/README.md"), "| k | s | until |");
+  ASSERT_EQ(quoted.rows.size(), 5u);
+  for (const Row& row : quoted.rows) {
+    const std::string method = "hbvm:" + row[0] + "," + row[1], where = method + " until " + row[2];
+    const auto run =
+        json_result({"run", "tethered_satellites", "--method", method, "--step", "0.1", "--until", row[2]});
+    const double e_H = std::stod(row[quoted.column("e_H")]);
+    if (row[2] == "1000" &&
+        e_H > 1e-11) {  // after t = 450 the motion is another one with every last bit, as the page says
+      EXPECT_NEAR(std::stod(std::string(run["e_H"])) / e_H, 1, 0.2) << where;
+    } else {
+      expect_quoted(row[quoted.column("e_H")], run["e_H"], 1e-11, where + ", e_H");
+    }
+    expect_quoted(row[quoted.column("e_g")], run["e_g"], 1e-11, where + ", e_g");
+    EXPECT_NEAR(std::stod(row[quoted.column("iterations per step")]), double(run["iterations_per_step"]), 0.2) << where;
+  }
+}
+
+/// Its tables, and the sentence on their check.
+class Study {
+ public:
+  Study(const std::string& name, const std::string& precision)
+      : outcome_(hbvm({"study", (project / "studies" / name).string(), "--check", "--precision", precision, "--out",
+                       folder_ / "out"},
+                      120)) {
+    EXPECT_EQ(outcome_.code, 0) << outcome_.err << outcome_.out;
+    std::string directory = precision;
+    std::replace(directory.begin(), directory.end(), ':', '_');
+    table_ = text_of(std::filesystem::path(folder_ / "out") / name / directory / "table.md");
+  }
+  const std::string& table() const { return table_; }
+  const std::string& out() const { return outcome_.out; }
+
+ private:
+  Folder folder_;
+  Outcome outcome_;
+  std::string table_;
+};
+
+TEST(ReadmeFigures, CountWhatTheChecksCount) {
+  for (const auto& [name, figures] : {std::pair("table_1_simple_pendulum", "78 of 78"),
+                                      {"table_2_modified_pendulum", "69 of 69"},
+                                      {"table_3_conical_pendulum", "18 of 18"}}) {
+    EXPECT_NE(page(std::string("studies/") + name + "/README.md").find(figures), std::string::npos) << name;
+    EXPECT_NE(Study(name, "double").out().find(std::string(figures) + " printed figures agree"), std::string::npos)
+        << name;
+  }
+  EXPECT_NE(page("README.md").find("165 of 165"), std::string::npos) << "their sum";
+}
+
+TEST(ReadmeFigures, OfTheNodesAreThoseOfTable2) {
+  const MarkdownTable quoted = table_of(page("README.md"), "| k | double | 50 digits");
+  ASSERT_EQ(quoted.rows.size(), 4u);
+  for (const auto& [precision, column, round_off] :
+       {std::tuple("double", std::size_t{1}, 1e-15), {"mpfr:50", std::size_t{2}, 1e-45}}) {
+    const std::string table = Study("table_2_modified_pendulum", precision).table();
+    for (const Row& row : quoted.rows) {
+      const std::size_t block = table.find("k = " + row[0]);
+      ASSERT_NE(block, std::string::npos) << table;
+      const MarkdownTable computed = table_of(table.substr(block), "| i ");
+      bool found = false;
+      for (const Row& of_i : computed.rows)
+        if (of_i[0] == "7") {
+          found = true;
+          const std::string where = std::string(precision) + ", k = " + row[0];
+          expect_quoted(row[column], of_i[computed.column("e_H")], round_off, where);
+          if (column == 2) {
+            EXPECT_EQ(row[3], of_i[computed.column("rate_H")]) << where;
+          }
+        }
+      EXPECT_TRUE(found) << table;
+    }
+  }
+}
+
+TEST(ReadmeFigures, OfWhatIsConservedAreThoseOfTheStudy) {
+  const MarkdownTable quoted = table_of(page("studies/conservation/README.md"), "| scene | k = s: e_H");
+  const MarkdownTable computed = table_of(Study("conservation", "mpfr:50").table(), "| scene ");
+  for (const Row& row : quoted.rows)
+    for (const bool more : {false, true}) {
+      const std::string where = row[0] + (more ? ", k = " + row[3] : ", k = s");
+      bool found = false;
+      for (const Row& result : computed.rows) {
+        if (result[0] != row[0] || (result[computed.column("nodes")] == "k > s") != more) continue;
+        found = true;
+        if (more) {
+          EXPECT_EQ(row[3], result[computed.column("k")]) << where;
+        }
+        expect_quoted(row[more ? 4 : 1], result[computed.column("e_H")], 1e-47, where + ", e_H");
+        expect_quoted(row[more ? 5 : 2], result[computed.column("e_L")], 1e-47, where + ", e_L");
+      }
+      EXPECT_TRUE(found) << where;
+    }
+}
+
+/// k - s = 16 takes too long for a test.
+TEST(ReadmeFigures, OfMoreNodesAreThoseOfTheRuns) {
+  const MarkdownTable quoted = table_of(page("studies/orders_beyond_round_off/README.md"), "| k - s | 0 | 1 |");
+  for (const Row& row : quoted.rows) {
+    if (!row[0].starts_with("iterations, s = ")) continue;
+    const int s = std::stoi(row[0].substr(16));
+    for (std::size_t column = 1; column < 4; ++column) {
+      const int k = s + std::stoi(quoted.header[column]);
+      const auto run =
+          json_result({"run", "tethered_satellites", "--method", "hbvm:" + std::to_string(k) + "," + std::to_string(s),
+                       "--step", "1/16", "--until", "8", "--precision", "mpfr:50", "--solver", "paper"});
+      EXPECT_NEAR(std::stod(row[column]), double(run["iterations_per_step"]), 0.06) << row[0] << ", k = " << k;
+    }
+  }
+}
+
+/// Rows of a table in CSV without the lines of comments.
+std::vector<std::string> csv_rows(const std::string& file) {
+  std::vector<std::string> rows;
+  for (const std::string& line : lines_of(page(file)))
+    if (!line.starts_with("#") && !line.empty()) rows.push_back(line);
+  return rows;
+}
+
+long rows_with(const std::vector<std::string>& rows, const std::string& text) {
+  return std::count_if(rows.begin(), rows.end(),
+                       [&](const std::string& row) { return row.find(text) != std::string::npos; });
+}
+
+/// Hours of work made these tables, which stand beside the pages.
+TEST(ReadmeFigures, CountWhatTheLongTablesHold) {
+  const auto claims = csv_rows("studies/orders_beyond_round_off/tables/audit.csv");
+  const std::string audit = page("studies/orders_beyond_round_off/README.md");
+  EXPECT_NE(audit.find("All " + std::to_string(rows_with(claims, ",holds")) + " claims hold"), std::string::npos);
+  EXPECT_EQ(rows_with(claims, ",fails") + rows_with(claims, ",undecidable"), 0);
+
+  const auto cases = csv_rows("studies/stability/tables/stability.csv");
+  long holds = 0, fails = 0, warns = 0;
+  for (const std::string& row : cases) {
+    holds += row.ends_with(",holds");
+    fails += row.find(",\"typed failure") != std::string::npos;
+    warns += row.find(",\"warned") != std::string::npos;
+  }
+  const std::string counted = std::to_string(holds + fails + warns) + " cases: " + std::to_string(holds) + " hold, " +
+                              std::to_string(fails) + " fail with the\nerror they should, " + std::to_string(warns) +
+                              " warn";
+  EXPECT_NE(page("studies/stability/README.md").find(counted), std::string::npos) << counted;
+}
+
+}  // namespace
+}  // namespace hbvm
