@@ -3,6 +3,7 @@
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/problem/regularity.hpp"
+#include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 
 namespace hbvm {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "hbvm/analysis/audit/finding.hpp"
 #include "hbvm/error.hpp"
 
 namespace hbvm {
