@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "hbvm/analysis/run/run.hpp"
 #include "hbvm/analysis/run/run_figure.hpp"
+#include "hbvm/analysis/run/run_page.hpp"
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"
@@ -19,6 +20,7 @@
 #include "hbvm/scene/coordinate_names.hpp"
 #include "hbvm/step/registry.hpp"
 #include "hbvm/version.hpp"
+#include "hbvm/write_file.hpp"
 #include "progress_bar.hpp"
 #include "resume.hpp"
 #include "signals.hpp"
@@ -326,7 +328,7 @@ class Plot {
  public:
   /// \throws InputError for a file that no picture can be written to
   explicit Plot(const std::string& file) : file_(file) {
-    gnuplot_script({}, file);  // refuses an ending
+    refuse_ending();
     std::error_code ignored;
     const bool was_there = std::filesystem::exists(file, ignored);
     if (!std::ofstream(file, std::ios::app)) throw InputError("--plot: cannot write '" + file + "'");
@@ -337,6 +339,24 @@ class Plot {
 
   void draw(const RunRequest& request, const std::string& command) const {
     if (recording_.samples.size() < 2) return;
+    if (is_page(file_))
+      write_file(file_, run_page(request, recording_, command));
+    else
+      draw_figure(request, command);
+    fmt::print(stderr, "written to {}\n", file_);
+  }
+
+ private:
+  void refuse_ending() const {
+    if (is_page(file_)) return;
+    try {
+      gnuplot_script({}, file_);
+    } catch (const InputError& error) {
+      throw InputError(std::string("--plot: ") + error.what() + "; one that moves is .html");
+    }
+  }
+
+  void draw_figure(const RunRequest& request, const std::string& command) const {
     Figure figure = run_figure(sketch(request.scene), recording_);
     figure.caption = plain(request.scene.title);
     figure.footnote = std::string("hbvm ") + version() + ": " + command;
@@ -344,10 +364,8 @@ class Plot {
       figure.footnote +=
           fmt::format("; a point every {} steps, of errors the greatest since the one before", recording_.every);
     hbvm::draw(figure, file_);
-    fmt::print(stderr, "written to {}\n", file_);
   }
 
- private:
   std::string file_;
   Recording recording_;
 };
@@ -415,7 +433,9 @@ void add_run_command(CLI::App& app) {
                    "What to do with a step that cannot be made: stop, or halve it, again and again, to at most 2^-20")
       ->capture_default_str();
   command->add_option("--out", o->out, "Write the trajectory to this CSV file");
-  command->add_option("--plot", o->plot, "Draw motion, multipliers and errors into this file: .svg, .pdf or .png");
+  command->add_option(
+      "--plot", o->plot,
+      "Draw motion, multipliers and errors into this file: .svg, .pdf or .png; as .html the motion moves");
   command->add_option("--every", o->every, "Steps between two lines of the CSV file")
       ->check(CLI::Number)
       ->capture_default_str();

@@ -10,8 +10,7 @@
 namespace hbvm {
 namespace {
 
-/// Okabe and Ito's colours, told apart by all eyes; black is for what is no curve.
-constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
+std::string colour_of(std::size_t curve) { return std::string(curve_colours[curve % curve_colours.size()]); }
 constexpr int dashes[] = {1, 2, 4, 5, 3};
 constexpr int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12};
 
@@ -168,7 +167,7 @@ class PanelScript {
 
   void add(const Curve& curve, std::size_t i) {
     if (!any(curve.points)) return;
-    const std::string colour = quoted(colours[i % std::size(colours)]);
+    const std::string colour = quoted(colour_of(i));
     const int dash = dashes[i % std::size(dashes)], mark = marks[i % std::size(marks)];
     constexpr std::size_t few = 40;
     const bool differ = panel_.curves.size() > 1 && !panel_.equal_axes;
@@ -257,7 +256,7 @@ class PanelScript {
     for (const Placed& label : labels)
       script_ +=
           fmt::format("set label {} at graph 1.02,{:.5f} left tc rgb {}\n", quoted(panel_.curves[label.curve].label),
-                      label.at / box_height, quoted(colours[label.curve % std::size(colours)]));
+                      label.at / box_height, quoted(colour_of(label.curve)));
   }
 
   static PlotPoint end_of(const Curve& curve) {
@@ -279,7 +278,7 @@ class PanelScript {
             std::abs(there[0] - at[0]) * box_width < letter_width * x_.length())
           letters_right += static_cast<double>(letters(other.label)) + 1;
       }
-      write(at, curve.label, colours[curves[n] % std::size(colours)], lowest ? 0 : -0.6, letters_right);
+      write(at, curve.label, colour_of(curves[n]), lowest ? 0 : -0.6, letters_right);
     }
   }
 

@@ -563,6 +563,17 @@ TEST(RunPlot, DrawsAnyScene) {
   }
 }
 
+TEST(RunPlot, MakesAPageThatMoves) {
+  const Folder folder;
+  const std::string file = folder / "a.html";
+  const Outcome outcome =
+      hbvm({"run", "kepler", "--method", "hbvm:3,3", "--step", "1/64", "--until", "1/4", "--plot", file});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "written to " + file + "\n");
+  EXPECT_TRUE(text_of(file).starts_with("<!DOCTYPE html>"));
+  EXPECT_NE(text_of(file).find("hbvm run kepler --method hbvm:3,3"), std::string::npos);
+}
+
 TEST(RunPlot, ShowsWhatWasComputedBeforeAFailure) {
   const Folder folder;
   const Outcome outcome = hbvm({"run", "kepler", "--method", "tableau:" HBVM_SOURCE_DIR "/tests/cli/none.toml",
@@ -574,7 +585,8 @@ TEST(RunPlot, ShowsWhatWasComputedBeforeAFailure) {
 TEST(RunPlot, RefusesWhatCannotBeDrawn) {
   const Folder folder;
   const Arguments run{"run", "simple_pendulum", "--method", "hbvm:2,2", "--step", "1/8", "--until", "1", "--plot"};
-  expect_refused(run + Arguments{folder / "a.jpg"}, {".svg", ".pdf", ".png", "a.jpg"});
+  expect_refused(run + Arguments{folder / "a.jpg"}, {"--plot", ".svg", ".pdf", ".png", ".html", "a.jpg"});
+  expect_refused(run + Arguments{folder / "none/a.html"}, {"--plot", "cannot write"});
   expect_refused(run + Arguments{folder / "none/a.svg"}, {"--plot", "cannot write"});
 }
 

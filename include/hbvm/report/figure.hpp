@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hbvm {
@@ -18,6 +19,10 @@ struct Axis {
   std::string label;
   AxisScale scale = AxisScale::linear;
 };
+
+/// Of curves, one after another: Okabe and Ito's, told apart by all eyes. Black is for what is no curve.
+inline constexpr std::array<std::string_view, 6> curve_colours{"#0072B2", "#D55E00", "#009E73",
+                                                               "#CC79A7", "#E69F00", "#56B4E9"};
 
 using PlotPoint = std::array<double, 2>;
 

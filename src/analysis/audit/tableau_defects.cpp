@@ -3,7 +3,9 @@
 #include "hbvm/method/order_conditions.hpp"
 #include "hbvm/method/runge_kutta.hpp"
 #include "hbvm/method/symmetry_defect.hpp"
+#include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/step/hbvm_method.hpp"
+#include "laboratory.hpp"
 #include "measurements.hpp"
 
 namespace hbvm {

@@ -32,10 +32,20 @@ std::vector<std::string> names_of_constraints(const Problem<S>& problem) {
 
 }  // namespace
 
+std::vector<std::size_t> shown_multipliers(const Recording& recording) {
+  std::vector<std::size_t> all, joints;
+  for (const std::string& constraint : recording.constraints) {
+    if (!constraint.starts_with("directors ")) joints.push_back(all.size());
+    all.push_back(all.size());
+  }
+  return joints.empty() ? all : joints;
+}
+
 template <Scalar S>
 MotionRecorder<S>::MotionRecorder(const Problem<S>& problem, long steps, Recording& recording)
     : point_(problem), redundant_(problem), steps_(steps), recording_(recording) {
   recording_.every = std::max(1L, (steps + Recording::most - 1) / Recording::most);
+  recording_.steps = steps;
   recording_.constraints = names_of_constraints(problem);
 }
 

@@ -38,9 +38,6 @@ Curve curve_of(const std::string& label, const Recording& recording,
   return curve;
 }
 
-/// Those that keep rigid bodies rigid are many, and say little beside others.
-bool is_of_directors(const std::string& constraint) { return constraint.starts_with("directors "); }
-
 /// Its name, or by its number if that is too long to stand beside a panel.
 std::string label_of(const Recording& recording, std::size_t constraint) {
   constexpr std::size_t longest = 20;
@@ -50,11 +47,9 @@ std::string label_of(const Recording& recording, std::size_t constraint) {
 
 Panel multipliers_panel(const Recording& recording) {
   Panel panel = against_time("Lagrange multipliers", {"λ"});
-  const bool all = std::all_of(recording.constraints.begin(), recording.constraints.end(), is_of_directors);
-  for (std::size_t i = 0; i < recording.constraints.size(); ++i)
-    if (all || !is_of_directors(recording.constraints[i]))
-      panel.curves.push_back(curve_of(label_of(recording, i), recording,
-                                      [i](const Recording::Sample& sample) { return sample.lambda[i]; }));
+  for (const std::size_t i : shown_multipliers(recording))
+    panel.curves.push_back(
+        curve_of(label_of(recording, i), recording, [i](const Recording::Sample& sample) { return sample.lambda[i]; }));
   return panel;
 }
 

@@ -30,9 +30,13 @@ struct Recording {
   };
 
   long every = 1;                        ///< mesh points a sample
+  long steps = 0;                        ///< of the whole run, also if it fails on the way
   std::vector<std::string> constraints;  ///< whose multipliers these are
   std::vector<Sample> samples;
 };
+
+/// Whose multipliers a picture shows: constraints that keep rigid bodies rigid are many, and say little beside others.
+std::vector<std::size_t> shown_multipliers(const Recording& recording);
 
 /// Fills a recording.
 template <Scalar S>

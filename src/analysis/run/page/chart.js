@@ -1,0 +1,124 @@
+/** Curves against time, with a line at the time chosen and the values there. */
+class Chart {
+  constructor(parent, chart, time, motion, theme, choose) {
+    this.chart = chart;
+    this.motion = motion;
+    this.theme = theme;
+    const element = (tag, className, within) => {
+      const made = document.createElement(tag);
+      made.className = className;
+      within.append(made);
+      return made;
+    };
+    const box = element('div', 'chart', parent);
+    const heading = element('h2', '', box);
+    heading.textContent = chart.title + ' ';
+    if (chart.factor) element('span', '', heading).textContent = 'axis in ' + Numbers.raised(chart.factor);
+    this.values = element('div', 'values', box);
+    this.plot = element('div', 'plot', box);
+    this.canvas = element('div', 'canvas', this.plot);
+    this.cursor = element('div', 'cursor', this.plot);
+    this.entries = chart.curves.map((curve, i) => this.entry(curve, i));
+    const rows = motion.rows.map((row) => [row[0], ...chart.curves.map(({ column }) => this.drawn(row[column]))]);
+    if (rows.length > 1 && rows[0][0] > rows[rows.length - 1][0]) rows.reverse();
+    const tics = (list) => () => list.map(([v, text]) => ({ v, label: Numbers.raised(text) }));
+    const letter = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    this.graph = new Dygraph(this.canvas, rows, {
+      labels: ['t', ...chart.curves.map((_, i) => 'c' + i)],
+      ...this.colours(),
+      dateWindow: time.range,
+      valueRange: chart.range,
+      axes: {
+        x: { ticker: tics(time.tics), axisLabelWidth: 4 * letter },
+        y: { ticker: tics(chart.tics), axisLabelWidth: 3.6 * letter },
+      },
+      axisLabelFontSize: 0.88 * letter,
+      xlabel: 't',
+      xLabelHeight: letter,
+      strokeWidth: 1.6,
+      legend: 'never',
+      interactionModel: {},
+      drawGapEdgePoints: true,
+      pointSize: 1,
+      highlightCircleSize: 0,
+      rightGap: Math.round(1.5 * letter),
+    });
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    this.listen(choose);
+    theme.onChange(() => this.recolour());
+  }
+
+  /** Gaps where there is nothing to draw: errors of 0, which have no logarithm, and what is not finite. */
+  drawn(x) { return Number.isFinite(x) ? x : null; }
+
+  colours() {
+    const series = Object.fromEntries(this.chart.curves.map((_, i) => ['c' + i, { strokePattern: this.theme.dash(i) }]));
+    return {
+      colors: this.chart.curves.map((_, i) => this.theme.colour(i)),
+      series,
+      gridLineColor: this.theme.get('grid'),
+      axisLineColor: this.theme.get('line'),
+    };
+  }
+
+  /** Name and value of a curve, which a click hides and shows. */
+  entry(curve, i) {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.title = curve.name;
+    button.setAttribute('aria-pressed', 'true');
+    button.innerHTML =
+      '<svg viewBox="0 0 24 8" preserveAspectRatio="none"><line x1="1" x2="23" y1="4" y2="4" stroke-width="3"/></svg>' +
+      '<span class="name"></span><span class="value"></span>';
+    button.querySelector('.name').textContent = curve.name;
+    button.addEventListener('click', () => {
+      const shown = button.getAttribute('aria-pressed') !== 'true';
+      button.setAttribute('aria-pressed', String(shown));
+      this.graph.setVisibility(i, shown);
+    });
+    this.values.append(button);
+    const entry = { value: button.querySelector('.value'), line: button.querySelector('line') };
+    this.paint(entry, i);
+    return entry;
+  }
+
+  paint(entry, i) {
+    entry.line.setAttribute('stroke', this.theme.colour(i));
+    const dash = this.theme.dash(i);
+    if (dash) entry.line.setAttribute('stroke-dasharray', dash.map((x) => x / 2).join(' '));
+  }
+
+  recolour() {
+    this.entries.forEach((entry, i) => this.paint(entry, i));
+    this.graph.updateOptions(this.colours());
+  }
+
+  listen(choose) {
+    const go = (event) => choose(this.graph.toDataXCoord(event.clientX - this.canvas.getBoundingClientRect().left));
+    this.canvas.addEventListener('pointerdown', (event) => {
+      this.canvas.setPointerCapture(event.pointerId);
+      go(event);
+      event.preventDefault();
+    });
+    this.canvas.addEventListener('pointermove', (event) => {
+      if (this.canvas.hasPointerCapture(event.pointerId)) go(event);
+    });
+  }
+
+  resize() {
+    this.graph.resize();
+    if (this.index !== undefined) this.show(this.index);
+  }
+
+  show(index) {
+    this.index = index;
+    const row = this.motion.rows[index], area = this.graph.getArea();
+    this.cursor.style.left = this.graph.toDomXCoord(row[0]) - 1 + 'px';
+    this.cursor.style.top = area.y + 'px';
+    this.cursor.style.height = area.h + 'px';
+    this.chart.curves.forEach(({ column }, i) => {
+      const x = row[column];
+      this.entries[i].value.textContent = this.chart.decimal ? Numbers.powerOfTen(x) : Numbers.value(x);
+    });
+  }
+}
