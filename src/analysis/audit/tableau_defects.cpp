@@ -7,6 +7,7 @@
 #include "hbvm/step/hbvm_method.hpp"
 #include "laboratory.hpp"
 #include "measurements.hpp"
+#include "trial.hpp"
 
 namespace hbvm {
 namespace {
