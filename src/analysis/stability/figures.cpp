@@ -73,7 +73,7 @@ Figure growth(const std::filesystem::path& folder) {
     add_curve(panel, folder / (std::string("growth_") + run.scene + ".csv"), "log10 steps,log10 units", points,
               run.label);
   }
-  add_slope(panel, 3, -1, 3, 1 / double{2}, "n^{1/2}");
+  add_slope(panel, 3, -1, 2, 1 / double{2}, "n^{1/2}");
   add_slope(panel, 5, -1, 1, 1, "n");
   return figure_of("growth", "Round-off in the energy grows like the root of time", std::move(panel));
 }
@@ -113,7 +113,7 @@ Figure separatrix(const std::filesystem::path& folder, const std::filesystem::pa
       panel_of("A pendulum near upright: what is left at t = 8", "angle from upright", "error of x over x, double");
   for (const char* const solver : {"auto", "newton"}) {
     Points points;
-    for (int j = 0; j <= 30; j += 2)
+    for (int j = 30; j >= 0; j -= 2)
       points.push_back(
           {static_cast<double>(-j),
            std::log10(relative_error(
