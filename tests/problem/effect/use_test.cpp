@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "hbvm/error.hpp"
+#include "hbvm/problem/potential.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "printing.hpp"
