@@ -13,6 +13,7 @@
 #include "hbvm/analysis/run/run.hpp"
 #include "hbvm/analysis/run/run_figure.hpp"
 #include "hbvm/analysis/run/run_page.hpp"
+#include "hbvm/analysis/run/trajectory_metadata.hpp"
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"
@@ -24,6 +25,7 @@
 #include "progress_bar.hpp"
 #include "resume.hpp"
 #include "signals.hpp"
+#include "written.hpp"
 
 namespace hbvm {
 namespace {
@@ -82,7 +84,7 @@ nlohmann::ordered_json json_of(const Shadow& shadow) {
             {"every", shadow.every}}}};
 }
 
-std::string json_of(const RunRequest& request, const RunResult& result) {
+std::string json_of(const RunRequest& request, const RunResult& result, const std::string& command) {
   nlohmann::ordered_json j;
   j["scene"] = request.scene.name;
   j["method"] = result.method->text();
@@ -144,6 +146,9 @@ std::string json_of(const RunRequest& request, const RunResult& result) {
     }
   }
   j["version"] = version();
+  j["command"] = command;
+  j["title"] = request.scene.title;
+  j["scene_text"] = write_scene(request.scene);
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // a path need not be UTF-8
 }
 
@@ -323,6 +328,16 @@ std::string command_line(const RunArguments& o, const RunRequest& request) {
          (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
 }
 
+/// Describes the trajectory in a file beside it, if it is one. \return the files of --out
+std::vector<std::string> write_metadata(const RunArguments& o, const RunRequest& request,
+                                        const std::vector<TrajectoryColumn>& columns) {
+  if (!has_neighbours(*o.out)) return {*o.out};
+  const std::string file = csvw_file(*o.out),
+                    command = command_line(o, request) + " --every " + std::to_string(o.every);
+  write_file(file, to_csvw(trajectory_metadata(request, columns, command, o.every), *o.out));
+  return {*o.out, file};
+}
+
 /// The picture of --plot, once there is something to be seen.
 class Plot {
  public:
@@ -343,7 +358,7 @@ class Plot {
       write_file(file_, run_page(request, recording_, command));
     else
       draw_figure(request, command);
-    fmt::print(stderr, "written to {}\n", file_);
+    say_written(file_);
   }
 
  private:
@@ -382,11 +397,14 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   hooks.checkpoints = checkpoints ? &*checkpoints : nullptr;
   ProgressBar bar(request.scene.name);
   hooks.progress = [&](long done, long total) { bar.update(done, total); };
+  std::vector<std::string> written;
   if (o.out) {
     hooks.open_csv = [&] { return open(*o.out, o); };
-    hooks.provenance = {std::string("hbvm ") + version(), "scene " + request.scene.name + ": " + request.scene.title,
-                        "command " + command_line(o, request) + " --every " + std::to_string(o.every)};
+    hooks.describe_csv = [&](const std::vector<TrajectoryColumn>& columns) {
+      written = write_metadata(o, request, columns);
+    };
   }
+  const auto say_all_written = [&] { std::for_each(written.begin(), written.end(), say_written); };
   std::optional<Plot> plot;
   if (o.plot) hooks.recording = plot.emplace(*o.plot).recording();
   end_runs_on_signals();
@@ -394,15 +412,19 @@ void run_command(const RunArguments& o, const CLI::App& command) {
     const RunResult result = [&] {
       try {
         return run(request, hooks);
+      } catch (const InputError&) {
+        throw;  // there may be no room for the files
       } catch (const Error&) {
         // What was computed before is to be seen.
+        say_all_written();
         if (plot) plot->draw(request, command_line(o, request));
         throw;
       }
     }();
+    say_all_written();
     if (plot) plot->draw(request, command_line(o, request));
     if (o.json)
-      std::cout << json_of(request, result) << std::endl;
+      std::cout << json_of(request, result, command_line(o, request)) << std::endl;
     else
       print(request, result);
     constexpr int doubtful = 3;
@@ -432,7 +454,8 @@ void add_run_command(CLI::App& app) {
       ->add_option("--on-failure", o->on_failure,
                    "What to do with a step that cannot be made: stop, or halve it, again and again, to at most 2^-20")
       ->capture_default_str();
-  command->add_option("--out", o->out, "Write the trajectory to this CSV file");
+  command->add_option("--out", o->out,
+                      "Write the trajectory to this CSV file, and what describes it to FILE-metadata.json");
   command->add_option(
       "--plot", o->plot,
       "Draw motion, multipliers and errors into this file: .svg, .pdf or .png; as .html the motion moves");

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -11,7 +9,7 @@
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/project.hpp"
 #include "hbvm/scene/with_start.hpp"
-#include "hbvm/write_file.hpp"
+#include "written.hpp"
 
 namespace hbvm {
 namespace {
@@ -34,7 +32,7 @@ void project_command(const ProjectArguments& o) {
     return;
   }
   try {
-    write_file(*o.out, text);
+    write_and_say(*o.out, text);
   } catch (const InputError& error) {
     throw InputError(std::string("--out: ") + error.what());
   }
@@ -51,7 +49,7 @@ void show_command(const ShowArguments& o) {
   figure.caption = plain(scene.title);
   const std::string file = o.plot.empty() ? std::filesystem::path(scene.name).stem().string() + ".svg" : o.plot;
   draw(figure, file);
-  fmt::print(stderr, "written to {}\n", file);
+  say_written(file);
 }
 
 void add_show(CLI::App& scene) {

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
 #include "commands.hpp"
 #include "hbvm/analysis/study/study.hpp"
 #include "long_work.hpp"
+#include "written.hpp"
 
 namespace hbvm {
 namespace {
@@ -74,6 +76,11 @@ void study_command(const StudyArguments& o) {
                (*options.out / o.work.store).string());
   if (stated > 0) fmt::print("{} of {} printed figures agree\n", agreed, stated);
   std::fflush(stdout);
+  for (const std::optional<StudyOutcome>& outcome : outcomes)
+    if (outcome) {
+      std::for_each(outcome->files.begin(), outcome->files.end(), say_written);
+      for (const std::string& warning : outcome->warnings) fmt::print(stderr, "warning: {}\n", warning);
+    }
   if (!all_met) throw CLI::RuntimeError(1);
 }
 

@@ -1,8 +1,8 @@
 #include "hbvm/integrate/trajectory.hpp"
 
-#include <algorithm>
 #include <ostream>
 
+#include "hbvm/csv_line.hpp"
 #include "hbvm/integrate/output_state.hpp"
 #include "hbvm/scalar/text.hpp"
 
@@ -18,37 +18,18 @@ void write(std::ostream& out, const Vector<S>& v) {
 
 template <Scalar S>
 Trajectory<S>::Trajectory(const Problem<S>& problem, std::ostream& out, long every, long steps,
-                          const std::vector<std::string>& provenance)
+                          const std::vector<std::string>& columns)
     : problem_(problem),
       point_(problem),
       redundant_(problem),
       out_(out),
       every_(every),
       steps_(steps),
-      provenance_(provenance) {}
-
-template <Scalar S>
-void Trajectory<S>::begin() {
-  out_ << "# t";
-  const auto names = [&](const char* name, Index count) {
-    for (Index i = 1; i <= count; ++i) out_ << ',' << name << i;
-  };
-  const Index constraints = problem_.nu() + static_cast<Index>(problem_.redundant.size());
-  names("q", problem_.m());
-  names("p", problem_.m());
-  names("lambda", constraints);
-  names("output_p", problem_.m());
-  names("output_lambda", constraints);
-  out_ << ",delta_H,g,hidden\n";
-  for (std::string line : provenance_) {
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    out_ << "# " << line << '\n';
-  }
-}
+      columns_(columns) {}
 
 template <Scalar S>
 void Trajectory<S>::observe(const Snapshot<S>& s) {
-  if (s.n == 0) begin();
+  if (s.n == 0) out_ << csv_line(columns_) << '\n';
   const bool wanted = s.n % every_ == 0 || s.n == steps_;
   if (!wanted) return;
   const S H = point_.energy(s.q, s.p);

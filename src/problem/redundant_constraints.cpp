@@ -93,7 +93,18 @@ Vector<S> RedundantConstraints<S>::multipliers(const Vector<S>& q, const Vector<
   return result;
 }
 
-#define HBVM_DEFINE(S) template class RedundantConstraints<S>;
+template <Scalar S>
+std::vector<std::string> names_of_constraints(const Problem<S>& problem) {
+  std::vector<std::string> names;
+  for (const Constraint<S>& constraint : problem.constraints) names.push_back(constraint.name);
+  for (const RedundantConstraint<S>& redundant : problem.redundant)
+    names.insert(names.begin() + redundant.place, redundant.constraint.name);
+  return names;
+}
+
+#define HBVM_DEFINE(S)                    \
+  template class RedundantConstraints<S>; \
+  template std::vector<std::string> names_of_constraints<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hbvm/csv_line.hpp"
+
 namespace hbvm {
 namespace {
 
@@ -16,12 +18,16 @@ std::vector<std::string> each(std::vector<std::string> cells, std::string (*show
   return cells;
 }
 
-/// In quotes if it holds what separates cells (RFC 4180).
-std::string csv_cell(const std::string& cell) {
-  if (cell.find_first_of(",\"") == std::string::npos) return cell;
-  std::string quoted = "\"";
-  for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+std::vector<std::string> both(std::vector<std::string> cells, const std::vector<std::string>& further) {
+  cells.insert(cells.end(), further.begin(), further.end());
+  return cells;
+}
+
+std::string csv_rows(const Table& table) {
+  std::string text;
+  for (const auto& group : table.groups)
+    for (const auto& row : group.rows) text += csv_line(both(group.keys, row)) + "\n";
+  return text;
 }
 
 /// A bar would end the cell.
@@ -86,17 +92,15 @@ std::string to_text(const Table& table) {
   return text;
 }
 
+std::vector<std::string> csv_columns(const Table& table) { return both(table.key_columns, table.columns); }
+
 std::string to_csv(const Table& table) {
-  const auto line = [](std::vector<std::string> cells, const std::vector<std::string>& further) {
-    cells.insert(cells.end(), further.begin(), further.end());
-    return joined(each(std::move(cells), csv_cell), ",") + "\n";
-  };
-  std::string text = "# " + line(table.key_columns, table.columns) + "# " + table.caption + "\n";
+  std::string text = "# " + csv_line(csv_columns(table)) + "\n# " + table.caption + "\n";
   for (const std::string& note : table.provenance) text += "# " + note + "\n";
-  for (const auto& group : table.groups)
-    for (const auto& row : group.rows) text += line(group.keys, row);
-  return text;
+  return text + csv_rows(table);
 }
+
+std::string to_plain_csv(const Table& table) { return csv_line(csv_columns(table)) + "\n" + csv_rows(table); }
 
 std::string to_markdown(const Table& table) {
   std::string text = "**" + table.caption + "**\n";

@@ -113,6 +113,16 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// What standard error says of these files.
+inline std::string written(const Arguments& files) {
+  std::string lines;
+  for (const std::string& file : files) lines += "written to " + file + "\n";
+  return lines;
+}
+
+/// A trajectory and what describes it.
+inline Arguments with_metadata(const std::string& csv) { return {csv, csv + "-metadata.json"}; }
+
 /// Exit code 2, nothing on standard output, one line on standard error that holds these words, within a second.
 inline void expect_refused(const Arguments& arguments, const std::vector<std::string>& words) {
   const Outcome outcome = hbvm(arguments, 5);

@@ -8,6 +8,7 @@
 
 #include "cli/json.hpp"
 #include "cli/program.hpp"
+#include "hbvm/csv_line.hpp"
 #include "hbvm/integrate/drift.hpp"
 #include "hbvm/integrate/output_state.hpp"
 #include "hbvm/scalar/literal.hpp"
@@ -21,10 +22,10 @@ namespace {
 using nlohmann::ordered_json;
 using Texts = std::vector<std::string>;
 
-ordered_json json_of(const Arguments& arguments) {
+ordered_json json_of(const Arguments& arguments, const Arguments& files = {}) {
   const Outcome outcome = hbvm(arguments + Arguments{"--json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.err, written(files));
   return ordered_json::parse(outcome.out);
 }
 
@@ -58,7 +59,10 @@ TEST(RunJson, HasExactlyTheFieldsOfTheIssue) {
                                "health",
                                "iterations_per_step",
                                "cpu_seconds",
-                               "version"}));
+                               "version",
+                               "command",
+                               "title",
+                               "scene_text"}));
   EXPECT_EQ(keys_of(j["output"]), (Texts{"p", "lambda", "delta_H"}));
   EXPECT_EQ(j["scene"], "simple_pendulum");
   EXPECT_EQ(j["method"], "hbvm:3,2");
@@ -74,6 +78,10 @@ TEST(RunJson, HasExactlyTheFieldsOfTheIssue) {
   EXPECT_GT(j["iterations_per_step"].get<double>(), 2);
   EXPECT_GE(j["cpu_seconds"].get<double>(), 0);
   EXPECT_EQ(j["version"], lines_of(hbvm({"--version"}).out).at(0));
+  EXPECT_EQ(j["command"],
+            "hbvm run simple_pendulum --method hbvm:3,2 --step '1/8' --until '2' --precision quad --solver paper");
+  EXPECT_EQ(j["title"], "Simple pendulum");
+  EXPECT_EQ(j["scene_text"], write_scene(load_scene("simple_pendulum")));
 }
 
 TEST(RunJson, NumbersOfTheWorkingPrecisionAreStrings) {
@@ -421,18 +429,18 @@ TEST(Satellites, LoseEnergyWithOneNodeAsInThePaper) {
   EXPECT_LT(later, 1.35e-3);
 }
 
-/// Lines of a CSV file as numpy.loadtxt(delimiter=",") takes them: what stands behind a # is a comment.
+/// A CSV file: a line of names, and lines of numbers.
 struct Csv {
-  Texts comments;
+  Texts names;
   std::vector<Texts> rows;
   explicit Csv(const std::string& text) {
     for (const std::string& line : lines_of(text)) {
-      const std::string numbers = line.substr(0, line.find('#'));
-      if (numbers.size() < line.size()) comments.push_back(line.substr(numbers.size()));
-      if (numbers.empty()) continue;
-      rows.emplace_back();
-      std::istringstream cells(numbers);
-      for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+      const Texts cells = split_csv_line(line);
+      if (names.empty())
+        names = cells;
+      else
+        rows.push_back(cells);
+      EXPECT_EQ(cells.size(), names.size()) << line;
     }
   }
   double at(std::size_t row, std::size_t column) const {
@@ -444,43 +452,60 @@ struct Csv {
   }
 };
 
-TEST(RunCsv, LoadsAsNumbersAndCarriesItsProvenance) {
+TEST(RunCsv, HasNamesAndNumbersAndIsDescribedBesideIt) {
   const Folder folder;
   const std::string path = folder / "out.csv";
   const ordered_json j = json_of({"run", "conical_pendulum", "--method", "hbvm:2,2", "--step", "pi/20", "--until", "pi",
-                                  "--precision", "mpfr:50", "--out", path, "--every", "3"});
+                                  "--precision", "mpfr:50", "--out", path, "--every", "3"},
+                                 with_metadata(path));
   const Csv csv(text_of(path));
-  ASSERT_FALSE(csv.comments.empty());
-  EXPECT_TRUE(csv.comments[0].starts_with("# t,q1,q2,q3,p1,")) << csv.comments[0];
-  std::string provenance;
-  for (const std::string& line : csv.comments) provenance += line + "\n";
-  for (const std::string& word : Texts{j["version"], "conical_pendulum", "hbvm:2,2", "pi/20", "mpfr:50", "--every 3"})
-    EXPECT_NE(provenance.find(word), std::string::npos) << word << " is not in\n" << provenance;
+  EXPECT_EQ(csv.names, (Texts{"t", "bob.x", "bob.y", "bob.z", "bob.px", "bob.py", "bob.pz", "lambda1", "output.bob.px",
+                              "output.bob.py", "output.bob.pz", "output.lambda1", "delta_H", "g", "hidden"}));
   ASSERT_EQ(csv.rows.size(), 8u);  // 0, 3, …, 18 and 20
-  const std::size_t columns =
-      static_cast<std::size_t>(std::count(csv.comments[0].begin(), csv.comments[0].end(), ',')) + 1;
   for (std::size_t n = 0; n < csv.rows.size(); ++n) {
-    ASSERT_EQ(csv.rows[n].size(), columns);
     EXPECT_NEAR(csv.at(n, 0), std::min(3.0 * static_cast<double>(n), 20.0) * std::acos(-1.0) / 20, 1e-14);
-    for (std::size_t i = 0; i < columns; ++i) EXPECT_TRUE(std::isfinite(csv.at(n, i)));
+    for (std::size_t i = 0; i < csv.names.size(); ++i) EXPECT_TRUE(std::isfinite(csv.at(n, i)));
   }
   EXPECT_EQ(csv.rows.back()[0], j["t"]);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(csv.rows.back()[1 + i], j["q"][i]);
     EXPECT_EQ(csv.rows.back()[4 + i], j["p"][i]);
   }
+
+  const ordered_json metadata = ordered_json::parse(text_of(path + "-metadata.json"));
+  EXPECT_EQ(metadata["@context"], "http://www.w3.org/ns/csvw");
+  EXPECT_EQ(metadata["url"], "out.csv");
+  for (const char* const key : {"version", "method", "solver", "precision"})
+    EXPECT_EQ(metadata["hbvm:" + std::string(key)], j[key]);
+  EXPECT_EQ(metadata["hbvm:step"], "pi/20");
+  EXPECT_EQ(metadata["hbvm:command"], j["command"].get<std::string>() + " --every 3");
+  EXPECT_EQ(metadata["dc:source"], j["scene_text"]);
+  Texts titles;
+  for (const ordered_json& column : metadata["tableSchema"]["columns"]) titles.push_back(column["titles"]);
+  EXPECT_EQ(titles, csv.names);
 }
 
-TEST(RunCsv, OfProvenanceWithLineBreaksStillLoads) {
+/// Whatever bodies are called, the names are one line that a reader can part.
+TEST(RunCsv, QuotesOddNames) {
   const Folder folder;
   std::string scene = pendulum("1");
-  scene.replace(scene.find("Pendulum"), 8, "Pendu\\nlum");
+  for (std::size_t at = 0; (at = scene.find("\"bob\"", at)) != std::string::npos; ++at)
+    scene.replace(at, 5, "\"a, \\\"b\\\"\\nc\"");
   const std::string path = folder.write("scene.toml", scene), out = folder / "out.csv";
   const Outcome outcome = hbvm({"run", path, "--method", "hbvm:1,1", "--step", "1/8", "--until", "1", "--out", out});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Csv csv(text_of(out));
-  ASSERT_EQ(csv.rows.size(), 9u);
-  for (std::size_t n = 0; n < csv.rows.size(); ++n) EXPECT_EQ(csv.rows[n].size(), csv.rows[0].size());
+  EXPECT_EQ(csv.rows.size(), 9u);
+  EXPECT_EQ(csv.names.at(1), "a, \"b\" c.x");
+  EXPECT_TRUE(text_of(out).starts_with("t,\"a, \"\"b\"\" c.x\",")) << text_of(out).substr(0, 40);
+}
+
+/// Nothing can stand beside a device.
+TEST(RunCsv, IntoADeviceIsNotDescribed) {
+  const Outcome outcome =
+      hbvm({"run", "kepler", "--method", "hbvm:1,1", "--step", "1/8", "--until", "1", "--out", "/dev/null"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, written({"/dev/null"}));
 }
 
 TEST(FailedRun, ExitsWithThreeAndNoOutput) {
@@ -504,6 +529,7 @@ TEST(FailedRun, LeavesWhatWasComputedOnDisk) {
                                 "fixed-point", "--out", path, "--json"});
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(outcome.err.starts_with(written(with_metadata(path)))) << outcome.err;
   const Csv csv(text_of(path));
   ASSERT_GT(csv.rows.size(), 65u);
   const std::size_t at = outcome.err.find("step ");
@@ -542,9 +568,8 @@ TEST(Run, IntegratesRedundantConstraints) {
   std::string header, line;
   std::getline(file, header);
   EXPECT_NE(header.find("lambda2"), std::string::npos);
-  EXPECT_NE(header.find("output_lambda2"), std::string::npos);
+  EXPECT_NE(header.find("output.lambda2"), std::string::npos);
   while (std::getline(file, line)) {
-    if (line[0] == '#') continue;
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ','));
   }
 }

@@ -61,6 +61,7 @@ TEST(SceneProject, WritesASceneThatChecks) {
     const Outcome outcome = hbvm({"scene", "project", from, "--precision", precision, "--out", to});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, written({to}));
     EXPECT_EQ(hbvm({"scene", "check", to, "--precision", precision}).code, 0) << precision;
     EXPECT_EQ(
         hbvm({"run", to, "--method", "hbvm:1,1", "--step", "1/8", "--until", "1/8", "--precision", precision}).code, 0);

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "cli/program.hpp"
+#include "hbvm/csv_line.hpp"
+#include "hbvm/scalar/text.hpp"
 
 namespace hbvm {
 namespace {
@@ -37,6 +40,15 @@ class StudyCommand : public ::testing::Test {
   }
   void write(const std::string& name, const std::string& text) const { folder.write("small/" + name, text); }
   std::string text(const std::string& name) const { return text_of(folder / ("small/" + name)); }
+  /// What a study writes without figures.
+  Arguments tables(std::string precision) const {
+    if (precision.starts_with("mpfr:")) precision[4] = '_';
+    Arguments files;
+    for (const char* const name :
+         {"table.csv", "table.md", "table.tex", "table_full.csv", "table_full.csv-metadata.json"})
+      files.push_back(path + "/results/" + precision + "/" + name);
+    return files;
+  }
   /// The second row's expected figure.
   void expect(const std::string& e_y) const {
     write("expected.csv", "# k,s,i,e_y\n1,1,1," + figure(1) + "\n1,1,2," + e_y + "\n");
@@ -55,7 +67,7 @@ TEST_F(StudyCommand, ChecksTheExpectedFigures) {
   for (const char* precision : {"double", "quad", "mpfr:40"}) {
     const Outcome outcome = hbvm({"study", path, "--check", "--precision", precision});
     EXPECT_EQ(outcome.code, 0) << outcome.out;
-    EXPECT_EQ(outcome.err, "");
+    EXPECT_EQ(outcome.err, written(tables(precision)));
     EXPECT_NE(outcome.out.find("Small, " + std::string(precision) + ": 2 of 2 printed figures agree"),
               std::string::npos)
         << outcome.out;
@@ -68,7 +80,7 @@ TEST_F(StudyCommand, ExitsWithOneIfAFigureDoesNotAgree) {
   expect("1.00e-01");
   const Outcome outcome = hbvm({"study", path, "--check"});
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.err, written(tables("double")));
   EXPECT_NE(outcome.out.find("not met: k = 1, s = 1, i = 2: e_y is " + figure(2) + ", printed 1.00e-01"),
             std::string::npos)
       << outcome.out;
@@ -107,6 +119,28 @@ TEST_F(StudyCommand, RunsEveryFolderInEveryPrecision) {
             << where << " " << precision << " " << file;
 }
 
+/// Every digit of what the table rounds; where it has a mark, nothing.
+TEST_F(StudyCommand, WritesAllDigitsBesideTheTable) {
+  for (const char* precision : {"double", "mpfr:40"}) {
+    ASSERT_EQ(hbvm({"study", path, "--precision", precision}).code, 0);
+    const Arguments files = tables(precision);
+    const auto printed = lines_of(text_of(files[0])), full = lines_of(text_of(files[3]));
+    EXPECT_EQ(full.at(0), "k,s,i,e_y,e_H");
+    ASSERT_EQ(full.size(), 3u);
+    for (std::size_t row = 1; row < 3; ++row) {
+      const auto digits = split_csv_line(full[row]), three = split_csv_line(printed.at(printed.size() - 3 + row));
+      ASSERT_EQ(digits.size(), 5u);
+      EXPECT_EQ(to_scientific(digits[3], 3), three.at(3));
+      EXPECT_EQ(to_scientific(digits[4], 3), three.at(4));
+      EXPECT_GT(digits[3].size(), precision[0] == 'd' ? 14u : 36u) << digits[3];
+    }
+    const auto metadata = nlohmann::json::parse(text_of(files[4]));
+    EXPECT_EQ(metadata["url"], "table_full.csv");
+    EXPECT_EQ(metadata["hbvm:precision"], precision);
+    EXPECT_EQ(metadata["tableSchema"]["columns"].size(), 5u);
+  }
+}
+
 /// With a picture, so that trajectories are among the runs.
 class DividedStudy : public StudyCommand {
  protected:
@@ -115,8 +149,8 @@ class DividedStudy : public StudyCommand {
     write("study.toml",
           text("study.toml") +
               "[[figure]]\nname = \"path\"\nrun = [{ method = \"hbvm:2,2\", step = \"1/8\", until = 1 }]\n"
-              "panel = [{ title = \"Path\", x_label = \"x\", y_label = \"y\", curve = [{ x = \"q1\", y = "
-              "\"q2\", label = \"q\" }] }]\n");
+              "panel = [{ title = \"Path\", x_label = \"x\", y_label = \"y\", curve = [{ x = \"a.x\", y = "
+              "\"a.y\", label = \"q\" }] }]\n");
   }
   Arguments work(const std::string& out) const {
     return {"study", path, "--precision", "double", "mpfr:30", "--check", "--out", folder / out};
@@ -125,13 +159,35 @@ class DividedStudy : public StudyCommand {
   void expect_same(const std::string& out, const std::string& other) const {
     EXPECT_EQ(runs_of(out), runs_of(other));
     for (const char* const precision : {"double", "mpfr_30"})
-      for (const char* const name : {"table.csv", "table.md", "table.tex", "path_1.csv"}) {
+      for (const char* const name :
+           {"table.csv", "table.md", "table.tex", "table_full.csv", "path_1.csv", "path_1.csv-metadata.json"}) {
         const std::string file = std::string("/small/") + precision + "/" + name;
         EXPECT_FALSE(text_of(folder / (out + file)).empty()) << file;
         EXPECT_EQ(text_of(folder / (out + file)), text_of(folder / (other + file))) << file;
       }
   }
 };
+
+/// Tables are printed and written, the exit code says whether figures agree, and the picture is a warning.
+TEST_F(DividedStudy, WithoutGnuplotHasItsTables) {
+  const Outcome drawn = hbvm({"study", path, "--check"});
+  EXPECT_EQ(drawn.err, written(tables("double") + with_metadata(path + "/results/double/path_1.csv") +
+                               Arguments{path + "/results/double/path.svg"}));
+  const std::string before = std::getenv("PATH") ? std::getenv("PATH") : "";
+  setenv("PATH", folder.write("no_programs", "").c_str(), 1);
+  const Outcome outcome = hbvm({"study", path, "--check"});
+  setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.ends_with("pictures: none\n2 of 2 printed figures agree\n")) << outcome.out;
+  EXPECT_NE(outcome.out.find(figure(1)), std::string::npos) << outcome.out;
+  EXPECT_TRUE(outcome.err.starts_with(written(tables("double") + with_metadata(path + "/results/double/path_1.csv")) +
+                                      "warning: "))
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("path.svg' is not drawn: pictures need gnuplot, which is not installed: apt install "
+                             "gnuplot-nox\n"),
+            std::string::npos)
+      << outcome.err;
+}
 
 TEST_F(DividedStudy, GoesOnFromAFileCutAnywhere) {
   const Outcome first = hbvm(work("one") + Arguments{"--jobs", "1"});

@@ -144,7 +144,7 @@ struct Gathered {
       : run(load_scene("kepler"), 3, 2, "1/16", "12", SolverKind::automatic),
         drift(run.scene.problem),
         momenta(run.scene.problem, conserved_momenta(run.scene.problem)),
-        trajectory(run.scene.problem, csv, 5, run.grid.steps(), {"a line"}) {}
+        trajectory(run.scene.problem, csv, 5, run.grid.steps(), {"a name"}) {}
 
   std::string operator()(Checkpoints* checkpoints, Observer<S>* last = nullptr) {
     std::vector<Observer<S>*> observers{&drift, &momenta, &trajectory};

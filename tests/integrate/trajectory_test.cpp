@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "hbvm/integrate/output_state.hpp"
+#include "hbvm/integrate/trajectory_columns.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 #include "verification/models.hpp"
@@ -20,52 +21,54 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// A trajectory's lines, parted as a reader of numbers parts them.
+/// A trajectory's lines: the names, then numbers alone.
 struct Csv {
-  std::vector<std::string> comments;
+  std::string names;
   std::vector<std::vector<std::string>> rows;
   explicit Csv(const std::string& text) {
     EXPECT_EQ(text.back(), '\n');
-    for (const std::string& line : split(text.substr(0, text.size() - 1), '\n')) {
-      if (line.starts_with('#')) {
-        EXPECT_TRUE(rows.empty()) << "a comment below numbers";
-        comments.push_back(line);
-      } else {
+    for (const std::string& line : split(text.substr(0, text.size() - 1), '\n'))
+      if (names.empty())
+        names = line;
+      else
         rows.push_back(split(line, ','));
-      }
-    }
   }
 };
 
 template <Scalar S>
-std::string trajectory_of(SceneRun<S>& run, long every, const std::vector<std::string>& provenance,
+std::string trajectory_of(SceneRun<S>& run, long every, const std::vector<std::string>& columns = {"t"},
                           Recorder<S>* recorder = nullptr) {
   std::ostringstream text;
-  Trajectory<S> trajectory(run.scene.problem, text, every, run.grid.steps(), provenance);
+  Trajectory<S> trajectory(run.scene.problem, text, every, run.grid.steps(), columns);
   std::vector<Observer<S>*> observers{&trajectory};
   if (recorder) observers.push_back(recorder);
   run(observers);
   return text.str();
 }
 
-TEST(Trajectory, NamesItsColumnsFirstAndThenItsProvenance) {
-  SceneRun<double> run(load_scene(scene_path("double_pendulum")), 2, 2, "1/10", "1/5");
-  const Csv csv(trajectory_of<double>(run, 1, {"first line", "second line"}));
-  ASSERT_EQ(csv.comments.size(), 3u);
-  EXPECT_EQ(csv.comments[0],
-            "# t,q1,q2,q3,q4,p1,p2,p3,p4,lambda1,lambda2,output_p1,output_p2,output_p3,output_p4,"
-            "output_lambda1,output_lambda2,delta_H,g,hidden");
-  EXPECT_EQ(csv.comments[1], "# first line");
-  EXPECT_EQ(csv.comments[2], "# second line");
-  for (const auto& row : csv.rows) EXPECT_EQ(row.size(), split(csv.comments[0], ',').size());
+/// As many names as there are numbers, whatever the scene.
+TEST(Trajectory, NamesItsColumnsFirst) {
+  for (const char* const name : {"double_pendulum", "heavy_top", "kepler", "double_physical_pendulum"}) {
+    const Scene scene = load_scene(name);
+    SceneRun<double> run(scene, 2, 2, "1/100", "1/50");
+    const auto columns = names_of(trajectory_columns(scene, names_of_constraints(run.scene.problem)));
+    const Csv csv(trajectory_of<double>(run, 1, columns));
+    EXPECT_EQ(split(csv.names, ','), columns);
+    ASSERT_EQ(csv.rows.size(), 3u);
+    for (const auto& row : csv.rows) EXPECT_EQ(row.size(), columns.size()) << name;
+  }
+}
+
+TEST(Trajectory, QuotesNames) {
+  SceneRun<double> run(load_scene("simple_pendulum"), 1, 1, "1/8", "1/8");
+  EXPECT_EQ(Csv(trajectory_of<double>(run, 1, {"t", "a,b.x", "\"c\".x"})).names, "t,\"a,b.x\",\"\"\"c\"\".x\"");
 }
 
 TEST(Trajectory, WithoutConstraintsHasNoMultipliers) {
   SceneRun<double> run(
       read_scene("dimension = 2\n[[body]]\nname = \"a\"\nmass = 1\nposition = [0, 0]\nvelocity = [1, 0]\n", "free"), 1,
       1, "1", "3");
-  const Csv csv(trajectory_of<double>(run, 1, {}));
-  EXPECT_EQ(csv.comments, (std::vector<std::string>{"# t,q1,q2,p1,p2,output_p1,output_p2,delta_H,g,hidden"}));
+  const Csv csv(trajectory_of<double>(run, 1));
   EXPECT_EQ(csv.rows[3], (std::vector<std::string>{"3", "3", "0", "1", "0", "1", "0", "0", "0", "0"}));
 }
 
@@ -73,7 +76,7 @@ TEST(Trajectory, HasEveryNthAndTheLastMeshPoint) {
   const auto times = [](long every) {
     SceneRun<double> run(load_scene("simple_pendulum"), 1, 1, "1/8", "5/4");
     std::vector<std::string> result;
-    for (const auto& row : Csv(trajectory_of<double>(run, every, {})).rows) result.push_back(row[0]);
+    for (const auto& row : Csv(trajectory_of<double>(run, every)).rows) result.push_back(row[0]);
     return result;
   };
   using Texts = std::vector<std::string>;
@@ -95,7 +98,7 @@ TYPED_TEST(TrajectoryNumbers, ReadBackAsTheSameValues) {
   using S = TypeParam;
   SceneRun<S> run(load_scene(scene_path("ellipsoid_bead")), 2, 2, "1/10", "1");
   Recorder<S> recorder;
-  const Csv csv(trajectory_of<S>(run, 1, {}, &recorder));
+  const Csv csv(trajectory_of<S>(run, 1, {"t"}, &recorder));
   ASSERT_EQ(csv.rows.size(), recorder.seen.size());
   Point<S> point(run.scene.problem);
   const S H0 = point.energy(run.scene.q0, run.scene.p0);
@@ -122,7 +125,7 @@ TEST(Trajectory, IsWrittenUpToAFailure) {
                  "fall"),
       2, 2, "1/50", "2");
   std::ostringstream text;
-  Trajectory<double> trajectory(run.scene.problem, text, 1, run.grid.steps(), {});
+  Trajectory<double> trajectory(run.scene.problem, text, 1, run.grid.steps(), {"t"});
   try {
     run({&trajectory});
     FAIL() << "no error";

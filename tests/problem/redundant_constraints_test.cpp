@@ -46,6 +46,11 @@ TYPED_TEST(RedundantConstraintsTest, KeepTheirPlacesValuesAndHiddenConstraints) 
   EXPECT_EQ(redundant.places(), (std::vector<Index>{2, full.nu() - 1}));
   EXPECT_EQ(split.problem.nu(), full.nu() - 2);
   EXPECT_EQ(redundant.name(0), "rod");
+  full.constraints[2].name = "second rod";
+  const typename TestFixture::Split named(full, q);
+  const std::vector<std::string> names = names_of_constraints(named.problem);
+  ASSERT_EQ(names.size(), full.constraints.size());
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], full.constraints[i].name) << i;
   const Vector<S> g = dense_constraints(full, q), hidden = times<S>(dense_gradient(full, q).transpose(),
                                                                     times(dense_inverse(dense_mass(full.mass)), p));
   const auto& values = redundant.values(q);

@@ -12,27 +12,25 @@ namespace hbvm {
 
 /// Writes every `every`-th mesh point and the last as a line of comma-separated decimals that read back exactly:
 /// t, q, p, (lagmul), the output state's p and multiplier, H - H_0, and the max-norms of g and of the hidden
-/// constraint. Multipliers are those of all constraints, redundant ones included. Column names and provenance stand
-/// above in lines that begin with #, the names first.
+/// constraint. Multipliers are those of all constraints, redundant ones included. The first line has the names of the
+/// columns.
 template <Scalar S>
 class Trajectory final : public Observer<S> {
  public:
-  /// \param provenance lines without the #
+  /// \param columns the names, of trajectory_columns()
   Trajectory(const Problem<S>& problem, std::ostream& out, long every, long steps,
-             const std::vector<std::string>& provenance);
+             const std::vector<std::string>& columns);
   void observe(const Snapshot<S>& snapshot) override;
   /// What `out` holds is its owner's to remember.
   void remember(Archive& archive) override { archive(H0_); }
 
  private:
-  void begin();
-
   const Problem<S>& problem_;
   Point<S> point_;
   RedundantConstraints<S> redundant_;
   std::ostream& out_;
   long every_, steps_;
-  std::vector<std::string> provenance_;
+  std::vector<std::string> columns_;
   S H0_;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "hbvm/problem/constraint_gradient.hpp"
 
@@ -36,7 +38,13 @@ class RedundantConstraints {
   Vector<S> values_, sizes_, hidden_, v_;
 };
 
-#define HBVM_DECLARE(S) extern template class RedundantConstraints<S>;
+/// Of all constraints, in order.
+template <Scalar S>
+std::vector<std::string> names_of_constraints(const Problem<S>& problem);
+
+#define HBVM_DECLARE(S)                          \
+  extern template class RedundantConstraints<S>; \
+  extern template std::vector<std::string> names_of_constraints<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

@@ -25,6 +25,10 @@ std::string to_text(const Table& table);
 /// Comma-separated values below # lines, the column names first, then the provenance. A cell that holds no number
 /// but a mark is left as it is.
 std::string to_csv(const Table& table);
+/// The same without # lines: the column names are the first line.
+std::string to_plain_csv(const Table& table);
+/// The column names of both.
+std::vector<std::string> csv_columns(const Table& table);
 /// Markdown, a table for each group.
 std::string to_markdown(const Table& table);
 /// A LaTeX table in the paper's layout: a heading and the names above each group.

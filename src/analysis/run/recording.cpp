@@ -20,16 +20,6 @@ double log10_of(const S& x) {
   return x > 0 ? approximately(S(log10(x))) : -std::numeric_limits<double>::infinity();
 }
 
-/// Of all constraints, in order.
-template <Scalar S>
-std::vector<std::string> names_of_constraints(const Problem<S>& problem) {
-  std::vector<std::string> names;
-  for (const Constraint<S>& constraint : problem.constraints) names.push_back(constraint.name);
-  for (const RedundantConstraint<S>& redundant : problem.redundant)
-    names.insert(names.begin() + redundant.place, redundant.constraint.name);
-  return names;
-}
-
 }  // namespace
 
 std::vector<std::size_t> shown_multipliers(const Recording& recording) {

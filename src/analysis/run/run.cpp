@@ -107,7 +107,9 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   std::optional<Trajectory<S>> trajectory;
   std::optional<KeptFile<S>> kept_file;
   if (csv) {
-    trajectory.emplace(scene.problem, *csv, hooks.every, grid.steps(), hooks.provenance);
+    const auto columns = trajectory_columns(request.scene, names_of_constraints(scene.problem));
+    if (hooks.describe_csv) hooks.describe_csv(columns);
+    trajectory.emplace(scene.problem, *csv, hooks.every, grid.steps(), names_of(columns));
     observers.push_back(&*trajectory);
     kept_file.emplace(*csv);
     observers.push_back(&*kept_file);

@@ -105,8 +105,9 @@ double energy_size(const Scene& scene, std::istream& csv) {
   Point<double> point(assembled.problem);
   Vector<double> q(assembled.problem.m()), p(q);
   double size = 0;
-  for (std::string line; std::getline(csv, line);) {
-    if (line.starts_with('#')) continue;
+  std::string line;
+  std::getline(csv, line);  // the names
+  while (std::getline(csv, line)) {
     const char* at = line.c_str();
     char* end = nullptr;
     const auto next = [&] {

@@ -28,7 +28,7 @@ Conservation conservation_in(const ConservationRequest& request) {
   using Kind = ConservedQuantity::Kind;
   const auto add = [&](Kind kind, const std::string& name, const S& drift, const S& size) {
     const double ulps = drift == 0 ? 0 : approximately(S(drift / (size * epsilon<S>())));
-    result.quantities.push_back({kind, name, to_scientific(drift, 3), ulps});
+    result.quantities.push_back({kind, name, to_text(drift), ulps});
   };
   const Snapshot<S>& end = run.integration.end;
   Point<S> point(problem);

@@ -5,6 +5,8 @@
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "hbvm/analysis/study/conservation.hpp"
+#include "hbvm/analysis/study/step_halving.hpp"
+#include "hbvm/scalar/text.hpp"
 
 namespace hbvm {
 namespace {
@@ -35,7 +37,7 @@ struct Row {
 
 /// Scene and nodes, the drifts of H, g, P and L (the greatest component's), the momenta, and which of the four are
 /// kept.
-std::vector<std::string> cells(const Conservation& found, Row& row) {
+std::vector<std::string> cells(const Conservation& found, Row& row, Digits digits) {
   std::vector<std::string> result{row.scene, row.nodes, std::to_string(found.method.k)};
   const auto append = [](std::string& text, const std::string& word) { text += (text.empty() ? "" : " ") + word; };
   std::string momenta;
@@ -48,7 +50,7 @@ std::vector<std::string> cells(const Conservation& found, Row& row) {
       if (kind == Kind::linear_momentum || kind == Kind::angular_momentum)
         momenta += (momenta.empty() ? "" : "; ") + quantity.name;
     }
-    result.push_back(worst ? worst->drift : "---");
+    result.push_back(!worst ? "---" : digits == Digits::all ? worst->drift : to_scientific(worst->drift, 3));
     if (worst) append(worst->ulps <= found.round_off() ? row.kept : row.lost, letter);
   }
   const auto or_none = [](const std::string& text) { return text.empty() ? "---" : text; };
@@ -85,11 +87,15 @@ Findings conclude(const Experiment& experiment, const std::vector<std::string>& 
   Findings findings;
   findings.table.columns = {"scene", "nodes", "k", "e_H", "e_g", "e_P", "e_L", "momenta", "kept", "lost"};
   findings.table.groups.emplace_back();
+  findings.full = findings.table;
   std::vector<Row> rows;
   for (const auto& [name, text] : built_in_scenes()) {
     for (const auto& [nodes, label] : both) {
       Row row{name, label, {}, {}};
-      findings.table.groups.back().rows.push_back(cells(read_conservation(results[rows.size()]), row));
+      const Conservation found = read_conservation(results[rows.size()]);
+      Row full = row;
+      findings.table.groups.back().rows.push_back(cells(found, row, Digits::printed));
+      findings.full.groups.back().rows.push_back(cells(found, full, Digits::all));
       rows.push_back(std::move(row));
     }
   }
@@ -109,7 +115,7 @@ Part<Findings> conservation_study(const Experiment& experiment, TomlTable& top) 
     const auto scene = std::make_shared<const Scene>(read_scene(text, name));
     for (const auto& [nodes, label] : both) {
       part.cells.push_back(
-          {experiment.key("conservation", *scene, label, step, until, "s = " + std::to_string(s)),
+          {experiment.key("conservation, all digits", *scene, label, step, until, "s = " + std::to_string(s)),
            [&experiment, scene, s, nodes = nodes, step, until] {
              return to_result(conservation({scene.get(), s, nodes, step, until}, experiment.precision));
            }});

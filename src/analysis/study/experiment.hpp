@@ -19,7 +19,8 @@ struct Experiment {
   Scene scene;  ///< empty for a study of all scenes
   Precision precision;
   bool check;                           ///< compare with expected.csv
-  std::vector<std::string> provenance;  ///< of tables and trajectories
+  std::vector<std::string> provenance;  ///< of tables
+  std::string command;                  ///< that makes the results again
   std::filesystem::path results;        ///< the folder that files go to
 
   /// The key of a run: all that its result depends on. \param further of this kind of run
@@ -37,7 +38,13 @@ struct Part {
 /// What comes out: columns and groups of the table, and the comparison.
 struct Findings {
   Table table;
+  Table full;  ///< the same with all digits, and empty cells where there is no number
   Agreement agreement;
+};
+
+/// Files that a part of a study made, and what it could not make.
+struct Drawn {
+  std::vector<std::string> files, warnings;
 };
 
 /// The kinds of a study. Each takes its own keys of study.toml.

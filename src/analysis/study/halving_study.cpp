@@ -120,19 +120,24 @@ Findings conclude(const Experiment& experiment, HalvingTable table, const std::v
   findings.table.key_columns = {"k", "s"};
   findings.table.columns = {"i"};
   for (const std::string& column : table.columns) findings.table.columns.push_back(column);
+  findings.full = findings.table;
   auto result = results.begin();
   for (Block& block : table.blocks) {
     std::vector<HalvingRun> runs;
     for (int n = 0; n < block.runs(); ++n) runs.push_back(read_halving_run(*result++));
     block.rows = halving_rows(block.request, runs, experiment.precision);
     const std::string k = letter(block.request.method, "k"), s = letter(block.request.method, "s");
-    Table::Group rows{table.group + " = " + (table.group == "k" ? k : s), {k, s}, {}};
-    for (const HalvingRow& row : block.rows) {
-      std::vector<std::string> cells;
-      for (const std::string& column : findings.table.columns) cells.push_back(row.cell(column));
-      rows.rows.push_back(std::move(cells));
-    }
-    findings.table.groups.push_back(std::move(rows));
+    const auto cells_of = [&](const std::vector<HalvingRow>& rows) {
+      std::vector<std::vector<std::string>> cells;
+      for (const HalvingRow& row : rows) {
+        cells.emplace_back();
+        for (const std::string& column : findings.table.columns) cells.back().push_back(row.cell(column));
+      }
+      return cells;
+    };
+    findings.table.groups.push_back({table.group + " = " + (table.group == "k" ? k : s), {k, s}, cells_of(block.rows)});
+    findings.full.groups.push_back(
+        {"", {k, s}, cells_of(halving_rows(block.request, runs, experiment.precision, Digits::all))});
   }
   if (experiment.check)
     findings.agreement =

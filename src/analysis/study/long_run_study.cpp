@@ -69,6 +69,7 @@ Findings conclude(const Experiment& experiment, const std::vector<RunRequest>& r
   Table& table = findings.table;
   table.columns = {"k", "s", "until", "e_H", "e_g", "e_hid", "output_delta_H", "iterations per step", "seconds"};
   table.groups.emplace_back();
+  findings.full = table;
   std::vector<LongRun> runs;
   for (std::size_t n = 0; n < requests.size(); ++n) {
     const RunRequest& request = requests[n];
@@ -77,6 +78,10 @@ Findings conclude(const Experiment& experiment, const std::vector<RunRequest>& r
         {letter(request.method, "k"), letter(request.method, "s"), request.until.text(), to_scientific(run.e_H, 3),
          to_scientific(run.e_g, 3), to_scientific(run.e_hid, 3), to_scientific(run.output_delta_H, 3),
          fmt::format("{:.1f}", run.iterations_per_step), seconds[n] ? fmt::format("{:.2f}", *seconds[n]) : "---"});
+    findings.full.groups.back().rows.push_back({letter(request.method, "k"), letter(request.method, "s"),
+                                                request.until.text(), run.e_H, run.e_g, run.e_hid, run.output_delta_H,
+                                                fmt::format("{}", run.iterations_per_step),
+                                                seconds[n] ? fmt::format("{}", *seconds[n]) : "---"});
   }
   if (experiment.check) findings.agreement = check(experiment, table, runs);
   return findings;

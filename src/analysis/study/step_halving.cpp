@@ -20,10 +20,11 @@ struct Errors {
 };
 
 template <Scalar S>
-std::string rate(const S& above, const S& here, const S& size) {
+std::string rate(const S& above, const S& here, const S& size, Digits digits) {
   using std::log;
   if (here <= 16 * epsilon<S>() * size) return "***";
-  return fmt::format("{:.1f}", approximately(S(log(S(above / here)) / log(S(2)))));
+  const double log2 = approximately(S(log(S(above / here)) / log(S(2))));
+  return digits == Digits::all ? fmt::format("{}", log2) : fmt::format("{:.1f}", log2);
 }
 
 template <Scalar S>
@@ -63,7 +64,9 @@ struct End {
 };
 
 template <Scalar S>
-std::vector<HalvingRow> halving_rows_in(const HalvingRequest& request, const std::vector<HalvingRun>& runs) {
+std::vector<HalvingRow> halving_rows_in(const HalvingRequest& request, const std::vector<HalvingRun>& runs,
+                                        Digits digits) {
+  const auto shown = [&](const S& x) { return digits == Digits::all ? to_text(x) : to_scientific(x, 3); };
   std::optional<Errors<S>> above;
   std::vector<HalvingRow> rows;
   for (std::size_t n = 0; n + 1 < runs.size(); ++n) {
@@ -75,16 +78,16 @@ std::vector<HalvingRow> halving_rows_in(const HalvingRequest& request, const std
     HalvingRow row;
     row.i = request.first + static_cast<int>(n);
     row.steps = runs[n + 1].steps;
-    row.e_y = to_scientific(e.y, 3);
-    row.e_lambda = to_scientific(e.lambda, 3);
-    row.e_hid = to_scientific(e.hid, 3);
-    row.e_g = to_scientific(e.g, 3);
-    row.e_H = to_scientific(e.H, 3);
+    row.e_y = shown(e.y);
+    row.e_lambda = shown(e.lambda);
+    row.e_hid = shown(e.hid);
+    row.e_g = shown(e.g);
+    row.e_H = shown(e.H);
     if (above) {
-      row.rate_y = rate(above->y, e.y, y_size);
-      row.rate_lambda = rate(above->lambda, e.lambda, lambda_size);
-      row.rate_hid = rate(above->hid, e.hid, S(q_size * p_size));
-      row.rate_H = rate(above->H, e.H, H_size);
+      row.rate_y = rate(above->y, e.y, y_size, digits);
+      row.rate_lambda = rate(above->lambda, e.lambda, lambda_size, digits);
+      row.rate_hid = rate(above->hid, e.hid, S(q_size * p_size), digits);
+      row.rate_H = rate(above->H, e.H, H_size, digits);
     }
     const auto ulps = [](const S& error, const S& size) { return approximately(S(error / (size * epsilon<S>()))); };
     row.ulps_lambda = ulps(e.lambda, lambda_size);
@@ -147,8 +150,8 @@ HalvingRun read_halving_run(const std::string& text) {
 }
 
 std::vector<HalvingRow> halving_rows(const HalvingRequest& request, const std::vector<HalvingRun>& runs,
-                                     const Precision& precision) {
-  return with_scalar(precision, [&]<Scalar S>() { return halving_rows_in<S>(request, runs); });
+                                     const Precision& precision, Digits digits) {
+  return with_scalar(precision, [&]<Scalar S>() { return halving_rows_in<S>(request, runs, digits); });
 }
 
 }  // namespace hbvm

@@ -9,6 +9,7 @@
 #include "experiment.hpp"
 #include "hbvm/checksum.hpp"
 #include "hbvm/read_file.hpp"
+#include "hbvm/report/csvw.hpp"
 #include "hbvm/version.hpp"
 #include "hbvm/write_file.hpp"
 #include "study_figure.hpp"
@@ -41,6 +42,12 @@ fs::path make_results_folder(const StudyRequest& request, const std::optional<fs
   return results;
 }
 
+/// Marks that stand where a printed table has no number are empty cells, which readers know as missing.
+void blank_marks(std::vector<std::string>& cells) {
+  for (std::string& cell : cells)
+    if (cell == "---" || cell == "***") cell.clear();
+}
+
 /// A study.toml that was read: what there is to run, and what comes of it.
 class Study {
  public:
@@ -48,7 +55,7 @@ class Study {
   Study(const StudyRequest& request, const StudyOptions& options)
       : source_(read_file(fs::path(request.folder) / "study.toml"), (fs::path(request.folder) / "study.toml").string()),
         root_(source_.parse()),
-        experiment_{request.folder, {}, request.precision, options.check, {}, {}} {
+        experiment_{request.folder, {}, request.precision, options.check, {}, {}, {}} {
     TomlTable top(source_, root_, "study");
     title_ = top.string("title");
     const std::string kind = top.string("kind");
@@ -58,10 +65,9 @@ class Study {
     const bool all_scenes = kind == "conservation";
     Scene& scene = experiment_.scene;
     if (!all_scenes) scene = find_scene(request.folder, top.string("scene"));
-    experiment_.provenance = {
-        std::string("hbvm ") + version(),
-        "command hbvm study " + name_of_study(request.folder) + " --precision " + request.precision.name(),
-        all_scenes ? "scenes: all built-in ones" : "scene " + scene.name + ": " + scene.title};
+    experiment_.command = "hbvm study " + name_of_study(request.folder) + " --precision " + request.precision.name();
+    experiment_.provenance = {std::string("hbvm ") + version(), "command " + experiment_.command,
+                              all_scenes ? "scenes: all built-in ones" : "scene " + scene.name + ": " + scene.title};
     experiment_.results = make_results_folder(request, options.out);
     table_ = kinds.at(kind)(experiment_, top);
     for (const toml::table* entry : top.tables("figure"))
@@ -97,18 +103,47 @@ class Study {
       write_file(experiment_.results / name, text);
       outcome.files.push_back((experiment_.results / name).string());
     }
-    for (const auto& figure : figures_)
-      for (std::string& file : figure.conclude(results_of(figure.cells))) outcome.files.push_back(std::move(file));
+    write_full(std::move(findings.full), outcome);
+    for (const auto& figure : figures_) {
+      const Drawn drawn = figure.conclude(results_of(figure.cells));
+      outcome.files.insert(outcome.files.end(), drawn.files.begin(), drawn.files.end());
+      outcome.warnings.insert(outcome.warnings.end(), drawn.warnings.begin(), drawn.warnings.end());
+    }
     return outcome;
   }
 
  private:
+  /// What a column of a table holds, by its name.
+  CsvType type_of(const std::string& column) const {
+    const bool in_double = experiment_.precision.kind() == Precision::Kind::binary64;
+    if (column.starts_with("e_") || column == "output_delta_H") return in_double ? CsvType::binary64 : CsvType::decimal;
+    if (column.starts_with("rate_") || column == "iterations per step" || column == "seconds") return CsvType::binary64;
+    return column == "k" || column == "s" || column == "i" ? CsvType::integer : CsvType::text;
+  }
+
+  /// The table with all digits, and what describes it.
+  void write_full(Table table, StudyOutcome& outcome) const {
+    const std::string file = (experiment_.results / "table_full.csv").string();
+    for (auto& group : table.groups) {
+      blank_marks(group.keys);
+      for (auto& row : group.rows) blank_marks(row);
+    }
+    CsvMetadata metadata{title_, experiment_.scene.name.empty() ? "" : write_scene(experiment_.scene), {}, {}};
+    metadata.properties = {
+        {"version", version()}, {"command", experiment_.command}, {"precision", experiment_.precision.name()}};
+    for (const std::string& column : csv_columns(table)) metadata.columns.push_back({column, type_of(column), ""});
+    write_file(file, to_plain_csv(table));
+    write_file(csvw_file(file), to_csvw(metadata, file));
+    outcome.files.push_back(file);
+    outcome.files.push_back(csvw_file(file));
+  }
+
   TomlSource source_;
   toml::table root_;
   Experiment experiment_;
   std::string title_;
   Part<Findings> table_;
-  std::vector<Part<std::vector<std::string>>> figures_;
+  std::vector<Part<Drawn>> figures_;
 };
 
 /// \throws InputError if two folders would have their results in one

@@ -3,18 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <sstream>
 
 #include "analysis/json.hpp"
-#include "expected_csv.hpp"
 #include "hbvm/analysis/run/run.hpp"
 #include "hbvm/analysis/run/run_figure.hpp"
+#include "hbvm/analysis/run/trajectory_metadata.hpp"
+#include "hbvm/csv_line.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/report/figure.hpp"
 #include "hbvm/scalar/big_float.hpp"
 #include "hbvm/scene/coordinate_names.hpp"
+#include "hbvm/version.hpp"
 #include "hbvm/write_file.hpp"
 
 namespace hbvm {
@@ -27,17 +30,23 @@ struct FigureRun {
   std::string csv;
 };
 
-/// The text of the file, which is what a run leaves.
-std::string trajectory(const FigureRun& run, const std::vector<std::string>& provenance) {
+/// The text of the file and of its metadata, which is what a run leaves.
+std::string trajectory(const FigureRun& run, const std::string& command) {
   RunHooks hooks;
   hooks.every = run.every;
-  hooks.provenance = provenance;
+  std::string metadata;
+  hooks.describe_csv = [&](const std::vector<TrajectoryColumn>& columns) {
+    metadata = to_csvw(trajectory_metadata(run.request, columns, command, run.every), run.csv);
+  };
   hooks.open_csv = [&] { return std::make_unique<CsvFile>(run.csv, CsvFile::Opening::anew); };
   hbvm::run(run.request, hooks);
-  return dumped({{"csv", read_file(run.csv)}}, -1);
+  return dumped({{"csv", read_file(run.csv)}, {"metadata", metadata}}, -1);
 }
-std::string read_trajectory(const std::string& text) {
-  return read_json(text, "a figure", [](const OrderedJson& j) { return j.at("csv").get<std::string>(); });
+/// CSV and what describes it.
+std::pair<std::string, std::string> read_trajectory(const std::string& text) {
+  return read_json(text, "a figure", [](const OrderedJson& j) {
+    return std::pair(j.at("csv").get<std::string>(), j.at("metadata").get<std::string>());
+  });
 }
 
 /// A trajectory, column by column.
@@ -45,18 +54,17 @@ class Columns {
  public:
   explicit Columns(const std::string& csv) {
     std::istringstream lines(csv);
-    for (std::string line; std::getline(lines, line);) {
-      if (names_.empty())
-        names_ = split(line.starts_with("# ") ? line.substr(2) : line);
-      else if (!line.starts_with('#'))
-        rows_.push_back(split(line));
-    }
+    std::string line;
+    std::getline(lines, line);
+    names_ = split_csv_line(line);
+    while (std::getline(lines, line)) rows_.push_back(split_csv_line(line));
   }
 
   /// \throws InputError by way of the reader
   std::vector<double> column(const TomlTable& reader, const std::string& name, AxisScale scale) const {
     const auto place = std::find(names_.begin(), names_.end(), name);
-    if (place == names_.end()) reader.fail("there is no column '" + name + "'");
+    if (place == names_.end())
+      reader.fail("there is no column '" + name + "': there are " + fmt::format("{}", fmt::join(names_, ", ")));
     const auto i = static_cast<std::size_t>(place - names_.begin());
     std::vector<double> values;
     for (const auto& row : rows_)
@@ -157,45 +165,52 @@ FigureRun read_run(const Experiment& experiment, TomlTable reader, const std::st
 
 }  // namespace
 
-Part<std::vector<std::string>> study_figure(const Experiment& experiment, TomlTable reader) {
+Part<Drawn> study_figure(const Experiment& experiment, TomlTable reader) {
   Figure figure;
   figure.name = reader.string("name");
   reader.rename("figure '" + figure.name + "'");
   figure.caption = reader.optional_string("caption");
   const std::string of_figure = " of figure '" + figure.name + "'";
-  Part<std::vector<std::string>> part;
+  Part<Drawn> part;
   std::vector<std::string> csvs;
   for (const toml::table* table : reader.tables("run")) {
     csvs.push_back((experiment.results / fmt::format("{}_{}.csv", figure.name, csvs.size() + 1)).string());
     const FigureRun run = read_run(experiment, TomlTable(reader.source(), *table, "run" + of_figure), csvs.back());
     const RunRequest& request = run.request;
-    std::vector<std::string> provenance = experiment.provenance;
-    provenance.push_back("method " + request.method->text() + ", step " + request.step.text() + ", until " +
-                         request.until.text());
-    std::string further = std::to_string(run.every);
-    for (const std::string& line : provenance) further += "|" + line;
-    part.cells.push_back(
-        {experiment.key("trajectory", request.scene, request.method->key(), request.step, request.until, further),
-         [run, provenance] { return trajectory(run, provenance); }});
+    // Its file describes itself: two figures with the same run have results of their own.
+    std::string further = std::to_string(run.every) + "|" + version() + "|" + experiment.command + "|" +
+                          std::filesystem::path(run.csv).filename().string();
+    part.cells.push_back({experiment.key("described trajectory", request.scene, request.method->key(), request.step,
+                                         request.until, further),
+                          [run, command = experiment.command] { return trajectory(run, command); }});
   }
   const std::vector<const toml::table*> panels = reader.tables("panel");
   reader.finish();
   part.conclude = [&experiment, &source = reader.source(), figure, csvs, panels,
                    of_figure](const std::vector<std::string>& results) {
-    std::vector<std::string> files = csvs;
+    Drawn made;
     std::vector<Columns> runs;
     for (std::size_t n = 0; n < csvs.size(); ++n) {
-      const std::string csv = read_trajectory(results[n]);
+      const auto [csv, metadata] = read_trajectory(results[n]);
       write_file(csvs[n], csv);
+      write_file(csvw_file(csvs[n]), metadata);
+      made.files.insert(made.files.end(), {csvs[n], csvw_file(csvs[n])});
       runs.emplace_back(csv);
     }
     Figure drawn = figure;
     drawn.footnote = experiment.provenance[0] + ", " + experiment.provenance[1];
     for (const toml::table* table : panels)
       drawn.panels.push_back(panel(TomlTable(source, *table, "panel" + of_figure), experiment.scene, runs));
-    files.push_back((experiment.results / (figure.name + ".svg")).string());
-    draw(drawn, files.back());
-    return files;
+    const std::string picture = (experiment.results / (figure.name + ".svg")).string();
+    try {
+      draw(drawn, picture);
+      made.files.push_back(picture);
+    } catch (const InputError&) {
+      throw;
+    } catch (const Error& error) {  // without gnuplot there are tables all the same
+      made.warnings.push_back("'" + picture + "' is not drawn: " + error.what());
+    }
+    return made;
   };
   return part;
 }

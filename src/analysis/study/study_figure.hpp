@@ -5,7 +5,8 @@
 namespace hbvm {
 
 /// A [[figure]] of study.toml: its runs, whose results are trajectories as the text of CSV files, and the picture. What
-/// comes out are the files written: the trajectories (CSV) and the picture (SVG).
-Part<std::vector<std::string>> study_figure(const Experiment& experiment, TomlTable reader);
+/// comes out are the files written: the trajectories (CSV, and what describes them) and the picture (SVG), which is a
+/// warning where it cannot be drawn.
+Part<Drawn> study_figure(const Experiment& experiment, TomlTable reader);
 
 }  // namespace hbvm

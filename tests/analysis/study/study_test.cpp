@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "hbvm/csv_line.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/read_file.hpp"
+#include "hbvm/scalar/text.hpp"
 #include "hbvm/scene/scene.hpp"
 
 namespace hbvm {
@@ -182,14 +185,53 @@ TEST_F(StudyTest, AChangedRateBeyondDoubleIsReported) {
 
 TEST_F(StudyTest, WritesTablesAndPicturesWithProvenance) {
   const fs::path folder = copy_of("table_3_conical_pendulum");
-  run(folder, "double");
-  for (const char* name : {"table.csv", "table.md", "table.tex", "figure_3.svg", "figure_3_1.csv"}) {
-    std::ifstream file(folder / "results" / "double" / name);
-    const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const StudyOutcome outcome = run(folder, "double");
+  EXPECT_TRUE(outcome.warnings.empty());
+  std::vector<std::string> names;
+  for (const std::string& file : outcome.files) {
+    const std::string name = names.emplace_back(fs::path(file).filename().string());
+    const std::string text = read_file(file);
     EXPECT_GT(text.size(), 500u) << name;
-    if (std::string(name) != "figure_3.svg") {
-      EXPECT_NE(text.find("hbvm study table_3_conical_pendulum --precision double"), std::string::npos) << name;
+    const bool told = text.find("hbvm study table_3_conical_pendulum --precision double") != std::string::npos;
+    const bool bare = name == "table_full.csv" || name == "figure_3_1.csv";  // described beside
+    EXPECT_EQ(told, !bare) << name;
+    EXPECT_EQ(bare && text.find('#') != std::string::npos, false) << name;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"table.csv", "table.md", "table.tex", "table_full.csv",
+                                             "table_full.csv-metadata.json", "figure_3_1.csv",
+                                             "figure_3_1.csv-metadata.json", "figure_3.svg"}));
+}
+
+/// Of each kind of study: the full table rounds to the printed one, cell by cell.
+TEST_F(StudyTest, WritesAllDigitsBesideThePrintedOnes) {
+  for (const char* const study : {"table_1_simple_pendulum", "tethered_satellites", "conservation"}) {
+    const fs::path results = copy_of(study) / "results/double";
+    run(results.parent_path().parent_path(), "double");
+    const auto rows_of = [&](const char* name) {
+      std::vector<std::vector<std::string>> rows;
+      std::istringstream lines(read_file(results / name));
+      for (std::string line; std::getline(lines, line);)
+        if (rows.empty() || !line.starts_with('#'))
+          rows.push_back(split_csv_line(line.starts_with("# ") ? line.substr(2) : line));
+      return rows;
+    };
+    const auto printed = rows_of("table.csv"), full = rows_of("table_full.csv");
+    ASSERT_EQ(full.size(), printed.size()) << study;
+    EXPECT_EQ(full[0], printed[0]);
+    std::size_t longest = 0, compared = 0;
+    for (std::size_t n = 1; n < full.size(); ++n) {
+      ASSERT_EQ(full[n].size(), full[0].size()) << study << " " << n;
+      for (std::size_t i = 0; i < full[n].size(); ++i) {
+        const bool mark = printed[n][i] == "---" || printed[n][i] == "***";
+        EXPECT_EQ(full[n][i].empty(), mark) << study << " " << n << " " << full[0][i];
+        if (!full[0][i].starts_with("e_") || mark) continue;
+        EXPECT_EQ(to_scientific(full[n][i], 3), printed[n][i]) << study << " " << n << " " << full[0][i];
+        longest = std::max(longest, full[n][i].size());
+        ++compared;
+      }
     }
+    EXPECT_GT(compared, 6u) << study;
+    EXPECT_GT(longest, 15u) << study;
   }
 }
 

@@ -14,6 +14,7 @@
 #include "hbvm/analysis/run/shadow.hpp"
 #include "hbvm/integrate/checkpoint.hpp"
 #include "hbvm/integrate/csv_file.hpp"
+#include "hbvm/integrate/trajectory_columns.hpp"
 
 namespace hbvm {
 
@@ -65,11 +66,11 @@ struct RunResult {
 
 struct RunHooks {
   std::function<std::unique_ptr<CsvFile>()> open_csv;  ///< called once the request is known to be right
-  std::vector<std::string> provenance;                 ///< comment lines of the CSV
-  long every = 1;                                      ///< mesh points a CSV line
-  std::function<void(long, long)> progress;            ///< (steps made, of)
-  Checkpoints* checkpoints = nullptr;                  ///< where the run is kept, if it is
-  Recording* recording = nullptr;                      ///< filled for a picture, also of a run that fails on the way
+  std::function<void(const std::vector<TrajectoryColumn>&)> describe_csv;  ///< called once it is open, if there is one
+  long every = 1;                                                          ///< mesh points a CSV line
+  std::function<void(long, long)> progress;                                ///< (steps made, of)
+  Checkpoints* checkpoints = nullptr;                                      ///< where the run is kept, if it is
+  Recording* recording = nullptr;  ///< filled for a picture, also of a run that fails on the way
 };
 
 /// \throws InputError, IntegrationError, Interrupted

@@ -15,7 +15,7 @@ struct ConservedQuantity {
   enum class Kind { energy, constraints, linear_momentum, angular_momentum };
   Kind kind;
   std::string name;   ///< of a momentum
-  std::string drift;  ///< greatest change over the mesh (of the constraints: greatest value), three digits
+  std::string drift;  ///< greatest change over the mesh (of the constraints: greatest value)
   double ulps = 0;    ///< the same over epsilon times the size of the terms it is the sum of
 };
 

@@ -10,13 +10,19 @@
 
 namespace hbvm {
 
-/// One row of the paper's tables: runs i and i + 1 compared. Numbers have three digits; absent where there is none.
+/// How many digits a table shows.
+enum class Digits {
+  printed,  ///< three, of rates one after the point
+  all
+};
+
+/// One row of the paper's tables: runs i and i + 1 compared. Absent where there is no number.
 struct HalvingRow {
   int i = 0;
   std::string e_y;              ///< |y_i(T) - y_{i+1}(T)|_max with y = (q, p), at the end point only
   std::string e_lambda;         ///< the same for (lagmul)
   std::string e_hid, e_g, e_H;  ///< maxima over the mesh of the finer run, i + 1
-  /// log2 of the quotient of the row above and this one, to one decimal; "***" if this row's error is round-off.
+  /// log2 of the quotient of the row above and this one; "***" if this row's error is round-off.
   std::optional<std::string> rate_y, rate_lambda, rate_hid, rate_H;
   long steps = 0;  ///< of the finer run
   /// Each error over epsilon times the size of what it is an error of.
@@ -57,6 +63,6 @@ HalvingRun read_halving_run(const std::string& text);
 
 /// The rows first .. last from the runs first .. last + 1.
 std::vector<HalvingRow> halving_rows(const HalvingRequest& request, const std::vector<HalvingRun>& runs,
-                                     const Precision& precision);
+                                     const Precision& precision, Digits digits = Digits::printed);
 
 }  // namespace hbvm

@@ -21,8 +21,9 @@ struct Agreement {
 /// What a study found.
 struct StudyOutcome : Agreement {
   std::string title;
-  std::vector<std::string> files;  ///< tables and pictures written
-  std::string table;               ///< in Markdown
+  std::vector<std::string> files;     ///< tables and pictures written
+  std::vector<std::string> warnings;  ///< pictures that could not be drawn, and why
+  std::string table;                  ///< in Markdown
 };
 
 /// A folder with a study.toml, and the precision to run it in.
@@ -37,9 +38,9 @@ struct StudyOptions : CellOptions {
   std::optional<std::filesystem::path> out{};
 };
 
-/// Runs the experiments that study.toml describes: a cell for each of their runs. Tables (CSV, Markdown, LaTeX) and
-/// pictures (SVG, with the trajectories they show) are the same whatever the number of threads and shards, but for a
-/// column of seconds. If a run fails, the studies that are complete are written all the same.
+/// Runs the experiments that study.toml describes: a cell for each of their runs. Tables (CSV, Markdown, LaTeX, and a
+/// CSV with all digits) and pictures (SVG, with the trajectories they show) are the same whatever the number of threads
+/// and shards, but for a column of seconds. If a run fails, the studies that are complete are written all the same.
 /// \return an outcome a request, in order; none for one with runs in other shards that the store does not know
 /// \throws InputError, before anything is run if a study.toml is wrong; IntegrationError
 std::vector<std::optional<StudyOutcome>> run_studies(const std::vector<StudyRequest>& requests,

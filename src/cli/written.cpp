@@ -1,0 +1,23 @@
+#include "written.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "hbvm/write_file.hpp"
+
+namespace hbvm {
+
+void say_written(const std::string& file) { fmt::print(stderr, "written to {}\n", file); }
+
+void write_and_say(const std::filesystem::path& file, const std::string& text) {
+  write_file(file, text);
+  say_written(file.string());
+}
+
+bool has_neighbours(const std::string& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored);
+}
+
+}  // namespace hbvm

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace hbvm {
+
+/// A line "written to FILE" on standard error.
+void say_written(const std::string& file);
+
+/// Makes or replaces a file and says so. \throws InputError if it cannot be written
+void write_and_say(const std::filesystem::path& file, const std::string& text);
+
+/// Whether something may be put beside a file: not if it is a pipe or a device.
+bool has_neighbours(const std::string& file);
+
+}  // namespace hbvm

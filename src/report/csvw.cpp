@@ -1,0 +1,72 @@
+#include "hbvm/report/csvw.hpp"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace hbvm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_word(unsigned char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// Other characters than letters, digits, "_" and those of `further` as %XX.
+std::string percent_encoded(const std::string& text, const std::string& further) {
+  const char* const digits = "0123456789ABCDEF";
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (is_word(byte) || further.find(c) != std::string::npos)
+      result += c;
+    else
+      result += {'%', digits[byte / 16], digits[byte % 16]};
+  }
+  return result;
+}
+
+/// A variable of URI templates, which a name of CSVW has to be: no "_" first, dots between words only.
+std::string variable(const std::string& name) {
+  std::string text = percent_encoded(name, ".");
+  const auto escape = [&](std::size_t at) { text.replace(at, 1, text[at] == '.' ? "%2E" : "%5F"); };
+  for (std::size_t i = text.size(); i-- > 0;)
+    if (text[i] == '.' && (i == 0 || i + 1 == text.size() || text[i + 1] == '.')) escape(i);
+  if (text.starts_with('_')) escape(0);
+  return text;
+}
+
+Json datatype(CsvType type) {
+  switch (type) {
+    case CsvType::text:
+      return "string";
+    case CsvType::integer:
+      return "integer";
+    case CsvType::binary64:
+      return "double";
+    case CsvType::decimal:
+      break;
+  }
+  return {{"base", "string"}, {"format", R"(-?[0-9]+(\.[0-9]+)?(e[-+]?[0-9]+)?)"}};
+}
+
+}  // namespace
+
+std::string csvw_file(const std::string& csv) { return csv + "-metadata.json"; }
+
+std::string to_csvw(const CsvMetadata& metadata, const std::string& csv) {
+  Json j{{"@context", "http://www.w3.org/ns/csvw"},
+         {"url", percent_encoded(std::filesystem::path(csv).filename().string(), ".-~")}};
+  if (!metadata.title.empty()) j["dc:title"] = metadata.title;
+  for (const auto& [name, value] : metadata.properties) j["hbvm:" + name] = value;
+  if (!metadata.source.empty()) j["dc:source"] = metadata.source;
+  j["tableSchema"]["columns"] = Json::array();
+  for (const CsvColumn& column : metadata.columns) {
+    Json entry{{"name", variable(column.name)}, {"titles", column.name}, {"datatype", datatype(column.type)}};
+    if (!column.description.empty()) entry["dc:description"] = column.description;
+    j["tableSchema"]["columns"].push_back(entry);
+  }
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace hbvm

@@ -1,0 +1,66 @@
+#include "hbvm/report/csvw.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hbvm {
+namespace {
+
+TEST(Csvw, DescribesAFileAndItsColumns) {
+  EXPECT_EQ(csvw_file("a/b.csv"), "a/b.csv-metadata.json");
+  EXPECT_EQ(to_csvw({"A title",
+                     "body = []\n",
+                     {{"version", "1.2"}, {"command", "hbvm run"}},
+                     {{"t", CsvType::binary64, "time"}, {"k", CsvType::integer, ""}, {"word", CsvType::text, ""}}},
+                    "folder/my file.csv"),
+            R"({
+  "@context": "http://www.w3.org/ns/csvw",
+  "url": "my%20file.csv",
+  "dc:title": "A title",
+  "hbvm:version": "1.2",
+  "hbvm:command": "hbvm run",
+  "dc:source": "body = []\n",
+  "tableSchema": {
+    "columns": [
+      {
+        "name": "t",
+        "titles": "t",
+        "datatype": "double",
+        "dc:description": "time"
+      },
+      {
+        "name": "k",
+        "titles": "k",
+        "datatype": "integer"
+      },
+      {
+        "name": "word",
+        "titles": "word",
+        "datatype": "string"
+      }
+    ]
+  }
+}
+)");
+}
+
+/// What double cannot hold is text of the form of a number, which a reader does not round.
+TEST(Csvw, KeepsManyDigits) {
+  const std::string text = to_csvw({"", "", {}, {{"t", CsvType::decimal, ""}}}, "t.csv");
+  EXPECT_NE(text.find("\"base\": \"string\""), std::string::npos) << text;
+  EXPECT_NE(text.find(R"("format": "-?[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?")"), std::string::npos) << text;
+  EXPECT_EQ(text.find("dc:"), std::string::npos) << text;
+}
+
+/// A name is a variable of URI templates; the titles are what the file has.
+TEST(Csvw, EncodesNames) {
+  for (const auto& [name, encoded] :
+       {std::pair("upper.px", "upper.px"), std::pair("my bob.x", "my%20bob.x"), std::pair("a,b.x", "a%2Cb.x"),
+        std::pair("_a..b.", "%5Fa%2E.b%2E"), std::pair("ä.x", "%C3%A4.x"), std::pair(".x", "%2Ex")}) {
+    const std::string text = to_csvw({"", "", {}, {{name, CsvType::text, ""}}}, "t.csv");
+    EXPECT_NE(text.find("\"name\": \"" + std::string(encoded) + "\""), std::string::npos) << text;
+    EXPECT_NE(text.find("\"titles\": \"" + std::string(name) + "\""), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
