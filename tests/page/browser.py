@@ -101,14 +101,18 @@ class Browser:
 
     def open(self, path, address="", seconds=60):
         """Of a file; `address` is what follows its name, as #t=1."""
+        # By way of nothing: another address of the same file is no other page.
+        self._go("about:blank", seconds)
         self.complaints, self.requests = [], []
-        self.call("Page.navigate", url="about:blank")
+        self._go("file://" + os.path.abspath(path) + address, seconds)
+        self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def _go(self, url, seconds):
         self.loaded = False
-        self.call("Page.navigate", url="file://" + os.path.abspath(path) + address)
+        self.call("Page.navigate", url=url)
         until = time.monotonic() + seconds
         while not self.loaded:
             self._note(self._message(until))
-        self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def evaluate(self, expression):
         """What a JavaScript expression gives, promises awaited."""

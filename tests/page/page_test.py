@@ -6,6 +6,7 @@ file. Ends with 77, by which CTest knows a test that was skipped, where there is
 """
 
 import csv
+import json
 import math
 import os
 import subprocess
@@ -36,15 +37,10 @@ def check(holds, what):
 
 
 def read_csv(path):
-    """Rows of numbers, t first and then q; lines that are no numbers are names."""
-    rows = []
+    """Names of the columns, t first and then q, and rows of numbers."""
     with open(path, newline="") as file:
-        for row in csv.reader(file):
-            try:
-                rows.append([float(x) for x in row])
-            except ValueError:
-                continue
-    return rows
+        names, *rows = csv.reader(file)
+    return names, [[float(x) for x in row] for row in rows]
 
 
 def run(program, scene, folder):
@@ -52,7 +48,7 @@ def run(program, scene, folder):
     subprocess.run([program, "run", scene, *RUNS[scene], "--plot", page, "--out", table], check=True,
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     check(os.path.getsize(page) < 1_000_000, f"{os.path.getsize(page)} bytes are too many")
-    return page, read_csv(table)
+    return page, *read_csv(table)
 
 
 def positions_are_those_of(chromium, rows):
@@ -107,19 +103,95 @@ def number(text):
     return float(text.replace("⁻", "-").replace("−", "-").replace("·10", "e"))
 
 
-def cursor_values_are_those_of(chromium, rows):
-    """Of the hidden constraints, the last column of the CSV file, of a run of which every state is shown."""
+def cursor_values_are_those_of(chromium, names, rows):
+    """Errors and multipliers of a run of which every state is shown, in as many digits as there are."""
     if chromium.evaluate("player.motion.every") != 1:
         return
-    entries = "player.charts[player.charts.length - 1].entries"
-    if chromium.evaluate(entries + ".length") != 3:
-        return
-    for index in (1, chromium.evaluate("player.last") // 2):
+    columns = {"|H − H₀|": names.index("delta_H"), "|g|": names.index("g"), "hidden": names.index("hidden")}
+    for index in (0, 1, chromium.evaluate("player.last") // 2, chromium.evaluate("player.last")):
         chromium.evaluate(f"player.choose({index})")
-        shown = chromium.evaluate(entries + "[2].value.textContent")
-        expected = rows[index][-1]
-        check(expected == 0 and shown == "0" or math.isclose(number(shown), expected, rel_tol=6e-3),
-              f"the hidden constraint is shown as {shown} instead of {expected}")
+        shown = chromium.evaluate("""player.charts.flatMap((chart) => chart.chart.curves.map((curve, i) =>
+            [curve.name, curve.number ?? 0, chart.entries[i].value.textContent]))""")
+        for name, constraint, text in shown:
+            column = names.index(f"lambda{constraint}") if constraint else columns[name]
+            expected = rows[index][column] if constraint else abs(rows[index][column])
+            digits = 5e-5 if constraint else 5e-3
+            check((text == "0") == (expected == 0) and math.isclose(number(text), expected, rel_tol=1.01 * digits),
+                  f"{name} is shown as {text} instead of {expected} at t = {rows[index][0]}")
+
+
+def bodies_are_drawn_where_they_are(chromium):
+    """Each at its place on the canvas, in its colour, unless another is before it: at two times."""
+    for index in (0, chromium.evaluate("player.last")):
+        chromium.evaluate(f"player.choose({index})")
+        drawn = chromium.evaluate("""(() => {
+          const { stage, motion, theme } = player, ratio = stage.canvas.width / stage.width;
+          const copy = () => document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+          const probe = copy(), picture = copy();
+          [picture.canvas.width, picture.canvas.height] = [stage.canvas.width, stage.canvas.height];
+          picture.drawImage(stage.canvas, 0, 0);
+          const at = motion.masses.map((place) => stage.drawnAt(place));
+          const alone = (i) => at.every(([x, y], j) => i === j || Math.hypot(x - at[i][0], y - at[i][1]) > 2 * stage.letter);
+          return motion.masses.flatMap((place, i) => {
+            if (!alone(i) || Number(motion.places[place].charge) !== 0) return [];
+            probe.fillStyle = theme.colour(i);
+            probe.fillRect(0, 0, 1, 1);
+            const [x, y] = at[i].map((coordinate) => Math.round(coordinate * ratio));
+            const seen = [...picture.getImageData(x, y, 1, 1).data], wanted = [...probe.getImageData(0, 0, 1, 1).data];
+            return [[motion.places[place].name, x, y, stage.canvas.width, stage.canvas.height, seen, wanted]];
+          });
+        })()""")
+        for name, x, y, width, height, seen, wanted in drawn:
+            check(0 < x < width and 0 < y < height, f"{name} is at {x}, {y}, outside of the picture")
+            check(all(abs(a - b) < 8 for a, b in zip(seen, wanted)), f"at {name}'s place is {seen}, not {wanted}")
+
+
+def views_show_two_axes(chromium):
+    """Seen along an axis, what is drawn moves as the two other coordinates do, right and up."""
+    planar = chromium.evaluate("player.stage.planar")
+    for side, across, up in [("oblique", 0, 1)] if planar else [("x", 1, 2), ("y", 0, 2), ("z", 0, 1)]:
+        drawn, at, scale = chromium.evaluate(f"""(() => {{
+          const {{ stage, motion }} = player, place = motion.masses[motion.masses.length - 1], states = [0, player.last];
+          stage.resetView('{side}');
+          return [states.map((i) => stage.drawnAt(place, i)), states.map((i) => motion.position(place, i)), stage.scale];
+        }})()""")
+        moved, drawn_move = [b - a for a, b in zip(*at)], [b - a for a, b in zip(*drawn)]
+        expected = [scale * moved[across], -scale * moved[up]]
+        check(scale > 0 and all(abs(a - b) < 1e-6 for a, b in zip(drawn_move, expected)),
+              f"seen along {side} the last body moves by {drawn_move[:2]} pixels, not {expected}")
+    chromium.evaluate("player.stage.resetView()")
+
+
+def it_can_be_turned(chromium):
+    """By dragging: a scene in space shows another side, a planar one is shifted; a double click brings it back."""
+    box = chromium.evaluate("""(() => {
+      const at = player.stage.canvas.getBoundingClientRect();
+      return [at.left + at.width / 2, at.top + at.height / 2];
+    })()""")
+    where = "[player.stage.azimuth, player.stage.elevation, ...player.stage.shift]"
+    before = chromium.evaluate(where)
+    chromium.drag(box, [box[0] + 60, box[1] + 30])
+    after = chromium.evaluate(where)
+    changed = [a != b for a, b in zip(after, before)]
+    if chromium.evaluate("player.stage.planar"):
+        check(changed[:2] == [False, False] and after[2:] == [60, 30], f"dragging changes {before} to {after}")
+    else:
+        check(changed == [True, True, False, False], f"dragging changes {before} to {after}")
+    chromium.evaluate("player.stage.canvas.dispatchEvent(new MouseEvent('dblclick'))")
+    check(chromium.evaluate(where) == before, "a double click does not bring the view back")
+
+
+def names_are_not_cut(chromium):
+    """Numbers of constraints, which are short, beside the longest values that there are."""
+    chromium.evaluate("player.choose(Math.round(player.last / 2))")
+    cut = chromium.evaluate("""player.charts.flatMap((chart) => chart.entries.flatMap(({ value }, i) => {
+      const name = value.previousSibling, shown = value.textContent;
+      value.textContent = '−8.8888·10⁻¹²³';
+      const missing = name.textContent.startsWith('λ') && name.scrollWidth > name.clientWidth + 1;
+      value.textContent = shown;
+      return missing ? [name.textContent] : [];
+    }))""")
+    check(not cut, f"the names {cut} are cut")
 
 
 def curves_go_to_a_time(chromium):
@@ -135,16 +207,29 @@ def curves_go_to_a_time(chromium):
     check(0.4 < middle < 0.6, f"a click in the middle of a curve goes to {middle} of the run")
 
 
+def curves_are_drawn_in_order(chromium):
+    """Of time, also backwards, as dygraphs wants them; with gaps where an error has no logarithm."""
+    wrong = chromium.evaluate("""player.charts.flatMap(({ chart, graph, motion }) => motion.rows.flatMap((row, i) => {
+      const at = motion.direction < 0 ? motion.count - 1 - i : i;
+      const right = graph.getValue(at, 0) === row[0] && (at === 0 || graph.getValue(at - 1, 0) < row[0]) &&
+        chart.curves.every(({ column }, k) => graph.getValue(at, k + 1) === (Number.isFinite(row[column]) ? row[column] : null));
+      return right ? [] : [i];
+    }))""")
+    check(not wrong, f"states {wrong[:5]} are not drawn as they are")
+
+
 def pages(program, chromium, folder, pictures):
     for scene in RUNS:
-        path, rows = run(program, scene, folder)
+        path, names, rows = run(program, scene, folder)
         chromium.open(path)
         check(not chromium.complaints, f"{scene}: {chromium.complaints}")
         check(all(url.startswith(("file:", "data:", "about:")) for url in chromium.requests),
               f"{scene} asks for {chromium.requests}")
         check(not chromium.evaluate("player.playing"), f"{scene} plays though motion is not wanted")
         for part in (lambda: positions_are_those_of(chromium, rows), lambda: it_moves(chromium),
-                     lambda: cursor_values_are_those_of(chromium, rows), lambda: curves_go_to_a_time(chromium)):
+                     lambda: cursor_values_are_those_of(chromium, names, rows), lambda: curves_go_to_a_time(chromium), lambda: curves_are_drawn_in_order(chromium),
+                     lambda: bodies_are_drawn_where_they_are(chromium), lambda: it_can_be_turned(chromium),
+                     lambda: views_show_two_axes(chromium), lambda: names_are_not_cut(chromium)):
             try:
                 part()
             except Failure as failure:
@@ -160,6 +245,67 @@ def pages(program, chromium, folder, pictures):
         print(f"{scene}: {os.path.getsize(path)} bytes, {chromium.evaluate('player.motion.count')} states")
 
 
+def with_data(path, change):
+    """A copy of a page whose data `change` has made others."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    begin = text.index('<script type="application/json" id="run">')
+    begin = text.index(">", begin) + 1
+    end = text.index("</script>", begin)
+    data = json.loads(text[begin:end])
+    change(data)
+    changed = path.replace(".html", "_changed.html")
+    with open(changed, "w", encoding="utf-8") as file:
+        file.write(text[:begin] + json.dumps(data).replace("<", "\\u003c") + text[end:])
+    return changed
+
+
+def no_bodies(data):
+    dimension = data["sketch"]["dimension"]
+    data["sketch"] = {"dimension": dimension, "places": [], "links": []}
+
+
+def no_numbers(data):
+    for i, row in enumerate(data["samples"]):
+        row[1:] = [["NaN", "Infinity", "-Infinity"][(i + j) % 3] for j in range(len(row) - 1)]
+
+
+def some_numbers(data):
+    for row in data["samples"][::2]:
+        row[1:] = ["NaN"] * (len(row) - 1)
+
+
+def one_state(data):
+    data["samples"] = data["samples"][:1]
+
+
+def many_multipliers(data):
+    curves = data["charts"][0]["curves"]
+    curves += [dict(curves[0], number=i, name="a rod with a name that is long") for i in range(3, 60)]
+
+
+def odd_data(program, chromium, folder):
+    """What no number can be drawn of, and scenes with nothing in them, are drawn without a complaint."""
+    for scene in ("double_pendulum", "tethered_satellites"):
+        path, _, _ = run(program, scene, folder)
+        for change in (no_bodies, no_numbers, some_numbers, one_state, many_multipliers):
+            chromium.open(with_data(path, change))
+            what = f"{scene}, {change.__name__}"
+            check(chromium.evaluate("typeof player") == "object", f"{what}: {chromium.complaints}")
+            for action in ("player.play(true)", "player.choose(1)", "player.choose(player.last)",
+                           "player.stage.centreOn('mean')", "player.stage.nearer(2)", "player.stage.resetView('z')",
+                           "document.querySelectorAll('details').forEach((part) => (part.open = true))"):
+                chromium.evaluate(action)
+                check(chromium.evaluate("0 < player.stage.scale && player.stage.scale < 1e9"), f"{what}: no scale")
+            check(not chromium.complaints, f"{what}: {chromium.complaints}")
+            if change is no_numbers:
+                shown = chromium.evaluate("player.charts[0].entries[0].value.textContent")
+                check(shown == "–", f"{what}: a number is shown that is none: {shown}")
+            if change is many_multipliers:
+                height = chromium.evaluate("player.charts[0].plot.clientHeight")
+                check(height > 60, f"{what}: the names leave {height} pixels to the curves")
+
+
 def main():
     program = sys.argv[1]
     chromium = browser.find()
@@ -171,6 +317,7 @@ def main():
         page.prefer(reduced_motion="reduce")
         try:
             pages(program, page, folder, pictures)
+            odd_data(program, page, folder)
         except Failure as failure:
             print(f"failed: {failure}")
             return 1

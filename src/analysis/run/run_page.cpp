@@ -74,6 +74,7 @@ Recording thinned(const Recording& recording, std::size_t k) {
 struct PageCurve {
   std::string name;
   std::vector<double> values;
+  std::size_t number = 0;  ///< of its constraint, from 1
 };
 
 OrderedJson json_of(const AxisRange& range, const Tics& tics) {
@@ -94,14 +95,15 @@ class PageData {
     }
     columns_ = 1 + recording.samples.front().q.size();
     const auto curve = [&](const std::string& name, const auto& value) {
-      PageCurve result{name, {}};
+      PageCurve result{name, {}, 0};
       for (const Recording::Sample& sample : recording.samples) result.values.push_back(value(sample));
       return result;
     };
     std::vector<PageCurve> multipliers;
-    for (const std::size_t i : shown_multipliers(recording))
-      multipliers.push_back(
-          curve(recording.constraints[i], [i](const Recording::Sample& sample) { return sample.lambda[i]; }));
+    for (const std::size_t i : shown_multipliers(recording)) {
+      multipliers.push_back(curve(recording.constraints[i], [i](const auto& sample) { return sample.lambda[i]; }));
+      multipliers.back().number = i + 1;
+    }
     if (!multipliers.empty()) add("Lagrange multipliers", "λ", AxisScale::linear, multipliers);
     std::vector<PageCurve> errors{curve("|H − H₀|", [](const auto& sample) { return sample.energy; })};
     if (!recording.constraints.empty()) {
@@ -126,6 +128,7 @@ class PageData {
       all.insert(all.end(), curve.values.begin(), curve.values.end());
       for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].push_back(any_number(curve.values[i]));
       list.push_back({{"name", curve.name}, {"column", columns_++}});
+      if (curve.number > 0) list.back()["number"] = curve.number;
     }
     const AxisRange range = widened(range_of(all), room);
     OrderedJson chart = json_of(range, tics_of(range, scale, most_tics));
@@ -180,6 +183,8 @@ std::string within_script(const OrderedJson& json) {
 
 /// 12 000
 std::string grouped(long n) {
+  constexpr long short_enough = 10'000;
+  if (n < short_enough) return std::to_string(n);
   std::string digits = std::to_string(n);
   for (auto at = static_cast<long>(digits.size()) - 3; at > 0; at -= 3)
     digits.insert(static_cast<std::size_t>(at), "\u00A0");
@@ -198,12 +203,13 @@ long last_step(const Recording& recording) {
 
 /// What is seen of the run, and whether it came to its end. \param last the step that it came to
 std::string account_of(const Recording& recording, long last) {
-  std::string text = recording.every == 1
-                         ? fmt::format("Every state of {} steps.", grouped(recording.steps))
-                         : fmt::format(
-                               "Every {} of {} steps, and the last; each error is the greatest since the "
-                               "state shown before it.",
-                               ordinal(recording.every), grouped(recording.steps));
+  std::string text =
+      recording.every == 1
+          ? fmt::format("Every state of {} step{}.", grouped(recording.steps), recording.steps == 1 ? "" : "s")
+          : fmt::format(
+                "Every {} of {} steps, and the last; each error is the greatest since the "
+                "state shown before it.",
+                ordinal(recording.every), grouped(recording.steps));
   if (last < recording.steps)
     text += fmt::format(" The run ended early: what is shown ends at t = {:.6g}.", recording.samples.back().t);
   return text;
@@ -220,6 +226,11 @@ std::string filled(std::string_view form, const std::map<std::string, std::strin
     result += words.find(form.substr(at + open.size(), end - at - open.size()))->second;
     form.remove_prefix(end + close.size());
   }
+}
+
+/// −4, −(1 + pi)
+std::string negative(const std::string& text) {
+  return text.find_first_of("+-") == std::string::npos ? "−" + text : "−(" + text + ")";
 }
 
 /// A scene that would fill the page is cut.
@@ -247,7 +258,7 @@ std::string run_page(const RunRequest& request, const Recording& recording, cons
       {"method", html(request.method->text())},
       {"precision", html(request.precision.name())},
       {"step", html(request.step.text())},
-      {"until", (backward ? "−(" : "") + html(request.until.text()) + (backward ? ")" : "")},
+      {"until", html(backward ? negative(request.until.text()) : request.until.text())},
       {"program", html(std::string("hbvm ") + version())},
       {"command", html(command)},
       {"scene", html(scene_text(request.scene))},

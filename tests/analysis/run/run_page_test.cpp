@@ -158,7 +158,7 @@ TEST(RunPage, IsSmallAndLeavesNoErrorOut) {
   EXPECT_GT(every, 3);
   EXPECT_EQ(every % 3, 0);
   EXPECT_NE(element(page, "<p id=\"account\"").find("Every " + std::to_string(every)), std::string::npos);
-  EXPECT_NE(element(page, "<p id=\"account\"").find("of 3\u00A0000 steps, and the last"), std::string::npos);
+  EXPECT_NE(element(page, "<p id=\"account\"").find("of 3000 steps, and the last"), std::string::npos);
   EXPECT_THROW(run_page(request_for(scene), large(4, 60'000), "hbvm run"), Error);
 }
 
@@ -170,6 +170,31 @@ TEST(RunPage, SaysThatARunEndedEarly) {
   const std::string page = run_page(request_for(scene), recording, "hbvm run");
   EXPECT_NE(page.find("The run ended early: what is shown ends at t = 1."), std::string::npos);
   EXPECT_EQ(data_of(page)["last_step"], 16);
+}
+
+TEST(RunPage, SaysWhereARunBackwardsEnds) {
+  const Scene scene = load_scene("kepler");
+  RunRequest request = request_for(scene);
+  request.direction = Direction::backward;
+  const Recording recording = recording_of(scene);
+  EXPECT_NE(run_page(request, recording, "hbvm run").find("· until −1<"), std::string::npos);
+  request.until = Expression::parse("2 - 1");
+  EXPECT_NE(run_page(request, recording, "hbvm run").find("· until −(2 - 1)<"), std::string::npos);
+}
+
+TEST(RunPage, NumbersMultipliersByTheirConstraints) {
+  const Scene scene = load_scene("double_physical_pendulum");
+  const Recording recording = recording_of(scene);
+  const Json curves = data_of(run_page(request_for(scene), recording, "hbvm run"))["charts"][0]["curves"];
+  ASSERT_EQ(curves.size(), 2u);
+  for (const Json& curve : curves)
+    EXPECT_EQ(curve["name"], recording.constraints.at(curve["number"].get<std::size_t>() - 1));
+}
+
+TEST(RunPage, CountsOneStep) {
+  const Scene scene = load_scene("kepler");
+  const std::string page = run_page(request_for(scene), recording_of(scene, "1/16"), "hbvm run");
+  EXPECT_TRUE(element(page, "<p id=\"account\"").starts_with("Every state of 1 step. "));
 }
 
 /// JSON has no infinities: they are text that JavaScript's Number() reads.

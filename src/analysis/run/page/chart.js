@@ -18,34 +18,52 @@ class Chart {
     this.plot = element('div', 'plot', box);
     this.canvas = element('div', 'canvas', this.plot);
     this.cursor = element('div', 'cursor', this.plot);
+    element('div', 'time', this.plot).textContent = 't';
+    this.names = chart.curves.map((curve) => Chart.nameOf(curve));
     this.entries = chart.curves.map((curve, i) => this.entry(curve, i));
+    // Columns that numbers of another length do not move, and in which the shortest names are never cut
+    const longest = Math.max(...this.names.map((name) => name.length)), width = Math.max(12, 0.48 * longest + 8.1);
+    this.values.style.gridTemplateColumns = `repeat(auto-fill, minmax(${width}em, 1fr))`;
     const rows = motion.rows.map((row) => [row[0], ...chart.curves.map(({ column }) => this.drawn(row[column]))]);
-    if (rows.length > 1 && rows[0][0] > rows[rows.length - 1][0]) rows.reverse();
+    this.backward = motion.direction < 0;
+    if (this.backward) rows.reverse();
     const tics = (list) => () => list.map(([v, text]) => ({ v, label: Numbers.raised(text) }));
     const letter = parseFloat(getComputedStyle(document.documentElement).fontSize);
     this.graph = new Dygraph(this.canvas, rows, {
       labels: ['t', ...chart.curves.map((_, i) => 'c' + i)],
       ...this.colours(),
-      dateWindow: time.range,
+      dateWindow: this.withItsEnds(time.range),
       valueRange: chart.range,
       axes: {
-        x: { ticker: tics(time.tics), axisLabelWidth: 4 * letter },
+        x: { ticker: tics(time.tics), axisLabelWidth: 3.6 * letter },
         y: { ticker: tics(chart.tics), axisLabelWidth: 3.6 * letter },
       },
       axisLabelFontSize: 0.88 * letter,
-      xlabel: 't',
-      xLabelHeight: letter,
       strokeWidth: 1.6,
       legend: 'never',
       interactionModel: {},
       drawGapEdgePoints: true,
-      pointSize: 1,
-      highlightCircleSize: 0,
-      rightGap: Math.round(1.5 * letter),
+      pointSize: 2,
+      highlightCircleSize: 0.25 * letter,
+      gridLineWidth: 1,
+      rightGap: Math.round(2.6 * letter),
     });
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.listen(choose);
     theme.onChange(() => this.recolour());
+  }
+
+  /** A constraint by its number where its name is long, as a hinge's with its points. */
+  static nameOf(curve) {
+    const longest = 20;
+    if (curve.number === undefined || curve.name.length <= longest) return curve.name;
+    return Numbers.lowered('λ' + curve.number);
+  }
+
+  /** A tic at the very end would be taken for one beyond it. */
+  withItsEnds([from, to]) {
+    const bit = 1e-6 * (to - from);
+    return [from - bit, to + bit];
   }
 
   /** Gaps where there is nothing to draw: errors of 0, which have no logarithm, and what is not finite. */
@@ -70,7 +88,7 @@ class Chart {
     button.innerHTML =
       '<svg viewBox="0 0 24 8" preserveAspectRatio="none"><line x1="1" x2="23" y1="4" y2="4" stroke-width="3"/></svg>' +
       '<span class="name"></span><span class="value"></span>';
-    button.querySelector('.name').textContent = curve.name;
+    button.querySelector('.name').textContent = this.names[i];
     button.addEventListener('click', () => {
       const shown = button.getAttribute('aria-pressed') !== 'true';
       button.setAttribute('aria-pressed', String(shown));
@@ -113,6 +131,7 @@ class Chart {
   show(index) {
     this.index = index;
     const row = this.motion.rows[index], area = this.graph.getArea();
+    this.graph.setSelection(this.backward ? this.motion.count - 1 - index : index, undefined, true);
     this.cursor.style.left = this.graph.toDomXCoord(row[0]) - 1 + 'px';
     this.cursor.style.top = area.y + 'px';
     this.cursor.style.height = area.h + 'px';

@@ -9,6 +9,14 @@ const Numbers = {
       text.replace(/\^\{([^}]*)\}/g, (_, power) => power.replace(/-/g, '⁻').replace(/\d/g, (d) => digits[d])));
   },
 
+  /** λ₁₂ */
+  lowered: (text) => text.replace(/\d/g, (d) => '₀₁₂₃₄₅₆₇₈₉'[d]),
+
+  /** 12 000 */
+  grouped(n) {
+    return n < 10000 ? String(n) : String(n).replace(/\B(?=(\d{3})+$)/g, '\u00A0');
+  },
+
   signed: (text) => text.replace(/-/g, '−'),
 
   scientific(mantissa, exponent) {
@@ -20,7 +28,10 @@ const Numbers = {
     if (!Number.isFinite(x)) return '–';
     if (x === 0) return '0';
     const rounded = Math.abs(Number(x.toPrecision(digits)));
-    if (rounded >= 1e-3 && rounded < 1e5) return Numbers.signed(x.toPrecision(digits));
+    if (rounded >= 1e-3 && rounded < 1e5) {
+      const text = x.toPrecision(digits);
+      return Numbers.signed(text.includes('e') ? String(Number(text)) : text);
+    }
     const [mantissa, exponent] = x.toExponential(digits - 1).split('e');
     return Numbers.scientific(mantissa, Number(exponent));
   },

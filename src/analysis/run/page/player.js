@@ -12,7 +12,7 @@ class Player {
     this.playing = false;
     this.fillSpeeds(find('speed'));
     this.fillCentres(find('centre'));
-    this.fillBodies(find('bodies'));
+    this.fillValues(find('values'), data.charts.flatMap((chart) => chart.curves));
     this.listen(find);
     this.theme.onChange(() => this.stage.draw());
     const opened = this.openAddress();
@@ -43,20 +43,35 @@ class Player {
     select.addEventListener('change', () => stage.centreOn(Number.isNaN(Number(select.value)) ? select.value : Number(select.value)));
   }
 
-  fillBodies(table) {
+  /** Tables of positions, and of multipliers by their whole names. */
+  fillValues(parent, curves) {
     const { motion } = this;
-    const names = ['x', 'y', 'z'].slice(0, motion.dimension);
-    const row = (tag, texts) => {
-      const line = table.insertRow();
-      return texts.map((text) => {
-        const cell = document.createElement(tag);
-        cell.textContent = text;
-        line.append(cell);
-        return cell;
-      });
+    this.cells = [];
+    const table = (heads, rows) => {
+      if (rows.length === 0) return;
+      const made = document.createElement('table');
+      const line = (tag, texts) => {
+        const row = made.insertRow();
+        return texts.map((text) => {
+          const cell = document.createElement(tag);
+          cell.textContent = text;
+          if (text) cell.className = 'name';
+          row.append(cell);
+          return cell;
+        });
+      };
+      line('th', heads);
+      for (const [texts, ...values] of rows) {
+        const cells = line('td', [...texts, ...values.map(() => '')]).slice(texts.length);
+        cells.forEach((cell, k) => this.cells.push({ cell, value: values[k] }));
+      }
+      parent.append(made);
     };
-    row('th', ['', ...names]);
-    this.cells = motion.masses.map((place) => row('td', [motion.places[place].name, ...names]).slice(1));
+    const axes = ['x', 'y', 'z'].slice(0, motion.dimension);
+    table(['', ...axes], motion.masses.map((place) =>
+      [[motion.places[place].name], ...axes.map((_, j) => (i) => motion.position(place, i)[j])]));
+    table(['', 'constraint', 'λ'], curves.filter(({ number }) => number !== undefined).map(({ number, name, column }) =>
+      [[Numbers.lowered('λ' + number), name], (i) => motion.rows[i][column]]));
   }
 
   listen(find) {
@@ -71,7 +86,7 @@ class Player {
     if (this.stage.planar) find('view-choice').hidden = true;
     find('view').addEventListener('change', (event) => this.stage.resetView(event.target.value));
     find('reset').addEventListener('click', () => this.stage.resetView(find('view').value));
-    find('table-of-bodies').addEventListener('toggle', () => this.showBodies());
+    find('all-values').addEventListener('toggle', () => this.showValues());
     window.addEventListener('hashchange', () => this.openAddress());
     document.addEventListener('keydown', (event) => this.press(event));
   }
@@ -137,17 +152,16 @@ class Player {
     this.index = Math.min(Math.max(index, 0), this.last);
     this.slider.value = this.index;
     const t = Numbers.value(this.motion.t(this.index), 6);
-    document.getElementById('time').textContent = `t = ${t}, step ${this.motion.step(this.index)} of ${this.motion.steps}`;
+    document.getElementById('time').textContent = `t = ${t}, step ${Numbers.grouped(this.motion.step(this.index))} of ${Numbers.grouped(this.motion.steps)}`;
     this.slider.setAttribute('aria-valuetext', 't = ' + t);
     this.stage.show(this.index);
     for (const chart of this.charts) chart.show(this.index);
-    this.showBodies();
+    this.showValues();
   }
 
-  showBodies() {
-    if (!document.getElementById('table-of-bodies').open) return;
-    this.motion.masses.forEach((place, k) =>
-      this.cells[k].forEach((cell, j) => (cell.textContent = Numbers.value(this.motion.position(place, this.index)[j], 7))));
+  showValues() {
+    if (!document.getElementById('all-values').open) return;
+    for (const { cell, value } of this.cells) cell.textContent = Numbers.value(value(this.index), 7);
   }
 }
 

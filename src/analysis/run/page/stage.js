@@ -89,13 +89,21 @@ class Stage {
   /** Where a place is drawn, in pixels of the page from the corner of the canvas. */
   drawnAt(place, i = this.index) { return this.project(this.relative(place, i)); }
 
+  /** Width and height of what is seen; of a motion in space for all azimuths, so that turning it does not change them. */
+  sizes() {
+    if (this.centre !== 'all') return [2 * this.radius, 2 * this.radius];
+    const [x, y, z] = this.high.map((high, j) => high - this.low[j]);
+    if (this.planar) return [x, y];
+    const flat = Math.hypot(x, y);
+    return [flat, Math.sin(Math.abs(this.elevation)) * flat + Math.cos(this.elevation) * z];
+  }
+
   turned() {
     if (!this.width) return;
     const room = 2.2 * this.letter;
     const free = [Math.max(this.width - 2 * room, 20), Math.max(this.height - 2 * room, 20)];
-    const flat = this.planar && this.centre === 'all';
-    const sizes = flat ? [this.high[0] - this.low[0], this.high[1] - this.low[1]] : [2 * this.radius, 2 * this.radius];
-    this.scale = this.zoom * Math.min(...free.map((x, j) => x / Math.max(sizes[j], 1e-12 * this.radius)));
+    const sizes = this.sizes();
+    this.scale = this.zoom * Math.min(...free.map((x, j) => x / Math.max(sizes[j], 0.05 * this.radius)));
     this.paths = this.motion.masses.map((place) => this.motion.rows.map((_, i) => this.drawnAt(place, i)));
     this.draw();
   }
@@ -202,19 +210,16 @@ class Stage {
     });
   }
 
-  /** Links and places, the farther ones first. */
+  /** Links, points before them, and bodies before these; of each kind the farther ones first. */
   drawScene() {
     const { motion, letter } = this;
     const at = motion.places.map((_, i) => this.drawnAt(i));
-    const parts = motion.links.map(([a, b, as]) => ({
-      near: (at[a][2] + at[b][2]) / 2,
-      draw: () => this.drawLink(at[a], at[b], as, a),
-    }));
-    motion.places.forEach((place, i) => {
-      if (at[i].every(Number.isFinite)) parts.push({ near: at[i][2] + 1e-9, draw: () => this.drawPlace(place, i, at[i], letter) });
-    });
-    parts.sort((a, b) => a.near - b.near);
-    for (const part of parts) part.draw();
+    const links = motion.links.map(([a, b, as]) => ({ near: at[a][2] + at[b][2], draw: () => this.drawLink(at[a], at[b], as, a) }));
+    const places = (kind) => motion.places.flatMap((place, i) =>
+      place.has_mass === kind && at[i].every(Number.isFinite)
+        ? [{ near: at[i][2], draw: () => this.drawPlace(place, i, at[i], letter) }] : []);
+    for (const parts of [links, places(false), places(true)])
+      parts.sort((a, b) => a.near - b.near).forEach((part) => part.draw());
   }
 
   drawLink(a, b, as, place) {
@@ -243,7 +248,7 @@ class Stage {
     const fixed = place.blocks.length === 0;
     const charge = Number(place.charge);
     if (place.has_mass) this.disc(at, (charge !== 0 ? 0.62 : 0.48) * letter, this.colour(i));
-    else if (fixed && place.labelled) this.pivot(at, letter);
+    else if (fixed) this.pivot(at, letter);
     else this.disc(at, 0.22 * letter, this.bodies.has(i) ? this.colour(i) : this.theme.get('rod'));
     if (charge !== 0) this.sign(at, charge, letter, place.has_mass);
   }
