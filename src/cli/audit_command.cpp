@@ -14,6 +14,7 @@
 #include "hbvm/analysis/audit/report.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/method/read_tableau.hpp"
+#include "hbvm/report/csvw.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/version.hpp"
 #include "hbvm/write_file.hpp"
@@ -71,7 +72,7 @@ std::vector<Claim> claims_of(const AuditArguments& o) {
 std::optional<fs::path> folder_of(const AuditArguments& o) {
   if (o.json && !o.work.out) return std::nullopt;
   const fs::path folder = make_out_folder(o.work.out.value_or("audit-results"));
-  write_file(folder / "audit.csv", "# this audit is not finished\n");
+  write_file(folder / "audit.csv", "this audit is not finished\n");
   return folder;
 }
 
@@ -110,7 +111,7 @@ void audit_command(const AuditArguments& o) {
   Table table = audit_table(findings);
   table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
   if (folder) {
-    write_file(*folder / "audit.csv", to_csv(table));
+    write_csv((*folder / "audit.csv").string(), table);
     write_file(*folder / "audit.md", to_markdown(table));
     write_file(*folder / "audit.tex", to_latex(table));
     // It explains the audit of the paper.

@@ -447,8 +447,9 @@ void add_run_command(CLI::App& app) {
   command->add_option("--until", o->until, "Final time, a multiple of the step")->required();
   command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
   command
-      ->add_option("--solver", o->solver,
-                   "auto, newton (mixed precision), fixed-point (newest values, warm start) or paper (iter)")
+      ->add_option(
+          "--solver", o->solver,
+          "auto, newton (mixed precision), fixed-point (newest values, warm start) or paper (its iteration, (55))")
       ->capture_default_str();
   command
       ->add_option("--on-failure", o->on_failure,

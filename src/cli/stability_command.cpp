@@ -11,6 +11,7 @@
 #include "hbvm/analysis/stability/report.hpp"
 #include "hbvm/analysis/stability/stability.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/report/csvw.hpp"
 #include "hbvm/version.hpp"
 #include "hbvm/write_file.hpp"
 #include "long_work.hpp"
@@ -61,7 +62,7 @@ void stability_command(const StabilityArguments& o) {
   Table table = stability_table(findings);
   table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
   if (folder) {
-    write_file(*folder / "stability.csv", to_csv(table));
+    write_csv((*folder / "stability.csv").string(), table);
     write_file(*folder / "stability.md", to_markdown(table));
     write_file(*folder / "stability.json", to_json(findings, command) + "\n");
     if (o.figures)

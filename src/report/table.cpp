@@ -23,13 +23,6 @@ std::vector<std::string> both(std::vector<std::string> cells, const std::vector<
   return cells;
 }
 
-std::string csv_rows(const Table& table) {
-  std::string text;
-  for (const auto& group : table.groups)
-    for (const auto& row : group.rows) text += csv_line(both(group.keys, row)) + "\n";
-  return text;
-}
-
 /// A bar would end the cell.
 std::string markdown_cell(const std::string& cell) {
   std::string text;
@@ -95,12 +88,11 @@ std::string to_text(const Table& table) {
 std::vector<std::string> csv_columns(const Table& table) { return both(table.key_columns, table.columns); }
 
 std::string to_csv(const Table& table) {
-  std::string text = "# " + csv_line(csv_columns(table)) + "\n# " + table.caption + "\n";
-  for (const std::string& note : table.provenance) text += "# " + note + "\n";
-  return text + csv_rows(table);
+  std::string text = csv_line(csv_columns(table)) + "\n";
+  for (const auto& group : table.groups)
+    for (const auto& row : group.rows) text += csv_line(both(group.keys, row)) + "\n";
+  return text;
 }
-
-std::string to_plain_csv(const Table& table) { return csv_line(csv_columns(table)) + "\n" + csv_rows(table); }
 
 std::string to_markdown(const Table& table) {
   std::string text = "**" + table.caption + "**\n";

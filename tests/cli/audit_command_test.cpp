@@ -52,8 +52,9 @@ TEST(AuditCommand, WritesTables) {
   for (const char* const file : {"audit.csv", "audit.md", "audit.tex"})
     EXPECT_FALSE(text_of(folder / ("out/" + std::string(file))).empty()) << file;
   const auto lines = lines_of(text_of(folder / "out/audit.csv"));
-  EXPECT_EQ(lines.at(0), "# problem,claim,quantity,over,k,s,predicted,measured,+-,precision,coefficients to,verdict");
-  EXPECT_NE(text_of(folder / "out/audit.csv").find("command hbvm audit --claims 'simple_pendulum'"), std::string::npos);
+  EXPECT_EQ(lines.at(0), "problem,claim,quantity,over,k,s,predicted,measured,+-,precision,coefficients to,verdict");
+  EXPECT_NE(text_of(folder / "out/audit.csv-metadata.json").find("command hbvm audit --claims 'simple_pendulum'"),
+            std::string::npos);
 }
 
 TEST(AuditCommand, AuditsATableau) {

@@ -51,7 +51,7 @@ class StudyCommand : public ::testing::Test {
   }
   /// The second row's expected figure.
   void expect(const std::string& e_y) const {
-    write("expected.csv", "# k,s,i,e_y\n1,1,1," + figure(1) + "\n1,1,2," + e_y + "\n");
+    write("expected.csv", "k,s,i,e_y\n1,1,1," + figure(1) + "\n1,1,2," + e_y + "\n");
   }
   void replace(const std::string& from, const std::string& to) const {
     std::string study = text("study.toml");
@@ -275,7 +275,7 @@ TEST_F(StudyCommand, RefusesBadInput) {
   expect_refused({"study", path, folder / "elsewhere/small", "--out", folder / "out"}, {"the same name"});
   fs::remove(path + "/expected.csv");
   expect_refused({"study", path, "--check"}, {"expected.csv"});
-  write("expected.csv", "# k,s,i,e_y\n1,1,1\n");
+  write("expected.csv", "k,s,i,e_y\n1,1,1\n");
   expect_refused({"study", path, "--check"}, {"expected.csv", "3 cells"});
 }
 

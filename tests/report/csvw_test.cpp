@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "hbvm/error.hpp"
+#include "hbvm/read_file.hpp"
+
 namespace hbvm {
 namespace {
 
@@ -49,6 +54,21 @@ TEST(Csvw, KeepsManyDigits) {
   EXPECT_NE(text.find("\"base\": \"string\""), std::string::npos) << text;
   EXPECT_NE(text.find(R"("format": "-?[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?")"), std::string::npos) << text;
   EXPECT_EQ(text.find("dc:"), std::string::npos) << text;
+}
+
+TEST(Csvw, StandsBesideATable) {
+  const std::string file = (std::filesystem::temp_directory_path() / "hbvm_csvw_test.csv").string();
+  write_csv(file,
+            {"A caption", {"hbvm 1.2.3", "command hbvm audit"}, {"k"}, {"i", "e_y"}, {{"", {"3"}, {{"0", "1e-1"}}}}});
+  EXPECT_EQ(read_file(file), "k,i,e_y\n3,0,1e-1\n");
+  const std::string metadata = read_file(csvw_file(file));
+  for (const char* const text :
+       {"\"url\": \"hbvm_csvw_test.csv\"", "\"dc:title\": \"A caption\"", "\"hbvm:provenance1\": \"hbvm 1.2.3\"",
+        "\"hbvm:provenance2\": \"command hbvm audit\"", "\"titles\": \"e_y\""})
+    EXPECT_NE(metadata.find(text), std::string::npos) << text << " is not in " << metadata;
+  std::filesystem::remove(file);
+  std::filesystem::remove(csvw_file(file));
+  EXPECT_THROW(write_csv("/nonexistent/a.csv", {}), InputError);
 }
 
 /// A name is a variable of URI templates; the titles are what the file has.

@@ -16,16 +16,9 @@ const Table table{"A caption",
 
 TEST(Table, CsvNamesItsColumnsFirstAndRepeatsTheKeys) {
   EXPECT_EQ(to_csv(table),
-            "# k,s,i,e_y,rate_y,e_lambda\n# A caption\n# hbvm 1.2.3\n3,1,0,1.00e-01,---,2.0e-1\n"
-            "3,1,1,2.50e-02,2.0,1.0e-1\n4,2,0,1.00e-03,***,7.0e-9\n");
-}
-
-/// Nothing but names and cells.
-TEST(Table, PlainCsvHasNoComments) {
-  EXPECT_EQ(csv_columns(table), (std::vector<std::string>{"k", "s", "i", "e_y", "rate_y", "e_lambda"}));
-  EXPECT_EQ(to_plain_csv(table),
             "k,s,i,e_y,rate_y,e_lambda\n3,1,0,1.00e-01,---,2.0e-1\n3,1,1,2.50e-02,2.0,1.0e-1\n"
             "4,2,0,1.00e-03,***,7.0e-9\n");
+  EXPECT_EQ(csv_columns(table), (std::vector<std::string>{"k", "s", "i", "e_y", "rate_y", "e_lambda"}));
 }
 
 TEST(Table, MarkdownHasATableForEachGroup) {

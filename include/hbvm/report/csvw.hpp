@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "hbvm/report/table.hpp"
+
 namespace hbvm {
 
 /// What is in a column of a CSV file, as CSV on the Web names it.
@@ -33,5 +35,9 @@ std::string csvw_file(const std::string& csv);
 
 /// As JSON of W3C's "Metadata Vocabulary for Tabular Data", CSVW. \param csv the file, named from beside it
 std::string to_csvw(const CsvMetadata& metadata, const std::string& csv);
+
+/// Writes a table as CSV, and beside it what describes it: its caption, and its provenance line by line.
+/// \throws InputError if a file cannot be written
+void write_csv(const std::string& file, const Table& table);
 
 }  // namespace hbvm

@@ -22,12 +22,10 @@ struct Table {
 
 /// Columns aligned, for a terminal.
 std::string to_text(const Table& table);
-/// Comma-separated values below # lines, the column names first, then the provenance. A cell that holds no number
-/// but a mark is left as it is.
+/// Comma-separated values below a line of the column names. A cell that holds no number but a mark is left as it is.
+/// Caption and provenance are for what describes the file, see write_csv().
 std::string to_csv(const Table& table);
-/// The same without # lines: the column names are the first line.
-std::string to_plain_csv(const Table& table);
-/// The column names of both.
+/// Its column names.
 std::vector<std::string> csv_columns(const Table& table);
 /// Markdown, a table for each group.
 std::string to_markdown(const Table& table);

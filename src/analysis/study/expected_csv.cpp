@@ -21,8 +21,8 @@ double value_of(const std::string& cell) { return literal<double>(cell); }
 ExpectedCsv::ExpectedCsv(const std::filesystem::path& path) {
   std::istringstream text(read_file(path));
   for (std::string line; std::getline(text, line);) {
-    if (line.starts_with("# ") && columns.empty())
-      columns = split(line.substr(2));
+    if (columns.empty() && !line.empty())
+      columns = split(line.starts_with("# ") ? line.substr(2) : line);
     else if (!line.empty() && !line.starts_with('#'))
       rows.push_back(split(line));
     if (!rows.empty() && rows.back().size() != columns.size())
