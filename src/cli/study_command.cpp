@@ -69,18 +69,17 @@ void study_command(const StudyArguments& o) {
     }
     all_met = all_met && outcome.complaints.empty();
   }
+  for (const std::optional<StudyOutcome>& outcome : outcomes)
+    if (outcome) {
+      say_written_together(outcome->files);
+      for (const std::string& warning : outcome->warnings) fmt::print(stderr, "warning: {}\n", warning);
+    }
   // Printed last of all, so that standard output stays empty if a study cannot be run.
   fmt::print("{}{}{}", tables, tables.empty() ? "" : "\n", summaries);
   if (!all_there)
     fmt::print("the runs of shard {} are in {}; tables come from all shards, by --merge\n", *o.work.shard,
                (*options.out / o.work.store).string());
   if (stated > 0) fmt::print("{} of {} printed figures agree\n", agreed, stated);
-  std::fflush(stdout);
-  for (const std::optional<StudyOutcome>& outcome : outcomes)
-    if (outcome) {
-      std::for_each(outcome->files.begin(), outcome->files.end(), say_written);
-      for (const std::string& warning : outcome->warnings) fmt::print(stderr, "warning: {}\n", warning);
-    }
   if (!all_met) throw CLI::RuntimeError(1);
 }
 

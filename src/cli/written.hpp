@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hbvm {
 
 /// A line "written to FILE" on standard error.
 void say_written(const std::string& file);
+/// Of many files, a line a folder: "written to FOLDER: table.csv, table.md".
+void say_written_together(const std::vector<std::string>& files);
 
 /// Makes or replaces a file and says so. \throws InputError if it cannot be written
 void write_and_say(const std::filesystem::path& file, const std::string& text);

@@ -23,6 +23,16 @@ std::string figure(int i) {
   return text;
 }
 
+/// The line that names files of one folder.
+std::string written_together(const Arguments& files) {
+  std::string line;
+  for (const std::string& file : files) {
+    const std::filesystem::path path(file);
+    line += (line.empty() ? "written to " + path.parent_path().string() + ": " : ", ") + path.filename().string();
+  }
+  return line + "\n";
+}
+
 /// Two halvings for a body on a spring that turns about its end.
 class StudyCommand : public ::testing::Test {
  protected:
@@ -67,7 +77,7 @@ TEST_F(StudyCommand, ChecksTheExpectedFigures) {
   for (const char* precision : {"double", "quad", "mpfr:40"}) {
     const Outcome outcome = hbvm({"study", path, "--check", "--precision", precision});
     EXPECT_EQ(outcome.code, 0) << outcome.out;
-    EXPECT_EQ(outcome.err, written(tables(precision)));
+    EXPECT_EQ(outcome.err, written_together(tables(precision)));
     EXPECT_NE(outcome.out.find("Small, " + std::string(precision) + ": 2 of 2 printed figures agree"),
               std::string::npos)
         << outcome.out;
@@ -80,7 +90,7 @@ TEST_F(StudyCommand, ExitsWithOneIfAFigureDoesNotAgree) {
   expect("1.00e-01");
   const Outcome outcome = hbvm({"study", path, "--check"});
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_EQ(outcome.err, written(tables("double")));
+  EXPECT_EQ(outcome.err, written_together(tables("double")));
   EXPECT_NE(outcome.out.find("not met: k = 1, s = 1, i = 2: e_y is " + figure(2) + ", printed 1.00e-01"),
             std::string::npos)
       << outcome.out;
@@ -171,8 +181,8 @@ class DividedStudy : public StudyCommand {
 /// Tables are printed and written, the exit code says whether figures agree, and the picture is a warning.
 TEST_F(DividedStudy, WithoutGnuplotHasItsTables) {
   const Outcome drawn = hbvm({"study", path, "--check"});
-  EXPECT_EQ(drawn.err, written(tables("double") + with_metadata(path + "/results/double/path_1.csv") +
-                               Arguments{path + "/results/double/path.svg"}));
+  EXPECT_EQ(drawn.err, written_together(tables("double") + with_metadata(path + "/results/double/path_1.csv") +
+                                        Arguments{path + "/results/double/path.svg"}));
   const std::string before = std::getenv("PATH") ? std::getenv("PATH") : "";
   setenv("PATH", folder.write("no_programs", "").c_str(), 1);
   const Outcome outcome = hbvm({"study", path, "--check"});
@@ -180,8 +190,8 @@ TEST_F(DividedStudy, WithoutGnuplotHasItsTables) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(outcome.out.ends_with("pictures: none\n2 of 2 printed figures agree\n")) << outcome.out;
   EXPECT_NE(outcome.out.find(figure(1)), std::string::npos) << outcome.out;
-  EXPECT_TRUE(outcome.err.starts_with(written(tables("double") + with_metadata(path + "/results/double/path_1.csv")) +
-                                      "warning: "))
+  EXPECT_TRUE(outcome.err.starts_with(
+      written_together(tables("double") + with_metadata(path + "/results/double/path_1.csv")) + "warning: "))
       << outcome.err;
   EXPECT_NE(outcome.err.find("path.svg' is not drawn: pictures need gnuplot, which is not installed: apt install "
                              "gnuplot-nox\n"),
