@@ -21,9 +21,11 @@ double value_of(const std::string& cell) { return literal<double>(cell); }
 ExpectedCsv::ExpectedCsv(const std::filesystem::path& path) {
   std::istringstream text(read_file(path));
   for (std::string line; std::getline(text, line);) {
-    if (columns.empty() && !line.empty())
+    if (columns.empty() && !line.empty()) {
       columns = split(line.starts_with("# ") ? line.substr(2) : line);
-    else if (!line.empty() && !line.starts_with('#'))
+      if (line[0] >= '0' && line[0] <= '9')
+        throw InputError(path.string() + ": the first line must have the names of the columns, not '" + line + "'");
+    } else if (!line.empty() && !line.starts_with('#'))
       rows.push_back(split(line));
     if (!rows.empty() && rows.back().size() != columns.size())
       throw InputError(path.string() + ": '" + line + "' has " + std::to_string(rows.back().size()) +

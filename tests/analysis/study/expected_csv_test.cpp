@@ -47,6 +47,7 @@ TEST(ExpectedCsvs, RefuseRowsOfAnotherLength) {
     }
   }
   EXPECT_THROW(expected_of("1,2\n"), InputError) << "no columns";
+  EXPECT_EQ(expected_of("a,b\n1,2\n").columns, (Cells{"a", "b"})) << "with a # before them or without";
 }
 
 TEST(ExpectedCsvs, CellsStandBetweenCommas) {
