@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -80,6 +79,7 @@ void study_command(const StudyArguments& o) {
     fmt::print("the runs of shard {} are in {}; tables come from all shards, by --merge\n", *o.work.shard,
                (*options.out / o.work.store).string());
   if (stated > 0) fmt::print("{} of {} printed figures agree\n", agreed, stated);
+  std::fflush(stdout);
   if (!all_met) throw CLI::RuntimeError(1);
 }
 

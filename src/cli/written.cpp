@@ -11,22 +11,10 @@ namespace hbvm {
 void say_written(const std::string& file) { fmt::print(stderr, "written to {}\n", file); }
 
 void say_written_together(const std::vector<std::string>& files) {
-  std::string line, folder;
-  const auto say = [&] {
-    if (!line.empty()) fmt::print(stderr, "written to {}\n", line);
-  };
-  for (const std::string& file : files) {
-    const std::filesystem::path path(file);
-    const std::string name = path.filename().string(), parent = path.parent_path().string();
-    if (line.empty() || parent != folder) {
-      say();
-      line = parent + ": " + name;
-      folder = parent;
-    } else {
-      line += ", " + name;
-    }
-  }
-  say();
+  std::string names;
+  for (const std::string& file : files)
+    names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
+  if (!files.empty()) say_written(std::filesystem::path(files.front()).parent_path().string() + ": " + names);
 }
 
 void write_and_say(const std::filesystem::path& file, const std::string& text) {

@@ -8,7 +8,7 @@ namespace hbvm {
 
 /// A line "written to FILE" on standard error.
 void say_written(const std::string& file);
-/// Of many files, a line a folder: "written to FOLDER: table.csv, table.md".
+/// One line for the files of a folder: "written to FOLDER: table.csv, table.md".
 void say_written_together(const std::vector<std::string>& files);
 
 /// Makes or replaces a file and says so. \throws InputError if it cannot be written

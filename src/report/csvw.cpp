@@ -71,13 +71,17 @@ std::string to_csvw(const CsvMetadata& metadata, const std::string& csv) {
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+void write_csv(const std::string& file, const Table& table, const CsvMetadata& metadata) {
+  write_file(file, to_csv(table));
+  write_file(csvw_file(file), to_csvw(metadata, file));
+}
+
 void write_csv(const std::string& file, const Table& table) {
   CsvMetadata metadata{table.caption, {}, {}, {}};
   for (const std::string& line : table.provenance)
     metadata.properties.emplace_back("provenance" + std::to_string(metadata.properties.size() + 1), line);
   for (const std::string& column : csv_columns(table)) metadata.columns.push_back({column, CsvType::text, ""});
-  write_file(file, to_csv(table));
-  write_file(csvw_file(file), to_csvw(metadata, file));
+  write_csv(file, table, metadata);
 }
 
 }  // namespace hbvm

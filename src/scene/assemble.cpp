@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -180,15 +181,9 @@ class Assembler {
 
   /// omega x v; in the plane omega is one number.
   static Vector<S> turned(const Vector<S>& omega, const Vector<S>& v) {
-    Vector<S> result(v.size());
-    if (v.size() == 2) {
-      result << -omega[0] * v[1], omega[0] * v[0];
-      return result;
-    }
-    for (Index j = 0; j < 3; ++j) {
-      const Index k = (j + 1) % 3, l = (j + 2) % 3;
-      result[j] = omega[k] * v[l] - omega[l] * v[k];
-    }
+    if (v.size() == 3) return omega.template head<3>().cross(v.template head<3>());
+    Vector<S> result(2);
+    result << -omega[0] * v[1], omega[0] * v[0];
     return result;
   }
 

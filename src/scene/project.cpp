@@ -1,5 +1,7 @@
 #include "hbvm/scene/project.hpp"
 
+#include <Eigen/Geometry>
+
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/problem/regularity.hpp"
@@ -106,10 +108,10 @@ Scene project(const Scene& scene) {
     Vector<S> omega = Vector<S>::Zero(d == 2 ? 1 : 3);
     for (std::size_t a = 0; a < d; ++a) {
       take(q, body.directors[a]);
-      for (Index j = 0; j < omega.size(); ++j) {
-        const Index k = d == 2 ? 0 : (j + 1) % 3, l = d == 2 ? 1 : (j + 2) % 3;
-        omega[j] += (q[offset + k] * v[offset + l] - q[offset + l] * v[offset + k]) / 2;
-      }
+      if (d == 2)
+        omega[0] += (q[offset] * v[offset + 1] - q[offset + 1] * v[offset]) / 2;
+      else
+        omega += q.template segment<3>(offset).cross(v.template segment<3>(offset)) / S(2);
       offset += scene.dimension;
     }
     body.angular_velocity = as_expressions(omega, 0, body.angular_velocity, scene.constants);

@@ -19,6 +19,9 @@ TEST(CsvLine, IsSplitIntoTheSameCells) {
        {Cells{"t", "a.x", "-1.5e-500"}, {"a,b", "\"", "\"\"", ",", "x\"y"}, {"1", "", "2", ""}, {"a", "b\"c\",d"}, {}})
     EXPECT_EQ(split_csv_line(csv_line(cells)), cells);
   EXPECT_EQ(split_csv_line("1,\"\",2"), (Cells{"1", "", "2"}));
+  EXPECT_EQ(split_csv_line("a,,b,"), (Cells{"a", "", "b", ""}));
+  EXPECT_EQ(split_csv_line(""), Cells{});
+  EXPECT_EQ(split_csv_line(","), (Cells{"", ""}));
 }
 
 }  // namespace

@@ -234,7 +234,7 @@ std::string negative(const std::string& text) {
 }
 
 /// A scene that would fill the page is cut.
-std::string scene_text(const Scene& scene) {
+std::string scene_on_page(const Scene& scene) {
   constexpr std::size_t most = run_page_bytes / 10;
   std::string text = write_scene(scene);
   if (text.size() <= most) return text;
@@ -261,7 +261,7 @@ std::string run_page(const RunRequest& request, const Recording& recording, cons
       {"until", html(backward ? negative(request.until.text()) : request.until.text())},
       {"program", html(std::string("hbvm ") + version())},
       {"command", html(command)},
-      {"scene", html(scene_text(request.scene))},
+      {"scene", html(scene_on_page(request.scene))},
       {"style", parts.dygraphs_style + parts.style},
       {"dygraphs", parts.dygraphs},
       {"script", parts.script}};

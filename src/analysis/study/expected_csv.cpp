@@ -2,19 +2,12 @@
 
 #include <sstream>
 
+#include "hbvm/csv_line.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/scalar/literal.hpp"
 
 namespace hbvm {
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  if (!line.empty() && line.back() == ',') cells.emplace_back();
-  return cells;
-}
 
 double value_of(const std::string& cell) { return literal<double>(cell); }
 
@@ -22,11 +15,12 @@ ExpectedCsv::ExpectedCsv(const std::filesystem::path& path) {
   std::istringstream text(read_file(path));
   for (std::string line; std::getline(text, line);) {
     if (columns.empty() && !line.empty()) {
-      columns = split(line.starts_with("# ") ? line.substr(2) : line);
+      columns = split_csv_line(line.starts_with("# ") ? line.substr(2) : line);
       if (line[0] >= '0' && line[0] <= '9')
         throw InputError(path.string() + ": the first line must have the names of the columns, not '" + line + "'");
-    } else if (!line.empty() && !line.starts_with('#'))
-      rows.push_back(split(line));
+    } else if (!line.empty() && !line.starts_with('#')) {
+      rows.push_back(split_csv_line(line));
+    }
     if (!rows.empty() && rows.back().size() != columns.size())
       throw InputError(path.string() + ": '" + line + "' has " + std::to_string(rows.back().size()) +
                        " cells instead of " + std::to_string(columns.size()));

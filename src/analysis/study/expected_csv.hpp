@@ -6,14 +6,11 @@
 
 namespace hbvm {
 
-/// The cells of a line of comma-separated values.
-std::vector<std::string> split(const std::string& line);
-
 /// The number in a cell.
 /// \throws InputError
 double value_of(const std::string& cell);
 
-/// A study's expected.csv: column names in the first line, after "# ".
+/// A study's expected.csv: column names in the first line, after "# " or not, and remarks in lines that begin with #.
 struct ExpectedCsv {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;

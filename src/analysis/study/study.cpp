@@ -132,8 +132,7 @@ class Study {
     metadata.properties = {
         {"version", version()}, {"command", experiment_.command}, {"precision", experiment_.precision.name()}};
     for (const std::string& column : csv_columns(table)) metadata.columns.push_back({column, type_of(column), ""});
-    write_file(file, to_csv(table));
-    write_file(csvw_file(file), to_csvw(metadata, file));
+    write_csv(file, table, metadata);
     outcome.files.push_back(file);
     outcome.files.push_back(csvw_file(file));
   }

@@ -9,7 +9,7 @@
 namespace hbvm {
 
 enum class Extent {
-  quick,  ///< s = 1, 2, 3 and the smaller problems: under two minutes
+  quick,  ///< s = 1, 2, 3 and the smaller problems: about a minute
   full    ///< s = 1 .. 8, all problems, and s = 12 and 20 with 200 digits
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 
@@ -56,12 +57,7 @@ struct Hinge {
     for (Index i = 1; i < 3; ++i)
       if (magnitude(n[i]) < magnitude(n[k])) k = i;
     const Vector<S> e = unit(Vector<S>(Vector<S>::Unit(3, k) - n[k] * n), "axis");
-    Vector<S> f(3);
-    for (Index i = 0; i < 3; ++i) {
-      const Index j = (i + 1) % 3, l = (i + 2) % 3;
-      f[i] = n[j] * e[l] - n[l] * e[j];
-    }
-    return {e, f};
+    return {e, n.template head<3>().cross(e.template head<3>())};
   }
 };
 
