@@ -7,28 +7,31 @@
 namespace hbvm {
 
 template <Scalar S>
+void set_times(S* r, const Matrix<S>& a, const S* x, Index x_stride) {
+  const Index rows = a.rows(), inner = a.cols();
+  if (inner == 0) {
+    for (Index i = 0; i < rows; ++i) set_zero(r[i]);
+    return;
+  }
+  if constexpr (std::same_as<S, Mpfr>) {
+    Index i = 0;
+    while (i < rows && dot(raw(r[i]), a.data() + i, rows, x, x_stride, inner)) ++i;
+    if (i == rows) return;
+  }
+  S& t = scratch<S>();
+  for (Index i = 0; i < rows; ++i) set_product(r[i], a.data()[i], x[0]);
+  for (Index l = 1; l < inner; ++l) {
+    const S* const column = a.data() + l * rows;
+    const S& factor = x[l * x_stride];
+    for (Index i = 0; i < rows; ++i) add_product(r[i], column[i], factor, t);
+  }
+}
+
+template <Scalar S>
 void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
   const Index rows = a.rows(), inner = a.cols(), columns = b.cols();
   if (c.rows() != rows || c.cols() != columns) c.resize(rows, columns);
-  if (inner == 0) {
-    set_zero(c);
-    return;
-  }
-  S& t = scratch<S>();
-  for (Index j = 0; j < columns; ++j) {
-    S* const out = c.data() + j * rows;
-    const S* const x = b.data() + j * inner;
-    if constexpr (std::same_as<S, Mpfr>) {
-      Index i = 0;
-      while (i < rows && dot(raw(out[i]), a.data() + i, rows, x, 1, inner)) ++i;
-      if (i == rows) continue;
-    }
-    for (Index i = 0; i < rows; ++i) set_product(out[i], a.data()[i], x[0]);
-    for (Index l = 1; l < inner; ++l) {
-      const S* const column = a.data() + l * rows;
-      for (Index i = 0; i < rows; ++i) add_product(out[i], column[i], x[l], t);
-    }
-  }
+  for (Index j = 0; j < columns; ++j) set_times(c.data() + j * rows, a, b.data() + j * inner, 1);
 }
 
 template <Scalar S>
@@ -62,6 +65,7 @@ void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index
 
 #define HBVM_DEFINE(S)                                                      \
   template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
+  template void set_times<S>(S*, const Matrix<S>&, const S*, Index);        \
   template S dot<S>(const Vector<S>&, const Vector<S>&);                    \
   template void set_dot<S>(S&, const S*, Index, const S*, Index, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)

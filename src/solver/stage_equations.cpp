@@ -1,7 +1,6 @@
 #include "hbvm/solver/stage_equations.hpp"
 
 #include "hbvm/linear/arrays.hpp"
-#include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -31,8 +30,11 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
       potential_(problem.potential, method.k),
       gradient_(problem, method.s),
       no_carry_(Vector<S>::Zero(problem.m())),
-      I_centred_(centred(method.I_s)),
-      I_hat_centred_(centred(method.I_hat)),
+      I_centred_(centred(method.I_s), Parity::Nodes::rows, Parity::First::odd),
+      I_hat_centred_(centred(method.I_hat), Parity::Nodes::rows, Parity::First::odd),
+      P_(method.P_s, Parity::Nodes::rows, Parity::First::even),
+      projection_(method.projection, Parity::Nodes::columns, Parity::First::even),
+      projection_hat_(method.projection_hat, Parity::Nodes::columns, Parity::First::even),
       middle_(problem.m()),
       psi_rest_(Vector<S>::Zero(problem.m())),
       half_(S(1) / 2) {
@@ -78,11 +80,11 @@ void StageEquations<S>::describe_parts() {
   parts_[velocities].per_call = stages * problem_.mass.operations();
   parts_[velocities].per_call.add(Op::multiply, s * m + m);
   parts_[velocities].per_call.add(Op::add, 2 * m);
-  for (const auto& [part, rows] : {std::pair(constraint_nodes, s), std::pair(quadrature_nodes, k)}) {
-    parts_[part].per_call.add_dots(rows * m, s);
-    parts_[part].per_call.add(Op::add, rows * m);
-  }
-  if (potential_.has_varying_force()) parts_[projection].per_call.add_dots(s * m, k);
+  parts_[constraint_nodes].per_call = I_centred_.operations(m);
+  parts_[constraint_nodes].per_call.add(Op::add, s * m);
+  parts_[quadrature_nodes].per_call = I_hat_centred_.operations(m);
+  parts_[quadrature_nodes].per_call.add(Op::add, k * m);
+  if (potential_.has_varying_force()) parts_[projection].per_call = projection_hat_.operations(m);
   const auto pulled = static_cast<Index>(pulled_.size());
   OperationCounts exact_sum;
   exact_sum.add(Op::add, 2 * pulled);
@@ -97,7 +99,7 @@ void StageEquations<S>::describe_parts() {
   parts_[solution].per_call = system_.solve_operations();
   parts_[solution].per_call.add(Op::add, s * problem_.nu());
   parts_[zetas].per_call.add_products(s * gradient_.stored());
-  parts_[zetas].per_call.add_dots(s * m, s);
+  parts_[zetas].per_call += projection_.operations(m);
   OperationCounts& gamma = parts_[gammas].per_call;
   gamma.add(Op::subtract, s * m);
   gamma.add(Op::multiply, 2 * s * m);
@@ -107,8 +109,7 @@ void StageEquations<S>::describe_parts() {
   gamma.add(Op::negate, pulled);
   gamma.add(Op::multiply, pulled);
   gamma.add(Op::add, 4 * pulled);
-  OperationCounts hidden;
-  hidden.add_dots(s * m, s);
+  OperationCounts hidden = P_.operations(m);
   for (Index a = 0; a < problem_.nu(); ++a)
     hidden.add_dots(s, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
   parts_[constraint_residual].per_call = hidden;
@@ -147,8 +148,8 @@ void StageEquations<S>::move(const Matrix<S>& gamma) {
 }
 
 template <Scalar S>
-void StageEquations<S>::positions(const Matrix<S>& integrals, Matrix<S>& u) {
-  product(u, integrals, h_velocity_);
+void StageEquations<S>::positions(Parity& integrals, Matrix<S>& u) {
+  integrals.times(u, h_velocity_);
   for (Index j = 0; j < u.cols(); ++j)
     for (Index i = 0; i < u.rows(); ++i) set_sum(u(i, j), u(i, j), middle_[j]);
 }
@@ -165,7 +166,7 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
   }
   const PartCall counted = call(projection);
   if (potential_.has_varying_force())
-    product(psi, method_.projection_hat, force_);
+    projection_hat_.times(psi, force_);
   else
     set_zero(psi);
   // A constant force has the one coefficient psi_0 = force.
@@ -217,7 +218,7 @@ void StageEquations<S>::project_multipliers(const Matrix<S>& lambda, Matrix<S>& 
   const PartCall counted = call(zetas);
   set_zero(w_);
   gradient_.add_times(lambda, lanes(w_));
-  product(zeta, method_.projection, w_);
+  projection_.times(zeta, w_);
 }
 
 template <Scalar S>
@@ -242,7 +243,7 @@ bool StageEquations<S>::factor_matrix() {
 template <Scalar S>
 template <class Out>
 void StageEquations<S>::hidden_constraints(const Matrix<S>& velocity, Out out) {
-  product(w_, method_.P_s, velocity);
+  P_.times(w_, velocity);
   for (Index b = 0; b < problem_.nu(); ++b) gradient_.transposed_times(b, lanes(std::as_const(w_)), out(b));
 }
 

@@ -9,6 +9,10 @@ namespace hbvm {
 template <Scalar S>
 void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
 
+/// r = a x, for an x whose entries stand at x[l * x_stride]. r is neither a nor x.
+template <Scalar S>
+void set_times(S* r, const Matrix<S>& a, const S* x, Index x_stride);
+
 /// sum_i a_i b_i.
 template <Scalar S>
 S dot(const Vector<S>& a, const Vector<S>& b);
@@ -21,6 +25,7 @@ void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index
 
 #define HBVM_DECLARE(S)                                                            \
   extern template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
+  extern template void set_times<S>(S*, const Matrix<S>&, const S*, Index);        \
   extern template S dot<S>(const Vector<S>&, const Vector<S>&);                    \
   extern template void set_dot<S>(S&, const S*, Index, const S*, Index, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)

@@ -4,6 +4,7 @@
 
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/linear/ordering.hpp"
+#include "hbvm/linear/parity_matrix.hpp"
 #include "hbvm/method/hbvm.hpp"
 #include "hbvm/problem/constraint_gradient.hpp"
 #include "hbvm/solver/part_count.hpp"
@@ -101,6 +102,7 @@ class StageEquations {
   void measure_time();
 
  private:
+  using Parity = ParityMatrix<S>;
   enum Part {
     velocities,
     constraint_nodes,
@@ -118,7 +120,7 @@ class StageEquations {
   PartCall call(Part part) { return {parts_[part], timed_}; }
   void describe_parts();
 
-  void positions(const Matrix<S>& integrals, Matrix<S>& u);
+  void positions(Parity& integrals, Matrix<S>& u);
   /// Positions at c (unless they are those at c_hat) and the constraints' gradients there.
   void move_constraints();
   void set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
@@ -142,8 +144,9 @@ class StageEquations {
   const Vector<S>* p0_ = nullptr;
   const Vector<S>* q_carry_ = nullptr;
   const Vector<S>* p_carry_ = nullptr;
-  Vector<S> no_carry_;                      // m
-  Matrix<S> I_centred_, I_hat_centred_;     ///< I_s and I_hat with c - 1/2 for c in column 0
+  Vector<S> no_carry_;                // m
+  Parity I_centred_, I_hat_centred_;  ///< I_s and I_hat with c - 1/2 for c in column 0
+  Parity P_, projection_, projection_hat_;
   Vector<S> middle_;                        // m: q0 + h/2 M^-1 gamma_0
   std::vector<Index> pulled_;               // the coordinates on which a constant force acts
   Vector<S> psi_rest_;                      // m: what rounding took from their psi_0 in the last forces()

@@ -1,0 +1,124 @@
+#include "hbvm/linear/parity_matrix.hpp"
+
+#include <algorithm>
+
+#include "hbvm/scalar/in_place.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+ParityMatrix<S>::ParityMatrix(const Matrix<S>& a, Nodes nodes, First first)
+    : nodes_(nodes),
+      n_(nodes == Nodes::rows ? a.rows() : a.cols()),
+      functions_(nodes == Nodes::rows ? a.cols() : a.rows()),
+      first_even_(first == First::even ? 0 : 1),
+      first_odd_(1 - first_even_),
+      mirrored_(find_mirrored(a)) {
+  if (!mirrored_) {
+    whole_ = a;
+    return;
+  }
+  const Index half = n_ / 2, with_middle = n_ - half;
+  const Index evens = (functions_ + first_odd_) / 2, odds = functions_ - evens;
+  const auto part = [&](Index first_function, Index count, Index length) {
+    Matrix<S> result(nodes_ == Nodes::rows ? length : count, nodes_ == Nodes::rows ? count : length);
+    for (Index j = 0; j < count; ++j)
+      for (Index i = 0; i < length; ++i) {
+        const Index function = first_function + 2 * j;
+        if (nodes_ == Nodes::rows)
+          result(i, j) = a(i, function);
+        else
+          result(j, i) = a(function, i);
+      }
+    return result;
+  };
+  even_ = part(first_even_, evens, with_middle);
+  odd_ = part(first_odd_, odds, half);
+  even_half_.resize(with_middle);
+  odd_half_.resize(half);
+  turns_.resize(std::max(evens, odds));
+}
+
+template <Scalar S>
+bool ParityMatrix<S>::find_mirrored(const Matrix<S>& a) const {
+  // In double both ways take the same time at about 16 nodes and functions.
+  constexpr Index small = 256;
+  if (std::same_as<S, double> && a.size() < small) return false;
+  // Each of two entries is rounded from values at a rounded node: a few units of its own.
+  constexpr int units = 8;
+  const auto at = [&](Index node, Index function) {
+    return nodes_ == Nodes::rows ? a(node, function) : a(function, node);
+  };
+  for (Index j = 0; j < functions_; ++j) {
+    S largest = 0;
+    for (Index i = 0; i < n_; ++i) raise_magnitude(largest, at(i, j));
+    for (Index i = 0; 2 * i < n_; ++i) {
+      const S here = at(i, j), there = at(n_ - 1 - i, j);
+      const bool middle = 2 * i + 1 == n_;
+      const S defect = is_even(j) ? S(here - there) : S(here + there);
+      if (magnitude(defect) > units * epsilon<S>() * (middle ? largest : magnitude(here))) return false;
+    }
+  }
+  return true;
+}
+
+template <Scalar S>
+void ParityMatrix<S>::take_turns(S* r, Index first, const Matrix<S>& a, const S* x) {
+  set_times(turns_.data(), a, x, 1);
+  for (Index i = 0; i < a.rows(); ++i) set(r[first + 2 * i], turns_[i]);
+}
+
+template <Scalar S>
+void ParityMatrix<S>::times(Matrix<S>& c, const Matrix<S>& b) {
+  if (!mirrored_) {
+    product(c, whole_, b);
+    return;
+  }
+  const Index half = n_ / 2, rows = nodes_ == Nodes::rows ? n_ : functions_, inner = b.rows(), columns = b.cols();
+  if (c.rows() != rows || c.cols() != columns) c.resize(rows, columns);
+  S* const even = even_half_.data();
+  S* const odd = odd_half_.data();
+  for (Index j = 0; j < columns; ++j) {
+    S* const out = c.data() + j * rows;
+    const S* const x = b.data() + j * inner;
+    if (nodes_ == Nodes::rows) {
+      set_times(even, even_, x + first_even_, 2);
+      set_times(odd, odd_, x + first_odd_, 2);
+      for (Index i = 0; i < half; ++i) {
+        set_sum(out[i], even[i], odd[i]);
+        set_difference(out[n_ - 1 - i], even[i], odd[i]);
+      }
+      if (n_ % 2 != 0) set(out[half], even[half]);
+    } else {
+      for (Index i = 0; i < half; ++i) {
+        set_sum(even[i], x[i], x[n_ - 1 - i]);
+        set_difference(odd[i], x[i], x[n_ - 1 - i]);
+      }
+      if (n_ % 2 != 0) set(even[half], x[half]);
+      take_turns(out, first_even_, even_, even);
+      take_turns(out, first_odd_, odd_, odd);
+    }
+  }
+}
+
+template <Scalar S>
+OperationCounts ParityMatrix<S>::operations(Index columns) const {
+  OperationCounts counts;
+  const auto add = [&](const Matrix<S>& a) {
+    if (a.size() > 0) counts.add_dots(columns * a.rows(), a.cols());
+  };
+  if (!mirrored_) {
+    add(whole_);
+    return counts;
+  }
+  add(even_);
+  add(odd_);
+  counts.add(Op::add, columns * (n_ / 2));
+  counts.add(Op::subtract, columns * (n_ / 2));
+  return counts;
+}
+
+#define HBVM_DEFINE(S) template class ParityMatrix<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm
