@@ -1,7 +1,6 @@
 #include "hbvm/analysis/choose_k.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "hbvm/integrate/integrate.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -100,7 +99,8 @@ ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind sol
   while (!enough(trial) && high < most && in_vain < patience) {
     low = high + 1;
     high = std::min(2 * high, most);
-    const Trial<S> last = std::exchange(trial, attempt(high));
+    const Trial<S> last = trial;
+    trial = attempt(high);
     count_failure();
     if (trial.is_complete() && last.is_complete() && trial.relative * 2 > last.relative && !enough(trial)) {
       noise = std::max(last.relative, trial.relative) * 2;

@@ -6,6 +6,7 @@
 
 #include "hbvm/analysis/audit/audit.hpp"
 #include "hbvm/analysis/audit/claims.hpp"
+#include "hbvm/scene/scene.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 
 namespace hbvm {

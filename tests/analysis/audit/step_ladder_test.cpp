@@ -3,6 +3,8 @@
 #include "analysis/audit/cells.hpp"
 #include "analysis/audit/measurements.hpp"
 #include "hbvm/reference/closed_form.hpp"
+#include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
