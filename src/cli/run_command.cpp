@@ -137,8 +137,11 @@ std::string json_of(const RunRequest& request, const RunResult& result, const st
   if (request.account) {
     j["account"] = nlohmann::ordered_json::array();
     for (const AccountLine& line : result.account.lines) {
-      nlohmann::ordered_json entry{{"name", line.name}, {"effect", line.effect}, {"calls", line.calls}};
-      if (line.effect) entry["evaluations"] = line.evaluations;
+      nlohmann::ordered_json entry{{"name", line.name},
+                                   {"effect", line.kind == AccountLine::Kind::effect},
+                                   {"in_double", line.kind == AccountLine::Kind::in_double},
+                                   {"calls", line.calls}};
+      if (line.kind == AccountLine::Kind::effect) entry["evaluations"] = line.evaluations;
       for (std::size_t op = 0; op < op_count; ++op)
         entry["operations"][name_of(static_cast<Op>(op))] = line.operations[static_cast<Op>(op)];
       entry["seconds"] = line.seconds;

@@ -20,7 +20,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
   };
   result.end = {0, S(0), state.q, state.p, Point<S>(stepper.problem()).multiplier(state.q, state.p)};
   const auto contents = [&](Archive& archive) {
-    archive(result.end.n, result.sweeps, result.cpu_seconds, result.end.lambda, state, stepper);
+    archive(result.end.n, result.sweeps, result.cpu_seconds, result.elapsed_seconds, result.end.lambda, state, stepper);
     for (Observer<S>* const observer : observers) observer->remember(archive);
   };
   if (checkpoints && checkpoints->resumes()) {
@@ -41,7 +41,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
   std::optional<StepError> failure;
   for (long n = result.end.n; n < grid.steps() && !failure;) {
     std::size_t made = 0;
-    const double before = thread_seconds();
+    const double before = thread_seconds(), elapsed_before = elapsed_seconds();
     try {
       for (; made < block && n < grid.steps() && interruption == 0; ++made) {
         result.sweeps += stepper.step(state, grid.step());
@@ -56,6 +56,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     }
     const double seconds = thread_seconds() - before;
     result.cpu_seconds += seconds;
+    result.elapsed_seconds += elapsed_seconds() - elapsed_before;
     for (std::size_t i = 0; i < made; ++i) {
       snapshots[i].t = grid.time(snapshots[i].n);
       show(snapshots[i]);

@@ -20,7 +20,23 @@ FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, Orde
       rule_(problem.m(), roundings_of_a_sweep(problem, method)),
       root_check_(problem, method),
       positions_(problem.m()),
-      change_(problem.m()) {}
+      change_(problem.m()) {
+  start_count_.per_call = extrapolation_.operations();
+  increment_count_.per_call.add(Op::subtract, x_.gamma.size() * (order == Order::paper ? 2 : 1));
+}
+
+template <Scalar S>
+SolverCounts FixedPoint<S>::counts() const {
+  SolverCounts all{equations_.effect_counts(), equations_.part_counts()};
+  all.parts.insert(all.parts.end(), {start_count_, increment_count_});
+  return all;
+}
+
+template <Scalar S>
+void FixedPoint<S>::measure_time() {
+  timed_ = true;
+  equations_.measure_time();
+}
 
 template <Scalar S>
 long FixedPoint<S>::solve(const StepStart<S>& start) {
@@ -52,7 +68,10 @@ long FixedPoint<S>::solve(const StepStart<S>& start) {
     }
   }
   if (doubtful || rule_.sweeps() > significand_bits<S>()) sweeps += check_root(sweeps);
-  if (order_ == Order::newest) extrapolation_.add(x_.gamma.data());
+  if (order_ == Order::newest) {
+    const PartCall counted(start_count_, timed_);
+    extrapolation_.add(x_.gamma.data());
+  }
   equations_.changes(x_, change_);
   return sweeps;
 }
@@ -109,6 +128,7 @@ long FixedPoint<S>::iterate() {
     if (!sweep(papers || rule_.is_coarse()))
       throw StageFailure(FailureCause::near_singular_constraints,
                          "the linear system for the multipliers, (29), is singular", "0", rule_.sweeps() + 1);
+    const PartCall counted(increment_count_, timed_);
     rule_.show_change(x_.gamma, gamma_before_);
     if (papers) rule_.show_change(x_.psi, psi_before_, &h_);
     if (rule_.is_coarse()) {

@@ -52,22 +52,67 @@ Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method)
   row_factors_.assign(static_cast<std::size_t>(n_), S(1));
   column_factors_ = row_factors_;
   block_.resize(s, s);
+  weighted_.resize(s, method.k);
   curved_.resize(s, static_cast<Index>(curvature_.pairs().size()));
+  parts_ = {{"matrix of the Jacobian", 0, assembly_operations()},
+            {"factors of the Jacobian", 0, matrix_.factor_operations()},
+            {"corrections", 0, matrix_.solve_operations()}};
+}
+
+template <Scalar S>
+OperationCounts Jacobian<S>::assembly_operations() const {
+  const Index s = method_.s, k = method_.k, square = s * s;
+  const auto weights = [&](Index column) { return static_cast<Index>(W_[static_cast<std::size_t>(column)].size()); };
+  OperationCounts counts;
+  counts.add_products(s * static_cast<Index>(curvature_.constraints().size()));
+  for (const auto& pair : curvature_.pairs()) {
+    counts.add_products((k + s) * square);
+    counts.add(Op::multiply, (k + s) * (s + 1));
+    counts.add_products(weights(pair.column) * square);
+  }
+  const ConstraintGradient<S> gradient(problem_, 1);
+  for (Index a = 0; a < problem_.nu(); ++a) {
+    counts.add(Op::multiply, square * static_cast<Index>(gradient.pattern(a).coordinates.size()));
+    counts.add_products(square * static_cast<Index>(gradient.weighted_pattern(a).coordinates.size()));
+  }
+  for (const auto& second : curvature_.constraints()) {
+    const Index entries = square * weights(curvature_.pairs()[static_cast<std::size_t>(second.pair)].column);
+    counts.add_products(entries);
+    counts.add(Op::multiply, 3 * entries);
+  }
+  return counts;
 }
 
 template <Scalar S>
 bool Jacobian<S>::factor(const StageEquations<S>& at, const Matrix<S>& lambda) {
-  ++factorisations_;
-  assemble(at, lambda);
-  choose_scales(at.constraint_gradient());
-  scale();
+  {
+    const PartCall counted = call(assembly);
+    assemble(at, lambda);
+    choose_scales(at.constraint_gradient());
+    scale();
+  }
+  const PartCall counted = call(factors);
   return matrix_.factor();
 }
 
 template <Scalar S>
+void Jacobian<S>::add_weighted(const S& factor, const Matrix<S>& X, const S* w, const Matrix<S>& I) {
+  const Index nodes = X.cols();
+  // Most pairs of coordinates are curved by U alone or by g alone.
+  if (std::all_of(w, w + nodes, [](const S& weight) { return weight == 0; })) return;
+  auto weighted = weighted_.leftCols(nodes);
+  for (Index n = 0; n < nodes; ++n) weighted.col(n) = S(factor * w[n]) * X.col(n);
+  if constexpr (std::same_as<S, double>)
+    block_.noalias() += weighted * I;
+  else
+    block_ += weighted.lazyProduct(I);
+}
+
+template <Scalar S>
 void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda) {
-  const Index m = problem_.m(), nu = problem_.nu(), s = method_.s, k = method_.k;
+  const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
   const S& h = at.step();
+  const S h2 = h * h;
   matrix_.set_zero();
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) matrix_.entry(of_coordinate(j) + i, of_coordinate(j) + i) = 1;
@@ -81,11 +126,8 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
     const auto& pair = curvature_.pairs()[p];
     const auto second = static_cast<Index>(p);
     block_.setZero();
-    for (Index j = 0; j < s; ++j) {
-      for (Index n = 0; n < k; ++n) block_.col(j) -= hessian(n, second) * method_.I_hat(n, j) * X_hat_.col(n);
-      for (Index n = 0; n < s; ++n) block_.col(j) += curved_(n, second) * method_.I_s(n, j) * X_projection_.col(n);
-    }
-    block_ *= h * h;
+    add_weighted(-h2, X_hat_, &hessian(0, second), method_.I_hat);
+    add_weighted(h2, X_projection_, &curved_(0, second), method_.I_s);
     for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)])
       for (Index j = 0; j < s; ++j)
         for (Index i = 0; i < s; ++i)
@@ -167,7 +209,7 @@ void Jacobian<S>::solve(StageResidual<S>& r) {
 
 template <Scalar S>
 void Jacobian<S>::solve_scaled(StageResidual<S>& r) {
-  ++solutions_;
+  const PartCall counted = call(corrections);
   const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) set(x_[of_coordinate(j) + i], r.momentum(i, j));

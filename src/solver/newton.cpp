@@ -82,6 +82,7 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method)
   correction_ = {rounded_->unknowns().gamma, rounded_->unknowns().lambda};
   momentum_ = correction_.momentum;
   momentum_change_.resize(problem.m());
+  update_count_.per_call.add(Op::add, x_.gamma.size() + x_.lambda.size());
   make_rungs();
 }
 
@@ -140,7 +141,10 @@ long Newton<S>::solve(const StepStart<S>& start) {
 
 template <Scalar S>
 long Newton<S>::solve_in_full(const StepStart<S>& start) {
-  if (!full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_);
+  if (!full_) {
+    full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_);
+    if (timed_) full_->measure_time();
+  }
   const long sweeps = full_->solve(start);
   set(x_.gamma, full_->unknowns().gamma);
   set(x_.lambda, full_->unknowns().lambda);
@@ -152,6 +156,7 @@ long Newton<S>::solve_in_full(const StepStart<S>& start) {
 
 template <Scalar S>
 void Newton<S>::take_residual(const StageResidual<S>& r, long& exponent) {
+  const PartCall counted(rounding_count_, timed_);
   // Rows come to the size of velocities, as the Jacobian's are, so that no unit and no heavy body drowns a light one.
   const Jacobian<double>& jacobian = rounded_->jacobian();
   exponent = exponent_of_zero;
@@ -214,6 +219,7 @@ std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
     long exponent = 0;
     const bool full = residual(-left + bits_per_sweep + 2, exponent);
     rounded_->jacobian().solve_scaled(correction_);
+    const PartCall counted(update_count_, timed_);
     for (Index i = 0; i < x_.gamma.size(); ++i) {
       set_scaled(t_, -correction_.momentum.data()[i], exponent);
       rule_.show_change(i / method_.s, t_);
@@ -252,34 +258,35 @@ std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
 
 template <Scalar S>
 SolverCounts Newton<S>::counts() const {
-  SolverCounts sum;
-  const auto add = [&](const auto& equations) {
-    add_counts(sum, {equations.effect_counts(), equations.part_counts()}, problem_);
-  };
-  if (equations_) add(*equations_);
-  for (const Rung& rung : rungs_) add(rung.level->equations);
-  PartCount factors{"factors of the Jacobian"}, corrections{"corrections"};
-  const auto add_newton = [&](const auto& newton) {
-    add(newton.equations());
-    const auto& jacobian = newton.jacobian();
-    factors.calls += jacobian.factorisations();
-    factors.per_call = jacobian.factor_operations();
-    corrections.calls += jacobian.solutions();
-    corrections.per_call = jacobian.solve_operations();
-  };
-  if (rounded_) add_newton(*rounded_);
-  if (full_) add_newton(*full_);
-  sum.parts.push_back(factors);
-  sum.parts.push_back(corrections);
-  return sum;
+  if constexpr (std::same_as<S, double>) {
+    return rounded_->counts();
+  } else {
+    SolverCounts sum;
+    const auto add = [&](const StageEquations<S>& equations) {
+      add_counts(sum, {equations.effect_counts(), equations.part_counts()}, problem_);
+    };
+    add(*equations_);
+    for (const Rung& rung : rungs_) add(rung.level->equations);
+    if (full_) add_counts(sum, full_->counts(), problem_);
+    if (!rounded_) return sum;
+    sum.parts.insert(sum.parts.end(), {rounding_count_, update_count_});
+    const std::vector<PartCount> in_double = rounded_->counts_in_double();
+    sum.parts.insert(sum.parts.end(), in_double.begin(), in_double.end());
+    return sum;
+  }
 }
 
 template <Scalar S>
 void Newton<S>::measure_time() {
-  if (equations_) equations_->measure_time();
-  for (Rung& rung : rungs_) rung.level->equations.measure_time();
-  if (rounded_) rounded_->equations().measure_time();
-  if (full_) full_->equations().measure_time();
+  timed_ = true;
+  if constexpr (std::same_as<S, double>) {
+    rounded_->measure_time();
+  } else {
+    equations_->measure_time();
+    for (Rung& rung : rungs_) rung.level->equations.measure_time();
+    if (rounded_) rounded_->measure_time_in_double();
+    if (full_) full_->measure_time();
+  }
 }
 
 template <Scalar S>

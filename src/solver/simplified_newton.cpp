@@ -1,5 +1,7 @@
 #include "hbvm/solver/simplified_newton.hpp"
 
+#include <cmath>
+
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -9,7 +11,7 @@
 namespace hbvm {
 namespace {
 
-/// Increments that fall by less than this a sweep are worth a new Jacobian.
+/// Increments that fall by less than this a sweep may be worth a new Jacobian.
 constexpr int slow = 10;
 
 /// Row 0 of X^-1.
@@ -52,6 +54,45 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
   tolerance_ = S(roundings_of_a_sweep(problem, method)) * epsilon<S>();
   root_epsilon_ = sqrt(epsilon<S>());
   coarse_ = power_of_two<S>(-10);
+  equations_count_.per_call = equations_.residual_operations();
+  sweeps_an_evaluation_ = static_cast<double>(jacobian_.evaluation_cost()) /
+                          static_cast<double>(equations_count_.per_call.total() + jacobian_.solution_cost());
+  start_count_.per_call = extrapolation_.operations();
+  // x = base - factor correction, with h lambda for lambda.
+  increment_count_.per_call.add(Op::multiply, x_.gamma.size() + x_.lambda.size());
+  increment_count_.per_call.add(Op::subtract, x_.gamma.size() + x_.lambda.size());
+  increment_count_.per_call.add(Op::reciprocal, x_.lambda.size());
+}
+
+template <Scalar S>
+SolverCounts SimplifiedNewton<S>::counts() const {
+  SolverCounts all{equations_.effect_counts(), equations_.part_counts()};
+  const std::vector<PartCount>& jacobian = jacobian_.part_counts();
+  all.parts.insert(all.parts.end(), jacobian.begin(), jacobian.end());
+  all.parts.insert(all.parts.end(), {start_count_, increment_count_});
+  return all;
+}
+
+template <Scalar S>
+std::vector<PartCount> SimplifiedNewton<S>::counts_in_double() const {
+  std::vector<PartCount> parts{equations_count_};
+  const std::vector<PartCount>& jacobian = jacobian_.part_counts();
+  parts.insert(parts.end(), jacobian.begin(), jacobian.end());
+  parts.insert(parts.end(), {start_count_, increment_count_});
+  for (PartCount& part : parts) part.in_double = true;
+  return parts;
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::measure_time() {
+  equations_.measure_time();
+  measure_time_in_double();
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::measure_time_in_double() {
+  timed_ = true;
+  jacobian_.measure_time();
 }
 
 template <Scalar S>
@@ -91,6 +132,7 @@ long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
   };
   if (extrapolation_.empty() || !attempt(Start::previous))
     if (!attempt(Start::constant) && !attempt(Start::shorter)) attempt(Start::shortest);
+  const PartCall counted(start_count_, timed_);
   set(sequence_, x_.gamma);
   for (Index i = 0; i < x_.lambda.size(); ++i) set(sequence_[x_.gamma.size() + i], x_.lambda.data()[i]);
   extrapolation_.add(sequence_.data());
@@ -259,6 +301,15 @@ void SimplifiedNewton<S>::measure_change() {
 }
 
 template <Scalar S>
+bool SimplifiedNewton<S>::evaluation_pays() const {
+  // With the new one it takes about two.
+  constexpr int sweeps_with_it = 2;
+  const double bits = std::log2(approximately(S(change_ / tolerance_)));
+  const double bits_a_sweep = std::log2(approximately(S(last_ / change_)));
+  return !(bits <= (sweeps_an_evaluation_ + sweeps_with_it) * bits_a_sweep);
+}
+
+template <Scalar S>
 bool SimplifiedNewton<S>::residual_is_small() {
   for (const auto& block : problem_.mass.blocks()) {
     set_zero(t_);
@@ -286,7 +337,10 @@ long SimplifiedNewton<S>::iterate() {
     const auto fail = [&](FailureCause cause, const char* what) {
       throw StageFailure(cause, what, to_scientific(rule_.relative_change(), 3), sweeps);
     };
-    equations_.residual(x_, residual_);
+    {
+      const PartCall counted(equations_count_, timed_);
+      equations_.residual(x_, residual_);
+    }
     set(momentum_, residual_.momentum);
     if (sweeps == 1) {
       set(start_.lambda, x_.lambda);
@@ -299,6 +353,7 @@ long SimplifiedNewton<S>::iterate() {
       usable_ = true;
     }
     jacobian_.solve(residual_);
+    const PartCall counted(increment_count_, timed_);
     rule_.show_change(residual_.momentum);
     rule_.show_terms(x_.gamma);
     rule_.show_terms(x_.psi, &h);
@@ -348,7 +403,7 @@ long SimplifiedNewton<S>::iterate() {
     exact = evaluate;
     halvings = 0;
     // Rounding does not fall, and no new Jacobian mends it, unless there is more of it than there should be.
-    evaluate = last_ > 0 && slow * change_ > last_ && (change_ > tolerance_ || sweeps > 10);
+    evaluate = last_ > 0 && slow * change_ > last_ && (change_ > tolerance_ || sweeps > 10) && evaluation_pays();
     set(last_, change_);
     keep_base_scale();
   }

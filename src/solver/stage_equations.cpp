@@ -119,6 +119,21 @@ void StageEquations<S>::describe_parts() {
 }
 
 template <Scalar S>
+OperationCounts StageEquations<S>::residual_operations() const {
+  OperationCounts sum;
+  for (const Part part : {velocities, projection, gammas, constraint_residual}) sum += parts_[part].per_call;
+  if (potential_.has_varying_force()) {
+    sum += parts_[quadrature_nodes].per_call;
+    for (std::size_t t = 0; t < potential_.counts().size(); ++t)
+      if (!problem_.potential.terms[t].constant_force)
+        sum += static_cast<std::uint64_t>(method_.k) * potential_.counts()[t].per_evaluation;
+  }
+  if (problem_.nu() == 0) return sum;
+  if (method_.k != method_.s || !potential_.has_varying_force()) sum += parts_[constraint_nodes].per_call;
+  return sum + parts_[gradients].per_call + parts_[zetas].per_call;
+}
+
+template <Scalar S>
 StageUnknowns<S> StageEquations<S>::make_unknowns() const {
   const Index s = method_.s, m = problem_.m();
   const Matrix<S> zero = Matrix<S>::Zero(s, m);

@@ -10,13 +10,19 @@ HbvmStepper<S>::HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, So
     : problem_(problem),
       method_(method),
       solver_(make_solver(solver, problem, method)),
-      multiplier_(Vector<S>::Zero(problem.nu())) {}
+      multiplier_(Vector<S>::Zero(problem.nu())) {
+  // Two exact sums and one a coordinate of q and p, one of carries.
+  update_.per_call.add(Op::add, problem.m() * (2 * 5 + 1));
+  update_.per_call.add(Op::subtract, problem.m() * 2 * 8);
+  update_.per_call.add_products(problem.nu() * method.s);
+}
 
 template <Scalar S>
 long HbvmStepper<S>::step(State<S>& state, const S& h) {
   const long sweeps = solver_->solve({state.q, state.p, h, &state.q_carry, &state.p_carry});
   const StageUnknowns<S>& x = solver_->unknowns();
   const StepChange<S>& change = solver_->change();
+  const PartCall counted(update_, timed_);
   for (Index j = 0; j < problem_.m(); ++j) {
     add_compensated(state.q[j], state.q_carry[j], change.q[j], s_, t_);
     set_sum(state.p_carry[j], state.p_carry[j], change.p_rest[j]);
@@ -31,7 +37,9 @@ long HbvmStepper<S>::step(State<S>& state, const S& h) {
 
 template <Scalar S>
 SolverCounts HbvmStepper<S>::counts() const {
-  return sum_of(earlier_, solver_->counts(), problem_);
+  SolverCounts now = solver_->counts();
+  now.parts.push_back(update_);
+  return sum_of(now, earlier_, problem_);
 }
 
 template <Scalar S>

@@ -255,13 +255,59 @@ TEST(RunAccount, OfAnUnconstrainedSceneHasNoCallsOfConstraints) {
   EXPECT_EQ(lines["central_gravity"]["evaluations"], 4 * n);
 }
 
+/// Times of all lines are those of the steps, of every method; what takes long has a line of its own.
+TEST(RunAccount, AddsUpToTheProcessorTime) {
+  const std::pair<const char*, const char*> runs[] = {
+      {"hbvm:2,2", "double"},  {"hbvm:5,3", "mpfr:30"}, {"hbvm:24,24", "mpfr:60"},     {"hbvm:auto,2", "double"},
+      {"lobatto:3", "double"}, {"rattle", "mpfr:30"},   {"compose:rattle,4", "double"}};
+  for (const auto& [method, precision] : runs)
+    for (const char* solver : {"newton", "fixed-point"}) {
+      const ordered_json j = json_of({"run", "tethered_satellites", "--method", method, "--step", "1/4", "--until", "4",
+                                      "--precision", precision, "--solver", solver, "--account"});
+      double sum = 0, rest = 0;
+      for (const ordered_json& line : j["account"]) {
+        const double seconds = line["seconds"];
+        EXPECT_GE(seconds, 0) << line["name"];
+        sum += seconds;
+        if (line["name"] == "rest of the steps") rest = seconds;
+      }
+      const double seconds = j["cpu_seconds"];
+      EXPECT_GT(seconds, 0);
+      EXPECT_NEAR(sum, seconds, 3 * seconds / 100) << method << ' ' << precision << ' ' << solver;
+      if (std::string(method) == "hbvm:24,24") {
+        EXPECT_LT(rest, seconds / 10) << solver;
+      }
+    }
+}
+
+/// What Newton's solver does in double stands apart, and is not the sum of more digits.
+TEST(RunAccount, KeepsWhatIsInDoubleApart) {
+  const Arguments run{
+      "run",      "tethered_satellites", "--method", "hbvm:6,6", "--step", "1/4", "--until", "1", "--solver", "newton",
+      "--account"};
+  for (const bool digits : {false, true}) {
+    const Arguments all = digits ? run + Arguments{"--precision", "mpfr:60"} : run;
+    int in_double = 0;
+    const ordered_json j = json_of(all);
+    for (const ordered_json& line : j["account"])
+      if (line["name"] == "factors of the Jacobian") {
+        EXPECT_EQ(line["in_double"], digits);
+        EXPECT_GT(line["operations"]["multiply"], 0);
+        EXPECT_GT(line["seconds"], 0);
+        ++in_double;
+      }
+    EXPECT_EQ(in_double, 1);
+    EXPECT_EQ(hbvm(all).out.find("all in double") != std::string::npos, digits);
+  }
+}
+
 TEST(RunAccount, IsPrintedOnlyIfAskedFor) {
   const Arguments run{"run", "kepler", "--method", "hbvm:2,2", "--step", "1/16", "--until", "1/2"};
   EXPECT_EQ(hbvm(run).out.find("central_gravity"), std::string::npos);
   EXPECT_FALSE(json_of(run).contains("account"));
   const std::string text = hbvm(run + Arguments{"--account"}).out;
   for (const char* word :
-       {"8 steps, ", "central_gravity", "all effects", "momentum coefficients gamma (54)", "all of the solver"})
+       {"8 steps, ", "central_gravity", "all effects", "momentum coefficients gamma (54)", "all parts"})
     EXPECT_NE(text.find(word), std::string::npos) << word << " is not in\n" << text;
 }
 

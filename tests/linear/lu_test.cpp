@@ -37,6 +37,17 @@ TYPED_TEST(LuTest, SolvesRandomSystems) {
     for (int trial = 0; trial < 10; ++trial) this->expect_solves(this->random.matrix(n, n));
 }
 
+/// Beyond 64 rows in double these are factored block by block.
+TYPED_TEST(LuTest, SolvesLargeSystems) {
+  for (const Index n : {63, 64, 65, 130}) this->expect_solves(this->random.matrix(n, n));
+  Matrix<TypeParam> a = this->random.matrix(70, 70);
+  EXPECT_FALSE(this->factor(Matrix<TypeParam>::Zero(70, 70)));
+  a.col(40).setZero();
+  EXPECT_FALSE(this->factor(a));
+  a(3, 3) = std::numeric_limits<TypeParam>::quiet_NaN();
+  EXPECT_FALSE(this->factor(a));
+}
+
 TYPED_TEST(LuTest, SolvesWhatNeedsPivotingAtEveryStep) {
   for (int n = 2; n <= 12; ++n) {
     // The largest entries stand just below the diagonal, and the diagonal is 0.

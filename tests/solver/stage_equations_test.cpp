@@ -157,5 +157,26 @@ TEST(StageEquations, ReportASingularSystem) {
   EXPECT_FALSE(equations.multipliers(x.psi, x.lambda, x.zeta));
 }
 
+/// What is announced is what is counted.
+TEST(StageEquationsCost, OfAResidualIsTheSumOfItsParts) {
+  for (const char* name : {"modified_pendulum", "kepler", "tethered_satellites", "double_pendulum"})
+    for (const auto& [k, s] : {std::pair(2, 2), {5, 3}}) {
+      const Assembled<double> scene = assemble<double>(load_scene(name));
+      const Hbvm<double> method = make_hbvm<double>(k, s);
+      StageEquations<double> equations(scene.problem, method);
+      StageUnknowns<double> x = equations.make_unknowns();
+      StageResidual<double> r{x.gamma, x.lambda};
+      equations.start({scene.q0, scene.p0, 1.0 / 16});
+      equations.residual(x, r);
+      equations.residual(x, r);
+      OperationCounts counted;
+      for (std::size_t t = 0; t < equations.effect_counts().size(); ++t)
+        if (!scene.problem.potential.terms[t].constant_force)
+          counted += equations.effect_counts()[t].evaluations * equations.effect_counts()[t].per_evaluation;
+      for (const PartCount& part : equations.part_counts()) counted += part.calls * part.per_call;
+      EXPECT_EQ(2 * equations.residual_operations(), counted) << name << ' ' << k << ',' << s;
+    }
+}
+
 }  // namespace
 }  // namespace hbvm

@@ -7,35 +7,48 @@
 
 namespace hbvm {
 
-/// One line of the account of a run: an effect a scene names, or a part of the stage equations.
+/// One line of the account of a run.
 struct AccountLine {
+  /// What it is about, in the order of the table.
+  enum class Kind {
+    effect,     ///< one that the scene names
+    part,       ///< of the method and its solver, in the working precision or in fewer of its digits
+    in_double,  ///< what a solver in more digits does in double
+    rest        ///< the time of steps that is in no other line
+  };
   std::string name;
-  bool effect = false;
+  Kind kind = Kind::part;
   std::uint64_t calls = 0;
   std::uint64_t evaluations = 0;  ///< of an effect: nodes at which its force was evaluated
-  OperationCounts operations;     ///< in all
-  double seconds = 0;
+  OperationCounts operations{};   ///< in all
+  double seconds = 0;             ///< of the processor
 };
 
-/// What a run did, in the order in which a sweep does it.
+/// What the steps of a run did, in the order in which a sweep does it. Times of all lines add up to that of the steps.
 struct Account {
   std::vector<AccountLine> lines;
   std::uint64_t steps = 0, sweeps = 0;
 };
+
+/// Lines of parts, one for those of the same name, whatever a call of each took.
+void add_parts(Account& account, const std::vector<PartCount>& parts);
 
 template <Scalar S>
 Account account_of(const Problem<S>& problem, const SolverCounts& counts) {
   Account account;
   std::size_t t = 0;
   for (const EffectCount& count : counts.effects)
-    account.lines.push_back({problem.potential.terms[t++].kind, true, count.calls, count.evaluations,
-                             count.evaluations * count.per_evaluation, count.seconds});
-  for (const PartCount& part : counts.parts)
-    account.lines.push_back({part.name, false, part.calls, 0, part.calls * part.per_call, part.seconds});
+    account.lines.push_back({problem.potential.terms[t++].kind, AccountLine::Kind::effect, count.calls,
+                             count.evaluations, count.evaluations * count.per_evaluation, count.seconds});
+  add_parts(account, counts.parts);
   return account;
 }
 
-/// A table of the lines, with the share of the measured time and the sums.
+/// Brings elapsed times to processor time, in proportion to the whole, and adds what of it is in no line.
+/// \param cpu_seconds, elapsed_seconds of all steps
+void balance(Account& account, double cpu_seconds, double elapsed_seconds);
+
+/// A table of the lines, with the share of the time and the sums; operations in double have a sum of their own.
 std::string to_text(const Account& account);
 
 }  // namespace hbvm

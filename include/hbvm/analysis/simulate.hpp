@@ -47,6 +47,7 @@ Simulated<S> simulate(const Assembled<S>& scene, Stepper<S>& stepper, const Time
   Integration<S> integration = integrate<S>(used, state, grid, observers, course.checkpoints);
   if (account) {
     *account = account_of(scene.problem, stepper.counts());
+    balance(*account, integration.cpu_seconds, integration.elapsed_seconds);
     account->steps = static_cast<std::uint64_t>(integration.steps);
     account->sweeps = static_cast<std::uint64_t>(integration.sweeps);
   }

@@ -14,7 +14,8 @@ template <Scalar S>
 struct Integration {
   Snapshot<S> end;
   long steps = 0, sweeps = 0;
-  double cpu_seconds = 0;  ///< processor time of this thread in steps alone: observers and output excluded
+  double cpu_seconds = 0;      ///< processor time of this thread in steps alone: observers and output excluded
+  double elapsed_seconds = 0;  ///< the time that passed meanwhile
 };
 
 /// Steps through the grid from `state` and shows t_0, t_1, …, t_N to the observers. With `checkpoints` the run is kept

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
@@ -8,12 +9,19 @@
 
 namespace hbvm {
 
+class BlockedLu;
+
 /// P a = L U with partial pivoting in the working precision, of a square matrix with all entries a_ij, |i - j| > b,
 /// zero for a half bandwidth b; b = n - 1 is a dense matrix. It takes O(n b^2) operations, and O(n b) to solve. Storage
-/// is kept from one factorisation to the next.
+/// is kept from one factorisation to the next. A large dense matrix in double is factored by Eigen, block by block.
 template <Scalar S>
 class Lu {
  public:
+  Lu();
+  ~Lu();
+  Lu(Lu&&) noexcept;
+  Lu& operator=(Lu&&) noexcept;
+
   /// An n x n matrix, to be filled by entry(); half_bandwidth is cut to n - 1.
   void resize(Index n, Index half_bandwidth);
   void set_zero();
@@ -23,7 +31,7 @@ class Lu {
   Index size() const { return n_; }
   Index half_bandwidth() const { return b_; }
 
-  /// a_ij, for |i - j| <= half_bandwidth. factor() overwrites them all.
+  /// a_ij, for |i - j| <= half_bandwidth. factor() may overwrite them all.
   S& entry(Index i, Index j) { return data_[static_cast<std::size_t>(offset_ + i + j * stride_)]; }
 
   /// \return false if a pivot is 0 or not finite: the matrix is singular to working precision
@@ -38,13 +46,14 @@ class Lu {
   OperationCounts solve_operations() const;
 
   /// The factors; for a matrix of the same size.
-  void remember(Archive& archive) { archive(data_, pivots_); }
+  void remember(Archive& archive);
 
  private:
   // Column j holds rows j - 2 b .. j + b: pivoting fills in b diagonals above the band. A dense matrix has no more.
   Index n_ = 0, b_ = 0, upper_ = 0, stride_ = 0, offset_ = 0;
   std::vector<S> data_;
   std::vector<Index> pivots_;
+  std::unique_ptr<BlockedLu> blocked_;
 };
 
 #define HBVM_DECLARE(S) extern template class Lu<S>;

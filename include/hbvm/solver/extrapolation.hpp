@@ -50,6 +50,13 @@ class Extrapolation {
         for (Index n = 0, i = static_cast<Index>(column) * rows_; n < rows_; ++n, ++i)
           set_sum(x[i], x[i], differences_.data()[r * size_ + i]);
   }
+  /// What a prediction and an element take at most.
+  OperationCounts operations() const {
+    OperationCounts counts;
+    counts.add(Op::add, max_order * size_);
+    counts.add(Op::subtract, (max_order + 1) * size_);
+    return counts;
+  }
   Index order(Index column) const { return orders_[static_cast<std::size_t>(column)]; }
 
   void remember(Archive& archive) {

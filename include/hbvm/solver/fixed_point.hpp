@@ -29,8 +29,8 @@ class FixedPoint final : public StageSolver<S> {
   long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
   const StepChange<S>& change() const override { return change_; }
-  SolverCounts counts() const override { return {equations_.effect_counts(), equations_.part_counts()}; }
-  void measure_time() override { equations_.measure_time(); }
+  SolverCounts counts() const override;
+  void measure_time() override;
   /// The multipliers are where those of the next step start from.
   void remember(Archive& archive) override { archive(h_, extrapolation_, x_.lambda, x_.zeta); }
 
@@ -54,6 +54,8 @@ class FixedPoint final : public StageSolver<S> {
   RootCheck<S> root_check_;
   Vector<S> positions_;
   StepChange<S> change_;
+  PartCount start_count_{"extrapolation"}, increment_count_{"increments and stopping rule"};
+  bool timed_ = false;
   S h_ = 0;  ///< of the last step
 };
 

@@ -3,6 +3,7 @@
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/linear/ordering.hpp"
 #include "hbvm/problem/curvature.hpp"
+#include "hbvm/solver/part_count.hpp"
 #include "hbvm/solver/stage_equations.hpp"
 
 namespace hbvm {
@@ -45,11 +46,12 @@ class Jacobian {
 
   Index unknowns() const { return n_; }
   Index half_bandwidth() const { return matrix_.half_bandwidth(); }
-  /// How often it was factored and solved with, and what each takes in double (without its assembly).
-  std::uint64_t factorisations() const { return factorisations_; }
-  std::uint64_t solutions() const { return solutions_; }
-  OperationCounts factor_operations() const { return matrix_.factor_operations(); }
-  OperationCounts solve_operations() const { return matrix_.solve_operations(); }
+  /// How often it was assembled, factored and solved with, and what each takes.
+  const std::vector<PartCount>& part_counts() const { return parts_; }
+  void measure_time() { timed_ = true; }
+  /// Operations of a new one, assembled and factored, and of a solution with it.
+  std::uint64_t evaluation_cost() const { return (parts_[assembly].per_call + parts_[factors].per_call).total(); }
+  std::uint64_t solution_cost() const { return parts_[corrections].per_call.total(); }
 
   /// The factors, and how the matrix was scaled.
   void remember(Archive& archive) {
@@ -57,6 +59,12 @@ class Jacobian {
   }
 
  private:
+  enum Part { assembly, factors, corrections };
+  PartCall call(Part part) { return {parts_[part], timed_}; }
+  /// Of second derivatives of U at the nodes only what joins them to the matrix.
+  OperationCounts assembly_operations() const;
+  /// block_ += factor sum_n X_in w_n I_nj.
+  void add_weighted(const S& factor, const Matrix<S>& X, const S* w, const Matrix<S>& I);
   void assemble(const StageEquations<S>& at, const Matrix<S>& lambda);
   /// Exponents of the constraints' rows and columns from the gradients at hand.
   void choose_scales(const ConstraintGradient<S>& gradient);
@@ -75,8 +83,9 @@ class Jacobian {
   std::vector<long> coordinate_exponents_, row_exponents_, column_exponents_;  ///< of j; of a
   std::vector<S> row_factors_, column_factors_;  ///< of the unknowns in their order: 2^-exponent and 2^exponent
   Vector<S> x_;
-  Matrix<S> block_, curved_;
-  std::uint64_t factorisations_ = 0, solutions_ = 0;
+  Matrix<S> block_, curved_, weighted_;
+  std::vector<PartCount> parts_;
+  bool timed_ = false;
 };
 
 #define HBVM_DECLARE(S) extern template class Jacobian<S>;

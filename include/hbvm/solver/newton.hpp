@@ -83,6 +83,8 @@ class Newton final : public StageSolver<S> {
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;
+  PartCount rounding_count_{"rounding of the residual to double"}, update_count_{"increments and stopping rule"};
+  bool timed_ = false;
   bool failed_in_double_ = false;
   S rate_ = 1, t_ = 0;  ///< rate_: at which corrections fell in the last step
 };

@@ -13,9 +13,14 @@ struct PartCount {
   std::string name{};
   std::uint64_t calls = 0;
   OperationCounts per_call{};
-  double seconds = 0;
+  double seconds = 0;      ///< elapsed
+  bool in_double = false;  ///< its operations are those of double in a step of more digits
 
-  void remember(Archive& archive) { archive(name, calls, per_call, seconds); }
+  /// Whether calls of both are calls of the same.
+  bool is_like(const PartCount& other) const {
+    return name == other.name && in_double == other.in_double && per_call == other.per_call;
+  }
+  void remember(Archive& archive) { archive(name, calls, per_call, seconds, in_double); }
 };
 
 /// Counts a call of a part, and measures it if asked to, for as long as it lives.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "hbvm/problem/problem.hpp"
@@ -22,6 +23,7 @@ struct SolverCounts {
 /// sum += other; a constant force counts once, whatever the number of solvers.
 template <Scalar S>
 void add_counts(SolverCounts& sum, const SolverCounts& other, const Problem<S>& problem) {
+  if (other.parts.empty()) return;
   if (sum.parts.empty()) {
     sum = other;
     return;
@@ -32,13 +34,15 @@ void add_counts(SolverCounts& sum, const SolverCounts& other, const Problem<S>& 
     sum.effects[t].evaluations += other.effects[t].evaluations;
     sum.effects[t].seconds += other.effects[t].seconds;
   }
-  for (std::size_t i = 0; i < other.parts.size(); ++i) {
-    if (i == sum.parts.size()) {
-      sum.parts.push_back(other.parts[i]);
+  for (const PartCount& part : other.parts) {
+    const auto known = std::find_if(sum.parts.begin(), sum.parts.end(),
+                                    [&](const PartCount& candidate) { return candidate.is_like(part); });
+    if (known == sum.parts.end()) {
+      sum.parts.push_back(part);
       continue;
     }
-    sum.parts[i].calls += other.parts[i].calls;
-    sum.parts[i].seconds += other.parts[i].seconds;
+    known->calls += part.calls;
+    known->seconds += part.seconds;
   }
 }
 

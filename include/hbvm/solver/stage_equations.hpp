@@ -98,6 +98,8 @@ class StageEquations {
   /// What was done since construction: by effect, and by part (the forces' own work is in the effects').
   const std::vector<EffectCount>& effect_counts() const { return potential_.counts(); }
   const std::vector<PartCount>& part_counts() const { return parts_; }
+  /// What residual() takes, with all forces evaluated.
+  OperationCounts residual_operations() const;
   /// Also measure the time each takes.
   void measure_time();
 

@@ -28,7 +28,10 @@ class HbvmStepper final : public Stepper<S> {
 
   const StageUnknowns<S>* unknowns() const override { return &solver_->unknowns(); }
   SolverCounts counts() const override;
-  void measure_time() override { solver_->measure_time(); }
+  void measure_time() override {
+    timed_ = true;
+    solver_->measure_time();
+  }
   void remember(Archive& archive) override;
 
  private:
@@ -37,6 +40,8 @@ class HbvmStepper final : public Stepper<S> {
   std::shared_ptr<const Hbvm<S>> kept_method_;
   std::unique_ptr<StageSolver<S>> solver_;
   Vector<S> multiplier_;
+  PartCount update_{"state and multiplier at the end"};
+  bool timed_ = false;
   SolverCounts earlier_;  ///< those of a run that this one continues
   S s_, t_;
 };
