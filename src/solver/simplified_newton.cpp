@@ -14,6 +14,9 @@ namespace {
 /// Increments that fall by less than this a sweep may be worth a new Jacobian.
 constexpr int slow = 10;
 
+/// Corrections that are kept: with as many updates the Jacobian is as good as a new one if updates make it so.
+constexpr std::size_t most_kept = 16;
+
 /// Row 0 of X^-1.
 template <Scalar S>
 Vector<S> first_row_of_inverse(const Matrix<S>& X) {
@@ -37,6 +40,8 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
       residual_{x_.gamma, x_.lambda},
       momentum_(x_.gamma),
       start_(x_),
+      kept_(most_kept, residual_),
+      squares_(most_kept, S(0)),
       base_{x_.gamma, x_.lambda},
       correction_(base_),
       base_scale_(problem.m()),
@@ -230,7 +235,8 @@ long SimplifiedNewton<S>::grow(const StepStart<S>& from, int halvings) {
   S h = h_ * power_of_two<S>(-halvings), growth = 1;
   long sweeps = 0;
   Matrix<S> gamma, lambda;  // of the last step that was solved
-  begin(from, h_);
+  // The multipliers, too, are those of the shortest step: of a body at rest they tell how far it may move.
+  begin(from, h);
   prepare(Start::constant, from.p);
   for (bool first = true;; first = false) {
     try {
@@ -280,6 +286,52 @@ void SimplifiedNewton<S>::move_from_base(const S& h, const S& factor) {
 }
 
 template <Scalar S>
+S SimplifiedNewton<S>::product(const StageResidual<S>& a, const StageResidual<S>& b) {
+  S sum = 0;
+  for (Index j = 0; j < a.momentum.cols(); ++j) {
+    if (base_scale_[j] == 0) continue;
+    set_zero(u_);
+    for (Index i = 0; i < a.momentum.rows(); ++i) {
+      set_quotient(t_, a.momentum(i, j), base_scale_[j]);
+      set_product(t_, t_, b.momentum(i, j));
+      set_sum(u_, u_, t_);
+    }
+    set_quotient(u_, u_, base_scale_[j]);
+    set_sum(sum, sum, u_);
+  }
+  return sum;
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::update_correction() {
+  const auto add = [&](const S& factor, const StageResidual<S>& other) {
+    for (Index i = 0; i < x_.gamma.size(); ++i)
+      add_product(residual_.momentum.data()[i], factor, other.momentum.data()[i], t_);
+    for (Index i = 0; i < x_.lambda.size(); ++i)
+      add_product(residual_.constraint.data()[i], factor, other.constraint.data()[i], t_);
+  };
+  for (std::size_t n = 0; n + 1 < known_; ++n) add(S(product(kept_[n], residual_) / squares_[n]), kept_[n + 1]);
+  if (known_ == 0) return;
+  // An update that turns it round, or makes it many times as long, is none.
+  const S ratio = product(kept_[known_ - 1], residual_) / squares_[known_ - 1];
+  if (!(4 * magnitude(ratio) <= 3)) return;
+  const S factor = 1 / (1 - ratio);
+  set_product(residual_.momentum, factor, residual_.momentum);
+  set_product(residual_.constraint, factor, residual_.constraint);
+}
+
+template <Scalar S>
+void SimplifiedNewton<S>::keep_correction(bool small) {
+  if (small || known_ == kept_.size()) known_ = 0;
+  if (small) return;
+  StageResidual<S>& kept = kept_[known_];
+  set(kept.momentum, correction_.momentum);
+  set(kept.constraint, correction_.constraint);
+  set(squares_[known_], product(kept, kept));
+  if (squares_[known_] > 0) ++known_;
+}
+
+template <Scalar S>
 void SimplifiedNewton<S>::keep_base_scale() {
   for (const auto& block : problem_.mass.blocks()) {
     set_zero(t_);
@@ -301,11 +353,18 @@ void SimplifiedNewton<S>::measure_change() {
 }
 
 template <Scalar S>
-bool SimplifiedNewton<S>::evaluation_pays() const {
+bool SimplifiedNewton<S>::evaluation_pays(bool fresh) const {
+  // No patience where they do not fall at all: it may be rounding, which shows by the Jacobian of the iterate itself.
+  if (change_ <= coarse_ && (fresh ? !(2 * change_ < last_) : rises_ > 1)) return true;
   // With the new one it takes about two.
   constexpr int sweeps_with_it = 2;
   const double bits = std::log2(approximately(S(change_ / tolerance_)));
-  const double bits_a_sweep = std::log2(approximately(S(last_ / change_)));
+  // Of an expensive one the first falls do not decide: updates come to bear on the next.
+  constexpr int undecided = 4;
+  const bool expensive = sweeps_an_evaluation_ > most_kept;
+  if (expensive && falls_ < undecided && change_ < 2 * last_) return false;
+  const double bits_a_sweep = expensive && falls_ > 0 ? std::log2(approximately(S(first_ / change_))) / falls_
+                                                      : std::log2(approximately(S(last_ / change_)));
   return !(bits <= (sweeps_an_evaluation_ + sweeps_with_it) * bits_a_sweep);
 }
 
@@ -330,8 +389,10 @@ long SimplifiedNewton<S>::iterate() {
   const S& h = equations_.step();
   // Whether the Jacobian is to be evaluated at x_; whether it was at base_; how often the step from there was halved.
   bool evaluate = !usable_, exact = false;
-  int halvings = 0, waiting = 0;
+  int halvings = 0, waiting = 0, small = 0;
   set_zero(last_);
+  known_ = 0;
+  rises_ = 0;
   rule_.start(equations_.p0(), positions_);
   for (long sweeps = 1; sweeps <= max_sweeps_; ++sweeps) {
     const auto fail = [&](FailureCause cause, const char* what) {
@@ -351,9 +412,11 @@ long SimplifiedNewton<S>::iterate() {
       if (!jacobian_.factor(equations_, x_.lambda))
         fail(FailureCause::near_singular_constraints, "the Jacobian of the stage equations is singular");
       usable_ = true;
+      known_ = 0;
     }
     jacobian_.solve(residual_);
     const PartCall counted(increment_count_, timed_);
+    update_correction();
     rule_.show_change(residual_.momentum);
     rule_.show_terms(x_.gamma);
     rule_.show_terms(x_.psi, &h);
@@ -361,12 +424,15 @@ long SimplifiedNewton<S>::iterate() {
 
     if (last_ > 0) {
       measure_change();
-      const bool too_far = !(change_ < last_) && !(change_ <= coarse_);
+      // An expensive Jacobian of another step may be updated to one with which they fall.
+      const bool patient = !exact && sweeps_an_evaluation_ > most_kept;
+      const bool too_far = !(change_ < (patient ? S(2 * last_) : last_)) && !(change_ <= coarse_);
       if (too_far && exact) {
         if (++halvings > most_halvings)
           fail(FailureCause::stage_equations_diverge,
                is_finite(change_) ? "the increments grow" : "an iterate is not finite");
         move_from_base(h, power_of_two<S>(-halvings));
+        known_ = 0;
         evaluate = false;
         continue;
       }
@@ -389,6 +455,7 @@ long SimplifiedNewton<S>::iterate() {
     set(correction_.momentum, residual_.momentum);
     set(correction_.constraint, residual_.constraint);
     move_from_base(h, S(1));
+    keep_correction(change_ <= 16 * epsilon<S>());
 
     // With the Jacobian of the iterate itself, increments that do not fall are rounding, however much an
     // ill-conditioned problem magnifies it; but half of the digits must be left.
@@ -402,8 +469,16 @@ long SimplifiedNewton<S>::iterate() {
     }
     exact = evaluate;
     halvings = 0;
+    small = change_ > tolerance_ ? 0 : small + 1;
+    if (last_ == 0 || evaluate) {
+      set(first_, change_);
+      falls_ = 0;
+    } else {
+      ++falls_;
+    }
+    rises_ = change_ < last_ ? 0 : rises_ + 1;
     // Rounding does not fall, and no new Jacobian mends it, unless there is more of it than there should be.
-    evaluate = last_ > 0 && slow * change_ > last_ && (change_ > tolerance_ || sweeps > 10) && evaluation_pays();
+    evaluate = last_ > 0 && slow * change_ > last_ && (change_ > tolerance_ || small > 10) && evaluation_pays(exact);
     set(last_, change_);
     keep_base_scale();
   }

@@ -2,6 +2,7 @@
 
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
+#include "hbvm/step/state.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
@@ -76,6 +77,45 @@ TYPED_TEST(SimplifiedNewtonTest, FailsWithACause) {
     EXPECT_EQ(failure.cause(), FailureCause::stage_equations_diverge) << failure.what();
     EXPECT_GT(failure.sweeps(), 0);
   }
+}
+
+/// Two satellites are at rest, so that the pull of the third one alone tells how far they may move: the multipliers of
+/// a long step, with which it would hardly be felt, are no measure in a short one.
+TEST(SimplifiedNewton, MakesALongFirstStepFromRest) {
+  const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
+  for (const int s : {5, 12, 22})
+    for (const double step : {2.0 / 7, 1.0 / 3, 1.0 / 2}) {
+      const Hbvm<double> method = make_hbvm<double>(s, s);
+      SimplifiedNewton<double> newton(scene.problem, method);
+      EXPECT_NO_THROW(newton.solve({scene.q0, scene.p0, step})) << s << ", " << step;
+    }
+}
+
+/// However expensive a Jacobian is, increments that hardly fall are worth one: in each of these runs of steps the last
+/// one's serves for some sweeps, and steps have one evaluation in the mean or few more.
+TEST(SimplifiedNewton, EvaluatesTheJacobianWhereItPays) {
+  const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
+  long sweeps = 0;
+  const auto evaluations = [&](int s, double h, int steps) {
+    const Hbvm<double> method = make_hbvm<double>(s, s);
+    SimplifiedNewton<double> newton(scene.problem, method);
+    State<double> state(scene.q0, scene.p0);
+    sweeps = 0;
+    for (int n = 0; n < steps; ++n) {
+      sweeps += newton.solve({state.q, state.p, h, &state.q_carry, &state.p_carry});
+      for (Index j = 0; j < state.q.size(); ++j) {
+        state.q[j] += newton.change().q[j];
+        state.p[j] += newton.change().p[j];
+      }
+    }
+    return static_cast<double>(newton.jacobian().part_counts().front().calls) / steps;
+  };
+  const double cheap = evaluations(1, 1.0 / 4, 40), expensive = evaluations(20, 1.0 / 4, 40);
+  EXPECT_LT(expensive, 2);
+  EXPECT_GT(expensive, 0);
+  EXPECT_GT(cheap, expensive);
+  // By updates of rank one an old Jacobian takes some thirty; without them, more than fifty.
+  EXPECT_LT(sweeps, 40 * 40);
 }
 
 }  // namespace

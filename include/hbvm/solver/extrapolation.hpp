@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
+#include "hbvm/linear/operation_counts.hpp"
 #include "hbvm/scalar/archive.hpp"
 #include "hbvm/scalar/in_place.hpp"
 

@@ -15,6 +15,8 @@ namespace hbvm {
 ///
 /// A Jacobian is kept, also from step to step, while the increments fall by `slow` or more a sweep, or fast enough that
 /// the sweeps left cost less than a new one: it costs as much as sixty sweeps for s = 24, but seven for s = 3.
+/// Between two evaluations each correction adds what it shows of the Jacobian by an update of rank one (Broyden's good
+/// one, in the form of corrections: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, section 7.3).
 /// Where increments grow although the Jacobian is that of the last iterate, the iterate was a
 /// step too far: it is taken back and made by half (Deuflhard's natural monotonicity).
 ///
@@ -76,12 +78,19 @@ class SimplifiedNewton {
   long iterate();
   /// x_ = base_ - factor correction_.
   void move_from_base(const S& h, const S& factor);
+  /// Takes the correction by the Jacobian to that by the updated one.
+  void update_correction();
+  /// Remembers the correction that is made, or forgets all if it is `small`: of rounding nothing is to be learnt.
+  void keep_correction(bool small);
+  /// The product of the momenta of two corrections, each coordinate in units of base_scale_.
+  S product(const StageResidual<S>& a, const StageResidual<S>& b);
   /// base_scale_ = the scales of x_, each the greatest of its body.
   void keep_base_scale();
   /// change_ = the greatest correction over base_scale_.
   void measure_change();
-  /// Whether the sweeps that a new Jacobian saves cost more than it does, if increments go on to fall as last.
-  bool evaluation_pays() const;
+  /// Whether the sweeps that a new Jacobian saves cost more than it does, if increments go on to fall as they did.
+  /// \param fresh whether the last one is that of the last iterate
+  bool evaluation_pays(bool fresh) const;
   /// A residual as large as what it is the residual of shows no solution, however small the increments.
   bool residual_is_small();
   /// start_size_ = the greatest of |p0|, h |psi| and h |zeta| at start_, each coordinate with its body's.
@@ -102,6 +111,9 @@ class SimplifiedNewton {
   StageResidual<S> residual_;
   Matrix<S> momentum_;                  ///< residual before it is solved for
   StageUnknowns<S> start_;              ///< gamma and lambda of the iteration's start, psi and zeta there
+  std::vector<StageResidual<S>> kept_;  ///< corrections since the Jacobian was evaluated, or the iteration began
+  std::vector<S> squares_;              ///< of their size
+  std::size_t known_ = 0;               ///< of them
   StageResidual<S> base_, correction_;  ///< an iterate (gamma, h lambda) and the step from it
   Vector<S> base_scale_;                ///< of its coordinates
   Vector<S> start_size_;
@@ -115,10 +127,12 @@ class SimplifiedNewton {
   PartCount start_count_{"extrapolation"}, increment_count_{"increments and stopping rule"};
   bool timed_ = false;
   long max_sweeps_;
+  int falls_ = 0;                ///< of the increments, from first_ on, with one Jacobian
+  int rises_ = 0;                ///< in a row
   double sweeps_an_evaluation_;  ///< that cost as much as a Jacobian
   S tolerance_, root_epsilon_, coarse_;
   S h_ = 0;  ///< of the last step
-  S change_ = 0, last_ = 0, t_ = 0, u_ = 0, solved_ = 0;
+  S change_ = 0, last_ = 0, first_ = 0, t_ = 0, u_ = 0, solved_ = 0;
 };
 
 #define HBVM_DECLARE(S) extern template class SimplifiedNewton<S>;

@@ -1,6 +1,7 @@
 #include "hbvm/analysis/study/study.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -21,7 +22,7 @@ class StudyTest : public ::testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::temp_directory_path() / (std::string("hbvm_study_") + test->name());
+    root_ = fs::temp_directory_path() / (std::string("hbvm_study_") + test->name() + "_" + std::to_string(getpid()));
     fs::remove_all(root_);
     fs::create_directories(root_);
   }
