@@ -40,8 +40,6 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
       residual_{x_.gamma, x_.lambda},
       momentum_(x_.gamma),
       start_(x_),
-      kept_(most_kept, residual_),
-      squares_(most_kept, S(0)),
       base_{x_.gamma, x_.lambda},
       correction_(base_),
       base_scale_(problem.m()),
@@ -62,6 +60,11 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
   equations_count_.per_call = equations_.residual_operations();
   sweeps_an_evaluation_ = static_cast<double>(jacobian_.evaluation_cost()) /
                           static_cast<double>(equations_count_.per_call.total() + jacobian_.solution_cost());
+  // A cheap Jacobian is evaluated anew instead.
+  if (sweeps_an_evaluation_ > most_kept) {
+    kept_.assign(most_kept, residual_);
+    squares_.assign(most_kept, S(0));
+  }
   start_count_.per_call = extrapolation_.operations();
   // x = base - factor correction, with h lambda for lambda.
   increment_count_.per_call.add(Op::multiply, x_.gamma.size() + x_.lambda.size());
@@ -323,7 +326,7 @@ void SimplifiedNewton<S>::update_correction() {
 template <Scalar S>
 void SimplifiedNewton<S>::keep_correction(bool small) {
   if (small || known_ == kept_.size()) known_ = 0;
-  if (small) return;
+  if (small || kept_.empty()) return;
   StageResidual<S>& kept = kept_[known_];
   set(kept.momentum, correction_.momentum);
   set(kept.constraint, correction_.constraint);
@@ -354,17 +357,17 @@ void SimplifiedNewton<S>::measure_change() {
 
 template <Scalar S>
 bool SimplifiedNewton<S>::evaluation_pays(bool fresh) const {
+  if (kept_.empty()) return true;
   // No patience where they do not fall at all: it may be rounding, which shows by the Jacobian of the iterate itself.
   if (change_ <= coarse_ && (fresh ? !(2 * change_ < last_) : rises_ > 1)) return true;
-  // With the new one it takes about two.
+  // The first falls do not decide: updates come to bear on the next.
+  constexpr int undecided = 4;
+  if (falls_ < undecided && change_ < 2 * last_) return false;
+  // With a new one it takes about two.
   constexpr int sweeps_with_it = 2;
   const double bits = std::log2(approximately(S(change_ / tolerance_)));
-  // Of an expensive one the first falls do not decide: updates come to bear on the next.
-  constexpr int undecided = 4;
-  const bool expensive = sweeps_an_evaluation_ > most_kept;
-  if (expensive && falls_ < undecided && change_ < 2 * last_) return false;
-  const double bits_a_sweep = expensive && falls_ > 0 ? std::log2(approximately(S(first_ / change_))) / falls_
-                                                      : std::log2(approximately(S(last_ / change_)));
+  const double bits_a_sweep = falls_ > 0 ? std::log2(approximately(S(first_ / change_))) / falls_
+                                         : std::log2(approximately(S(last_ / change_)));
   return !(bits <= (sweeps_an_evaluation_ + sweeps_with_it) * bits_a_sweep);
 }
 
@@ -389,7 +392,8 @@ long SimplifiedNewton<S>::iterate() {
   const S& h = equations_.step();
   // Whether the Jacobian is to be evaluated at x_; whether it was at base_; how often the step from there was halved.
   bool evaluate = !usable_, exact = false;
-  int halvings = 0, waiting = 0, small = 0;
+  int halvings = 0, waiting = 0;
+  long small = 0;
   set_zero(last_);
   known_ = 0;
   rises_ = 0;
@@ -425,7 +429,7 @@ long SimplifiedNewton<S>::iterate() {
     if (last_ > 0) {
       measure_change();
       // An expensive Jacobian of another step may be updated to one with which they fall.
-      const bool patient = !exact && sweeps_an_evaluation_ > most_kept;
+      const bool patient = !exact && !kept_.empty();
       const bool too_far = !(change_ < (patient ? S(2 * last_) : last_)) && !(change_ <= coarse_);
       if (too_far && exact) {
         if (++halvings > most_halvings)
@@ -478,7 +482,8 @@ long SimplifiedNewton<S>::iterate() {
     }
     rises_ = change_ < last_ ? 0 : rises_ + 1;
     // Rounding does not fall, and no new Jacobian mends it, unless there is more of it than there should be.
-    evaluate = last_ > 0 && slow * change_ > last_ && (change_ > tolerance_ || small > 10) && evaluation_pays(exact);
+    evaluate = last_ > 0 && slow * change_ > last_ && (change_ > tolerance_ || (kept_.empty() ? sweeps : small) > 10) &&
+               evaluation_pays(exact);
     set(last_, change_);
     keep_base_scale();
   }

@@ -13,12 +13,12 @@ namespace hbvm {
 /// Newton's solver itself, and the start and the Jacobian of the mixed-precision one; in more digits it serves where
 /// double cannot hold the problem or its condition.
 ///
-/// A Jacobian is kept, also from step to step, while the increments fall by `slow` or more a sweep, or fast enough that
-/// the sweeps left cost less than a new one: it costs as much as sixty sweeps for s = 24, but seven for s = 3.
-/// Between two evaluations each correction adds what it shows of the Jacobian by an update of rank one (Broyden's good
-/// one, in the form of corrections: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, section 7.3).
-/// Where increments grow although the Jacobian is that of the last iterate, the iterate was a
-/// step too far: it is taken back and made by half (Deuflhard's natural monotonicity).
+/// A Jacobian is kept, also from step to step, while the increments fall by `slow` or more a sweep. If it costs as much
+/// as 16 sweeps and more (for 24 stages it may be sixty, for 3 seven), it is kept while they fall so fast that those
+/// left cost less than a new one. Then between two evaluations each correction adds what it shows of the Jacobian by an
+/// update of rank one (Broyden's good one, in the form of corrections: Kelley, Iterative Methods for Linear and
+/// Nonlinear Equations, 1995, section 7.3). Where increments grow although the Jacobian is that of the last iterate,
+/// the iterate was a step too far: it is taken back and made by half (Deuflhard's natural monotonicity).
 ///
 /// The iteration starts from the extrapolation of the last steps' solutions, or if that leads nowhere (and in the first
 /// step) from the constant v = p0, or from the solution of a step half as long. The stage equations may have several
@@ -109,9 +109,10 @@ class SimplifiedNewton {
   bool usable_ = false;  ///< the Jacobian
   StageUnknowns<S> x_;
   StageResidual<S> residual_;
-  Matrix<S> momentum_;                  ///< residual before it is solved for
-  StageUnknowns<S> start_;              ///< gamma and lambda of the iteration's start, psi and zeta there
-  std::vector<StageResidual<S>> kept_;  ///< corrections since the Jacobian was evaluated, or the iteration began
+  Matrix<S> momentum_;      ///< residual before it is solved for
+  StageUnknowns<S> start_;  ///< gamma and lambda of the iteration's start, psi and zeta there
+  std::vector<StageResidual<S>>
+      kept_;  ///< corrections since the Jacobian, if it is expensive, was evaluated or the iteration began
   std::vector<S> squares_;              ///< of their size
   std::size_t known_ = 0;               ///< of them
   StageResidual<S> base_, correction_;  ///< an iterate (gamma, h lambda) and the step from it
