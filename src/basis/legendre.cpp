@@ -54,11 +54,32 @@ Matrix<S> legendre_integrals(const Vector<S>& c, int count) {
   return integrals;
 }
 
+template <Scalar S>
+Matrix<S> legendre_shift(int count) {
+  // (j + 1) L_{j+1} = (2 j + 1) x L_j - j L_{j-1} at x = 2 c + 1 = (2 c - 1) + 2, where (2 c - 1) L_i is
+  // ((i + 1) L_{i+1} + i L_{i-1}) / (2 i + 1), for polynomials L with L(1) = 1.
+  Matrix<S> T = Matrix<S>::Zero(count, count);
+  if (count > 0) T(0, 0) = 1;
+  for (int j = 0; j + 1 < count; ++j)
+    for (int i = 0; i <= j + 1; ++i) {
+      S shifted = 2 * T(i, j);
+      if (i > 0) shifted += S(i) / (2 * i - 1) * T(i - 1, j);
+      if (i < j) shifted += S(i + 1) / (2 * i + 3) * T(i + 1, j);
+      S next = (2 * j + 1) * shifted;
+      if (j > 0) next -= j * T(i, j - 1);
+      T(i, j + 1) = next / (j + 1);
+    }
+  for (int j = 0; j < count; ++j)
+    for (int i = 0; i < j; ++i) T(i, j) *= sqrt(S(2 * j + 1) / (2 * i + 1));
+  return T;
+}
+
 #define HBVM_DEFINE(S)                                             \
   template Matrix<S> legendre_values<S>(const Vector<S>&, int);    \
   template Matrix<S> legendre_integrals<S>(const Vector<S>&, int); \
   template S xi<S>(int);                                           \
-  template Matrix<S> X_matrix<S>(int);
+  template Matrix<S> X_matrix<S>(int);                             \
+  template Matrix<S> legendre_shift<S>(int);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "linear/limb_sum.hpp"
+
 namespace hbvm {
 namespace {
-
-constexpr long limb_bits = GMP_NUMB_BITS;
-/// From about here on mpfr_mul, which computes the upper half of a product alone, is as fast.
-constexpr long max_limbs = 24;
 
 long limbs_of(mpfr_srcptr x) { return (mpfr_get_prec(x) + limb_bits - 1) / limb_bits; }
 const mp_limb_t* digits_of(mpfr_srcptr x) { return static_cast<const mp_limb_t*>(mpfr_custom_get_significand(x)); }
@@ -60,20 +58,7 @@ bool dot(mpfr_ptr r, const Mpfr* x, long x_stride, const Mpfr* y, long y_stride,
       mpn_sub(sum, sum, width, top, kept);
   }
 
-  const bool negative = sum[width - 1] >> (limb_bits - 1) != 0;
-  if (negative) mpn_neg(sum, sum, width);
-  long used = width;
-  while (used > 0 && sum[used - 1] == 0) --used;
-  if (used == 0) {
-    mpfr_set_zero(r, 1);
-    return true;
-  }
-  const auto leading = static_cast<unsigned>(__builtin_clzl(sum[used - 1]));
-  if (leading != 0) mpn_lshift(sum, sum, used, leading);
-  const mpfr_exp_t exponent = largest - limb_bits * (width - 1 - used) - static_cast<long>(leading);
-  mpfr_t view;
-  mpfr_custom_init_set(view, negative ? -MPFR_REGULAR_KIND : MPFR_REGULAR_KIND, exponent, used * limb_bits, sum);
-  mpfr_set(r, view, MPFR_RNDN);
+  set_limb_sum(r, sum, width, largest);
   return true;
 }
 

@@ -1,6 +1,7 @@
 #include "hbvm/linear/parity_matrix.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "hbvm/scalar/in_place.hpp"
 
@@ -15,7 +16,7 @@ ParityMatrix<S>::ParityMatrix(const Matrix<S>& a, Nodes nodes, First first)
       first_odd_(1 - first_even_),
       mirrored_(find_mirrored(a)) {
   if (!mirrored_) {
-    whole_ = a;
+    whole_ = Part(a);
     return;
   }
   const Index half = n_ / 2, with_middle = n_ - half;
@@ -32,8 +33,8 @@ ParityMatrix<S>::ParityMatrix(const Matrix<S>& a, Nodes nodes, First first)
       }
     return result;
   };
-  even_ = part(first_even_, evens, with_middle);
-  odd_ = part(first_odd_, odds, half);
+  even_ = Part(part(first_even_, evens, with_middle));
+  odd_ = Part(part(first_odd_, odds, half));
   even_half_.resize(with_middle);
   odd_half_.resize(half);
   turns_.resize(std::max(evens, odds));
@@ -63,15 +64,34 @@ bool ParityMatrix<S>::find_mirrored(const Matrix<S>& a) const {
 }
 
 template <Scalar S>
-void ParityMatrix<S>::take_turns(S* r, Index first, const Matrix<S>& a, const S* x) {
-  set_times(turns_.data(), a, x, 1);
-  for (Index i = 0; i < a.rows(); ++i) set(r[first + 2 * i], turns_[i]);
+ParityMatrix<S>::Part::Part(Matrix<S> matrix) : a(std::move(matrix)) {
+  // To bring the vector to one unit takes as long as to multiply it by three rows.
+  constexpr Index small = 16;
+  if constexpr (std::same_as<S, Mpfr>)
+    if (a.size() >= small) aligned = AlignedMatrix(a);
+}
+
+template <Scalar S>
+void ParityMatrix<S>::Part::times(S* r, const S* x, Index stride) {
+  if constexpr (std::same_as<S, Mpfr>)
+    if (aligned.times(r, x, stride)) return;
+  set_times(r, a, x, stride);
+}
+
+template <Scalar S>
+void ParityMatrix<S>::take_turns(S* r, Index first, Part& part, const S* x) {
+  part.times(turns_.data(), x, 1);
+  for (Index i = 0; i < part.a.rows(); ++i) set(r[first + 2 * i], turns_[i]);
 }
 
 template <Scalar S>
 void ParityMatrix<S>::times(Matrix<S>& c, const Matrix<S>& b) {
   if (!mirrored_) {
-    product(c, whole_, b);
+    if (c.rows() != whole_.a.rows() || c.cols() != b.cols()) c.resize(whole_.a.rows(), b.cols());
+    if constexpr (std::same_as<S, Mpfr>)
+      for (Index j = 0; j < b.cols(); ++j) whole_.times(&c(0, j), &b(0, j), 1);
+    else
+      product(c, whole_.a, b);
     return;
   }
   const Index half = n_ / 2, rows = nodes_ == Nodes::rows ? n_ : functions_, inner = b.rows(), columns = b.cols();
@@ -82,8 +102,8 @@ void ParityMatrix<S>::times(Matrix<S>& c, const Matrix<S>& b) {
     S* const out = c.data() + j * rows;
     const S* const x = b.data() + j * inner;
     if (nodes_ == Nodes::rows) {
-      set_times(even, even_, x + first_even_, 2);
-      set_times(odd, odd_, x + first_odd_, 2);
+      even_.times(even, x + first_even_, 2);
+      odd_.times(odd, x + first_odd_, 2);
       for (Index i = 0; i < half; ++i) {
         set_sum(out[i], even[i], odd[i]);
         set_difference(out[n_ - 1 - i], even[i], odd[i]);
@@ -108,11 +128,11 @@ OperationCounts ParityMatrix<S>::operations(Index columns) const {
     if (a.size() > 0) counts.add_dots(columns * a.rows(), a.cols());
   };
   if (!mirrored_) {
-    add(whole_);
+    add(whole_.a);
     return counts;
   }
-  add(even_);
-  add(odd_);
+  add(even_.a);
+  add(odd_.a);
   counts.add(Op::add, columns * (n_ / 2));
   counts.add(Op::subtract, columns * (n_ / 2));
   return counts;

@@ -1,10 +1,26 @@
 #include "hbvm/linear/product.hpp"
 
 #include "hbvm/linear/arrays.hpp"
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "linear/mpfr_dot.hpp"
 
 namespace hbvm {
+namespace {
+
+/// r = sum_l x_l a_l, column by column of `rows` entries.
+template <Scalar S, class Rows, class Terms>
+void add_columns(S* r, Rows rows, const S* a, Terms inner, const S* x, Index x_stride) {
+  S& t = scratch<S>();
+  for (Index i = 0; i < rows; ++i) set_product(r[i], a[i], x[0]);
+  for (Index l = 1; l < inner; ++l) {
+    const S* const column = a + l * rows;
+    const S& factor = x[l * x_stride];
+    for (Index i = 0; i < rows; ++i) add_product(r[i], column[i], factor, t);
+  }
+}
+
+}  // namespace
 
 template <Scalar S>
 void set_times(S* r, const Matrix<S>& a, const S* x, Index x_stride) {
@@ -18,19 +34,22 @@ void set_times(S* r, const Matrix<S>& a, const S* x, Index x_stride) {
     while (i < rows && dot(raw(r[i]), a.data() + i, rows, x, x_stride, inner)) ++i;
     if (i == rows) return;
   }
-  S& t = scratch<S>();
-  for (Index i = 0; i < rows; ++i) set_product(r[i], a.data()[i], x[0]);
-  for (Index l = 1; l < inner; ++l) {
-    const S* const column = a.data() + l * rows;
-    const S& factor = x[l * x_stride];
-    for (Index i = 0; i < rows; ++i) add_product(r[i], column[i], factor, t);
-  }
+  with_constant_count<S>(rows, [&](auto count) { add_columns(r, count, a.data(), inner, x, x_stride); });
 }
 
 template <Scalar S>
 void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
   const Index rows = a.rows(), inner = a.cols(), columns = b.cols();
   if (c.rows() != rows || c.cols() != columns) c.resize(rows, columns);
+  if constexpr (std::same_as<S, double>) {
+    if (inner == 0) return set_zero(c);
+    return with_constant_count<S>(rows, [&](auto count) {
+      with_constant_count<S>(inner, [&](auto terms) {
+        for (Index j = 0; j < columns; ++j)
+          add_columns(c.data() + j * count, count, a.data(), terms, b.data() + j * terms, 1);
+      });
+    });
+  }
   for (Index j = 0; j < columns; ++j) set_times(c.data() + j * rows, a, b.data() + j * inner, 1);
 }
 

@@ -3,9 +3,28 @@
 #include <algorithm>
 #include <set>
 
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
+
+template <Scalar S>
+ConstraintGradient<S>::Pattern::Pattern(Index first_column, std::vector<Index> ascending)
+    : first(first_column), coordinates(std::move(ascending)) {
+  for (const Index coordinate : coordinates) {
+    if (!runs.empty() && coordinate == runs.back().coordinate + runs.back().count)
+      ++runs.back().count;
+    else
+      runs.push_back({coordinate, 1});
+  }
+}
+
+template <Scalar S>
+Index ConstraintGradient<S>::Coupling::terms() const {
+  Index sum = 0;
+  for (const Run& run : runs) sum += run.count;
+  return sum;
+}
 
 template <Scalar S>
 Index ConstraintGradient<S>::Pattern::column(Index coordinate) const {
@@ -18,7 +37,7 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
     : problem_(problem), lanes_(lanes), x_(lanes, problem.dimension), y_(lanes, problem.dimension) {
   Index columns = 0, weighted_columns = 0;
   for (const Constraint<S>& constraint : problem.constraints) {
-    patterns_.push_back({columns, coordinates(constraint, problem.dimension)});
+    patterns_.emplace_back(columns, coordinates(constraint, problem.dimension));
     const std::vector<Index>& own = patterns_.back().coordinates;
     columns += static_cast<Index>(own.size());
     // M^-1 spreads a gradient over the whole of each full block that it touches.
@@ -28,7 +47,7 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
       if (!block.full || touched == reached.end() || *touched >= block.offset + block.size) continue;
       for (Index j = 0; j < block.size; ++j) reached.insert(block.offset + j);
     }
-    weighted_patterns_.push_back({weighted_columns, {reached.begin(), reached.end()}});
+    weighted_patterns_.emplace_back(weighted_columns, std::vector<Index>(reached.begin(), reached.end()));
     weighted_columns += static_cast<Index>(reached.size());
     std::visit(
         [&]<class Form>(const Form& form) {
@@ -41,14 +60,21 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
   weighted_ = Matrix<S>::Zero(lanes, weighted_columns);
 
   for (std::size_t a = 0; a < patterns_.size(); ++a) {
-    std::visit([&](const auto& gradient) { gradient.begin(target(a, nullptr)); }, gradients_[a]);
+    std::visit([&](const auto& gradient) { gradient.begin(target(a, nullptr, lanes)); }, gradients_[a]);
     for (std::size_t b = 0; b < weighted_patterns_.size(); ++b) {
       Coupling pair{static_cast<Index>(a), static_cast<Index>(b), {}};
-      for (const Index coordinate : patterns_[a].coordinates)
-        if (std::binary_search(weighted_patterns_[b].coordinates.begin(), weighted_patterns_[b].coordinates.end(),
-                               coordinate))
-          pair.terms.emplace_back(patterns_[a].column(coordinate), weighted_patterns_[b].column(coordinate));
-      if (!pair.terms.empty()) couplings_.push_back(std::move(pair));
+      for (const Index coordinate : patterns_[a].coordinates) {
+        if (!std::binary_search(weighted_patterns_[b].coordinates.begin(), weighted_patterns_[b].coordinates.end(),
+                                coordinate))
+          continue;
+        const Index left = patterns_[a].column(coordinate), right = weighted_patterns_[b].column(coordinate);
+        if (!pair.runs.empty() && left == pair.runs.back().left + pair.runs.back().count &&
+            right == pair.runs.back().right + pair.runs.back().count)
+          ++pair.runs.back().count;
+        else
+          pair.runs.push_back({left, right, 1});
+      }
+      if (!pair.runs.empty()) couplings_.push_back(std::move(pair));
     }
   }
 }
@@ -59,14 +85,15 @@ void ConstraintGradient<S>::prepare_weighing(const Pattern& from, const Pattern&
     const auto first = std::lower_bound(from.coordinates.begin(), from.coordinates.end(), block.offset);
     const auto last = std::lower_bound(first, from.coordinates.end(), block.offset + block.size);
     if (!block.full) {
-      for (auto l = first; l != last; ++l)
-        weighings_.push_back({to.column(*l), from.column(*l), true, block.mass == 1 ? nullptr : &block.inverse_mass});
+      if (first != last)
+        weighings_.push_back({to.column(*first), from.column(*first), last - first, true,
+                              block.mass == 1 ? nullptr : &block.inverse_mass});
       continue;
     }
     for (Index j = 0; first != last && j < block.size; ++j)
       for (auto l = first; l != last; ++l)
         weighings_.push_back(
-            {to.column(block.offset + j), from.column(*l), l == first, &block.W(j, *l - block.offset)});
+            {to.column(block.offset + j), from.column(*l), 1, l == first, &block.W(j, *l - block.offset)});
   }
 }
 
@@ -81,16 +108,23 @@ void ConstraintGradient<S>::update(Lanes<const S> q, Matrix<S>& g) {
 }
 
 template <Scalar S>
-GradientTarget<S> ConstraintGradient<S>::target(std::size_t a, S* g) {
-  return {lanes_, values_.data() + patterns_[a].first * lanes_, g, x_, y_, t_};
+template <class Count>
+GradientTarget<S, Count> ConstraintGradient<S>::target(std::size_t a, S* g, Count lanes) {
+  return {lanes, values_.data() + patterns_[a].first * lanes, g, x_, y_, t_};
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::update_all(Lanes<const S> q, Matrix<S>* g) {
-  for (std::size_t a = 0; a < patterns_.size(); ++a) {
-    const GradientTarget<S> to = target(a, g ? g->data() + static_cast<Index>(a) * lanes_ : nullptr);
-    std::visit([&](const auto& gradient) { gradient.update(q, to); }, gradients_[a]);
-  }
+  with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
+    for (std::size_t a = 0; a < patterns_.size(); ++a) {
+      const GradientTarget<S, Count> to = target(a, g ? g->data() + static_cast<Index>(a) * lanes : nullptr, lanes);
+      std::visit(
+          [&](const auto& gradient) {
+            gradient.update(Lanes<const S, Count>{q.data, lanes}, to);
+          },
+          gradients_[a]);
+    }
+  });
   weigh();
 }
 
@@ -99,12 +133,13 @@ void ConstraintGradient<S>::weigh() {
   for (const Weighing& w : weighings_) {
     S* const out = weighted_.data() + w.to * lanes_;
     const S* const in = values_.data() + w.from * lanes_;
+    const Index size = w.count * lanes_;
     if (w.factor == nullptr)
-      for (Index i = 0; i < lanes_; ++i) set(out[i], in[i]);
+      for (Index i = 0; i < size; ++i) set(out[i], in[i]);
     else if (w.first)
-      for (Index i = 0; i < lanes_; ++i) set_product(out[i], *w.factor, in[i]);
+      for (Index i = 0; i < size; ++i) set_product(out[i], *w.factor, in[i]);
     else
-      for (Index i = 0; i < lanes_; ++i) add_product(out[i], *w.factor, in[i], t_);
+      for (Index i = 0; i < size; ++i) add_product(out[i], *w.factor, in[i], t_);
   }
 }
 
@@ -129,32 +164,37 @@ OperationCounts ConstraintGradient<S>::operations() const {
 template <Scalar S>
 void ConstraintGradient<S>::transposed_times(Index a, Lanes<const S> v, S* result) {
   const Pattern& pattern = patterns_[static_cast<std::size_t>(a)];
-  const S* column = values_.data() + pattern.first * lanes_;
-  bool first = true;
-  for (const Index coordinate : pattern.coordinates) {
-    const S* const in = v[coordinate];
-    if (first)
-      for (Index i = 0; i < lanes_; ++i) set_product(result[i], column[i], in[i]);
-    else
-      for (Index i = 0; i < lanes_; ++i) add_product(result[i], column[i], in[i], t_);
-    first = false;
-    column += lanes_;
-  }
+  with_constant_count<S>(lanes_, [&](auto lanes) {
+    const S* column = values_.data() + pattern.first * lanes;
+    bool first = true;
+    for (const auto& run : pattern.runs) {
+      const S* in = v[run.coordinate];
+      for (Index c = 0; c < run.count; ++c, column += lanes, in += lanes) {
+        if (first)
+          for (Index i = 0; i < lanes; ++i) set_product(result[i], column[i], in[i]);
+        else
+          for (Index i = 0; i < lanes; ++i) add_product(result[i], column[i], in[i], t_);
+        first = false;
+      }
+    }
+  });
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::add_times(const std::vector<Pattern>& patterns, const Matrix<S>& values,
                                       const Matrix<S>& lambda, Lanes<S> out, S& t) {
-  const Index lanes = values.rows();
-  for (std::size_t a = 0; a < patterns.size(); ++a) {
-    const S* const multiplier = lambda.data() + static_cast<Index>(a) * lanes;
-    const S* column = values.data() + patterns[a].first * lanes;
-    for (const Index coordinate : patterns[a].coordinates) {
-      S* const sum = out[coordinate];
-      for (Index i = 0; i < lanes; ++i) add_product(sum[i], column[i], multiplier[i], t);
-      column += lanes;
+  with_constant_count<S>(values.rows(), [&](auto lanes) {
+    const S* column = values.data();
+    const S* multiplier = lambda.data();
+    for (const Pattern& pattern : patterns) {
+      for (const auto& run : pattern.runs) {
+        S* sum = out[run.coordinate];
+        for (Index c = 0; c < run.count; ++c, column += lanes, sum += lanes)
+          for (Index i = 0; i < lanes; ++i) add_product(sum[i], column[i], multiplier[i], t);
+      }
+      multiplier += lanes;
     }
-  }
+  });
 }
 
 template <Scalar S>
@@ -169,19 +209,23 @@ void ConstraintGradient<S>::add_weighted_times(const Matrix<S>& lambda, Lanes<S>
 
 template <Scalar S>
 void ConstraintGradient<S>::coupling(const Coupling& pair, const ConstraintGradient& right, S* result) {
-  bool first = true;
-  for (const auto& [column, weighted_column] : pair.terms) {
-    const S* const x = values_.data() + column * lanes_;
-    const S* const y = right.weighted_.data() + weighted_column * lanes_;
-    for (Index j = 0; j < lanes_; ++j) {
-      S* const out = result + j * lanes_;
-      if (first)
-        for (Index i = 0; i < lanes_; ++i) set_product(out[i], x[i], y[j]);
-      else
-        for (Index i = 0; i < lanes_; ++i) add_product(out[i], x[i], y[j], t_);
+  with_constant_count<S>(lanes_, [&](auto lanes) {
+    bool first = true;
+    for (const auto& run : pair.runs) {
+      const S* x = values_.data() + run.left * lanes;
+      const S* y = right.weighted_.data() + run.right * lanes;
+      for (Index c = 0; c < run.count; ++c, x += lanes, y += lanes) {
+        S* out = result;
+        for (Index j = 0; j < lanes; ++j, out += lanes) {
+          if (first)
+            for (Index i = 0; i < lanes; ++i) set_product(out[i], x[i], y[j]);
+          else
+            for (Index i = 0; i < lanes; ++i) add_product(out[i], x[i], y[j], t_);
+        }
+        first = false;
+      }
     }
-    first = false;
-  }
+  });
 }
 
 template <Scalar S>

@@ -66,16 +66,17 @@ void MassMatrix<S>::add_full(const Matrix<S>& M) {
 template <Scalar S>
 void MassMatrix<S>::velocity(Lanes<const S> p, Lanes<S> v) const {
   for (const Block& block : blocks_) {
-    for (Index j = 0; j < block.size; ++j) {
-      S* const out = v[block.offset + j];
-      const S* const in = p[block.offset + j];
-      if (block.full)
+    S* const out = v[block.offset];
+    const S* const in = p[block.offset];
+    const Index size = block.size * p.count;
+    if (block.full) {
+      for (Index j = 0; j < block.size; ++j)
         for (Index i = 0; i < p.count; ++i)
-          set_dot(out[i], &block.W(0, j), 1, p[block.offset] + i, p.count, block.size);  // W is symmetric
-      else if (block.mass == 1)
-        for (Index i = 0; i < p.count; ++i) set(out[i], in[i]);
-      else
-        for (Index i = 0; i < p.count; ++i) set_product(out[i], block.inverse_mass, in[i]);
+          set_dot(out[j * p.count + i], &block.W(0, j), 1, in + i, p.count, block.size);  // W is symmetric
+    } else if (block.mass == 1) {
+      for (Index i = 0; i < size; ++i) set(out[i], in[i]);
+    } else {
+      for (Index i = 0; i < size; ++i) set_product(out[i], block.inverse_mass, in[i]);
     }
   }
 }

@@ -75,7 +75,7 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method)
   if (!fits_double(problem)) return;
   rounded_problem_.emplace(in_double(problem));
   rounded_method_.emplace(make_hbvm<double>(method.k, method.s));
-  rounded_.emplace(*rounded_problem_, *rounded_method_);
+  rounded_.emplace(*rounded_problem_, *rounded_method_, SimplifiedNewton<double>::Wanted::start);
   rounded_q0_.resize(problem.m());
   rounded_p0_.resize(problem.m());
   r_ = {x_.gamma, x_.lambda};
@@ -92,9 +92,9 @@ void Newton<S>::make_rungs() {
     // Limbs of 64 bits decide the cost: from two on, a sixteenth more from rung to rung.
     constexpr long limb = 64;
     for (long limbs = 2; limb * limbs < bits_; limbs = std::max(limbs + 1, limbs * 17 / 16)) {
-      // The digits whose bits, with what Boost adds, fit in the limbs.
-      const auto digits =
-          static_cast<unsigned>(static_cast<double>(limb * limbs - 4) * std::numbers::ln2 / std::numbers::ln10);
+      // The digits whose bits fit in the limbs, with what Boost adds and what the products need beside.
+      const auto digits = static_cast<unsigned>(static_cast<double>(limb * limbs - 4 - AlignedMatrix::guard_bits) *
+                                                std::numbers::ln2 / std::numbers::ln10);
       const PrecisionScope scope(digits);
       rungs_.push_back({digits, mpfr_working_bits(), std::make_unique<Level>(problem_, method_)});
     }

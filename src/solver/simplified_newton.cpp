@@ -31,9 +31,10 @@ Vector<S> first_row_of_inverse(const Matrix<S>& X) {
 }  // namespace
 
 template <Scalar S>
-SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method)
+SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method, Wanted wanted)
     : problem_(problem),
       method_(method),
+      wanted_(wanted),
       equations_(problem, method),
       jacobian_(problem, method),
       x_(equations_.make_unknowns()),
@@ -48,6 +49,7 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
       sequence_(x_.gamma.size() + x_.lambda.size()),
       step_change_(problem.m()),
       extrapolation_(method.s, problem.m() + problem.nu()),
+      continuation_(method, problem.m(), problem.nu()),
       position_scale_(problem),
       positions_(problem.m()),
       rule_(problem.m(), roundings_of_a_sweep(problem, method)),
@@ -77,7 +79,7 @@ SolverCounts SimplifiedNewton<S>::counts() const {
   SolverCounts all{equations_.effect_counts(), equations_.part_counts()};
   const std::vector<PartCount>& jacobian = jacobian_.part_counts();
   all.parts.insert(all.parts.end(), jacobian.begin(), jacobian.end());
-  all.parts.insert(all.parts.end(), {start_count_, increment_count_});
+  all.parts.insert(all.parts.end(), {start_count_, continuation_.part_count(), increment_count_});
   return all;
 }
 
@@ -86,7 +88,7 @@ std::vector<PartCount> SimplifiedNewton<S>::counts_in_double() const {
   std::vector<PartCount> parts{equations_count_};
   const std::vector<PartCount>& jacobian = jacobian_.part_counts();
   parts.insert(parts.end(), jacobian.begin(), jacobian.end());
-  parts.insert(parts.end(), {start_count_, increment_count_});
+  parts.insert(parts.end(), {start_count_, continuation_.part_count(), increment_count_});
   for (PartCount& part : parts) part.in_double = true;
   return parts;
 }
@@ -100,6 +102,7 @@ void SimplifiedNewton<S>::measure_time() {
 template <Scalar S>
 void SimplifiedNewton<S>::measure_time_in_double() {
   timed_ = true;
+  continuation_.measure_time();
   jacobian_.measure_time();
 }
 
@@ -114,6 +117,7 @@ long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
   if (from.h != h_) {
     set(h_, from.h);
     extrapolation_.clear();
+    continuation_.clear();
     usable_ = false;
   }
   begin(from, h_);
@@ -144,6 +148,7 @@ long SimplifiedNewton<S>::solve(const StepStart<S>& from) {
   set(sequence_, x_.gamma);
   for (Index i = 0; i < x_.lambda.size(); ++i) set(sequence_[x_.gamma.size() + i], x_.lambda.data()[i]);
   extrapolation_.add(sequence_.data());
+  continuation_.keep(x_);
   return sweeps;
 }
 
@@ -215,8 +220,27 @@ bool SimplifiedNewton<S>::multipliers_run_wild() const {
 }
 
 template <Scalar S>
+bool SimplifiedNewton<S>::continuation_is_nearer() const {
+  // Errors of the momenta of some body, over their size.
+  long continued = exponent_of_zero, extrapolated = exponent_of_zero;
+  for (const auto& block : problem_.mass.blocks()) {
+    long size = exponent_of_zero, a = exponent_of_zero, b = exponent_of_zero;
+    for (Index j = block.offset; j < block.offset + block.size; ++j) {
+      size = std::max(size, continuation_.size_exponent(j));
+      a = std::max(a, continuation_.error_exponent(j));
+      b = std::max(b, extrapolation_.error_exponent(j));
+    }
+    if (size == exponent_of_zero) continue;
+    continued = std::max(continued, a - size);
+    extrapolated = std::max(extrapolated, b - size);
+  }
+  return continued < extrapolated;
+}
+
+template <Scalar S>
 void SimplifiedNewton<S>::prepare(Start start, const Vector<S>& p0) {
   if (start == Start::previous) {
+    if (continuation_is_nearer()) return continuation_.predict(x_);
     extrapolation_.predict(sequence_.data());
     for (Index i = 0; i < x_.gamma.size(); ++i) set(x_.gamma.data()[i], sequence_[i]);
     for (Index i = 0; i < x_.lambda.size(); ++i) set(x_.lambda.data()[i], sequence_[x_.gamma.size() + i]);
@@ -459,14 +483,17 @@ long SimplifiedNewton<S>::iterate() {
     set(correction_.momentum, residual_.momentum);
     set(correction_.constraint, residual_.constraint);
     move_from_base(h, S(1));
-    keep_correction(change_ <= 16 * epsilon<S>());
+    const bool is_rounding = change_ <= 16 * epsilon<S>();
+    keep_correction(is_rounding);
 
     // With the Jacobian of the iterate itself, increments that do not fall are rounding, however much an
     // ill-conditioned problem magnifies it; but half of the digits must be left.
     const bool falls = 2 * change_ < last_;
     waiting = last_ > 0 && !falls && evaluate ? waiting + 1 : 0;
     const bool floor = waiting >= 3 && change_ <= root_epsilon_;
-    if ((verdict == Verdict::converged || floor) && residual_is_small()) {
+    // Of few stages the sweeps that make a start as good as it gets cost nothing beside one in more digits.
+    const bool enough = wanted_ == Wanted::start && is_rounding && !kept_.empty();
+    if ((verdict == Verdict::converged || floor || enough) && residual_is_small()) {
       equations_.changes(x_, step_change_);
       add_change_of_momentum(momentum_, residual_.momentum, step_change_.p_rest);
       return sweeps;

@@ -1,6 +1,7 @@
 #include "hbvm/solver/stage_equations.hpp"
 
 #include "hbvm/linear/arrays.hpp"
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -92,7 +93,7 @@ void StageEquations<S>::describe_parts() {
   parts_[projection].per_call += exact_sum;
   parts_[gradients].per_call = gradient_.operations();
   for (const auto& pair : gradient_.couplings()) {
-    parts_[matrix].per_call.add_dots(s * s, static_cast<Index>(pair.terms.size()));
+    parts_[matrix].per_call.add_dots(s * s, pair.terms());
     parts_[matrix].per_call.add(Op::multiply, s * s);
   }
   parts_[factors].per_call = system_.factor_operations();  // none of a single multiplier at a single stage
@@ -165,8 +166,11 @@ void StageEquations<S>::move(const Matrix<S>& gamma) {
 template <Scalar S>
 void StageEquations<S>::positions(Parity& integrals, Matrix<S>& u) {
   integrals.times(u, h_velocity_);
-  for (Index j = 0; j < u.cols(); ++j)
-    for (Index i = 0; i < u.rows(); ++i) set_sum(u(i, j), u(i, j), middle_[j]);
+  with_constant_count<S>(u.rows(), [&](auto rows) {
+    S* x = u.data();
+    for (Index j = 0; j < u.cols(); ++j, x += rows)
+      for (Index i = 0; i < rows; ++i) set_sum(x[i], x[i], middle_[j]);
+  });
 }
 
 template <Scalar S>
@@ -303,20 +307,25 @@ void StageEquations<S>::momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Mat
 
 template <Scalar S>
 void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
-  const Index s = method_.s;
-  const Matrix<S>& X = method_.X_s;
   auto pulled = pulled_.begin();
   set_difference(w_, psi, zeta);
-  for (Index j = 0; j < gamma.cols(); ++j) {
-    for (Index i = 0; i < s; ++i) {
-      S& sum = gamma(i, j);
-      if (i == 0)
-        set_product(sum, X(0, 0), w_(0, j));
-      else
-        set_product(sum, X(i, i - 1), w_(i - 1, j));
-      if (i + 1 < s) add_product(sum, X(i, i + 1), w_(i + 1, j), t_);
-      set_product(sum, sum, h_);
+  with_constant_count<S>(method_.s, [&](auto s) {
+    const S* const X = method_.X_s.data();
+    const auto at = [&](Index i, Index j) { return i + j * s; };
+    for (Index n = 0; n < gamma.size(); n += s) {
+      const S* const w = w_.data() + n;
+      for (Index i = 0; i < s; ++i) {
+        S& sum = gamma.data()[n + i];
+        if (i == 0)
+          set_product(sum, X[0], w[0]);
+        else
+          set_product(sum, X[at(i, i - 1)], w[i - 1]);
+        if (i + 1 < s) add_product(sum, X[at(i, i + 1)], w[i + 1], t_);
+        set_product(sum, sum, h_);
+      }
     }
+  });
+  for (Index j = 0; j < gamma.cols(); ++j) {
     if (pulled == pulled_.end() || *pulled != j) {
       set_sum(gamma(0, j), gamma(0, j), (*p_carry_)[j]);
       set_sum(gamma(0, j), gamma(0, j), (*p0_)[j]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -24,25 +25,14 @@ S least_number() {
 
 template <Scalar S>
 StoppingRule<S>::StoppingRule(Index coordinates, long roundings, int least_rate_bits)
-    : size_(coordinates),
-      // A rate of 0.95 a sweep, from a start with no right digit.
+    :  // A rate of 0.95 a sweep, from a start with no right digit.
       max_sweeps_(100 + 14 * significand_bits<S>()),
       bound_(S(roundings) * epsilon<S>()),
       negligible_(power_of_two<S>(-12) * epsilon<S>()),
       tiny_(S(roundings) * least_number<S>()),
       least_rate_(power_of_two<S>(-least_rate_bits)),
       coarse_bound_(power_of_two<S>(-10)),
-      change_(Vector<S>::Zero(coordinates)),
-      last_(change_),
-      least_(change_),
-      expected_(change_),
-      terms_(change_),
-      scale_(change_),
-      positions_(change_),
-      waiting_(static_cast<std::size_t>(coordinates)),
-      risen_(waiting_),
-      vanishing_(waiting_),
-      settled_(static_cast<std::size_t>(coordinates)) {}
+      coordinates_(static_cast<std::size_t>(coordinates)) {}
 
 template <Scalar S>
 void StoppingRule<S>::start(const Vector<S>& p0, const Vector<S>& positions) {
@@ -52,12 +42,15 @@ void StoppingRule<S>::start(const Vector<S>& p0, const Vector<S>& positions) {
   p0_ = &p0;
   set(kappa_, one_);
   set(rate_, one_);
-  for (Index j = 0; j < size_; ++j) {
-    set(positions_[j], positions[j]);
-    set_zero(scale_[j]);
-    set_zero(terms_[j]);
-    set_zero(change_[j]);
+  for (Index j = 0; j < p0.size(); ++j) {
+    Coordinate& x = at(j);
+    set(x.position, positions[j]);
+    set_zero(x.scale);
+    set_zero(x.terms);
+    set_zero(x.change);
+    set_bounds(x);
   }
+  finite_ = true;
 }
 
 template <Scalar S>
@@ -75,42 +68,58 @@ void StoppingRule<S>::set_condition(double kappa) {
 
 template <Scalar S>
 void StoppingRule<S>::show_change(const Matrix<S>& now, const Matrix<S>& before, const S* factor) {
-  for (Index j = 0; j < size_; ++j)
-    for (Index i = 0; i < now.rows(); ++i) {
-      set_difference(t_, now(i, j), before(i, j));
-      if (factor) set_product(t_, t_, *factor);
-      raise_magnitude(change_[j], t_);
+  with_constant_count<S>(now.rows(), [&](auto rows) {
+    const S* a = now.data();
+    const S* b = before.data();
+    for (Coordinate& x : coordinates_) {
+      for (Index i = 0; i < rows; ++i) {
+        set_difference(t_, a[i], b[i]);
+        if (factor) set_product(t_, t_, *factor);
+        raise_magnitude(x.change, t_);
+      }
+      a += rows;
+      b += rows;
     }
+  });
 }
 
 template <Scalar S>
 void StoppingRule<S>::show_change(const Matrix<S>& change) {
-  for (Index j = 0; j < size_; ++j)
-    for (Index i = 0; i < change.rows(); ++i) raise_magnitude(change_[j], change(i, j));
+  const S* a = change.data();
+  for (Coordinate& x : coordinates_)
+    for (Index i = 0; i < change.rows(); ++i) raise_magnitude(x.change, *a++);
 }
 
 template <Scalar S>
 void StoppingRule<S>::show_terms(const Matrix<S>& terms, const S* factor) {
   terms_shown_ = true;
-  for (Index j = 0; j < size_; ++j)
-    for (Index i = 0; i < terms.rows(); ++i) {
-      if (factor) {
-        set_product(t_, terms(i, j), *factor);
-        raise_magnitude(terms_[j], t_);
-      } else {
-        raise_magnitude(terms_[j], terms(i, j));
+  with_constant_count<S>(terms.rows(), [&](auto rows) {
+    const S* a = terms.data();
+    for (Coordinate& x : coordinates_) {
+      for (Index i = 0; i < rows; ++i) {
+        if (factor) {
+          set_product(t_, a[i], *factor);
+          raise_magnitude(x.terms, t_);
+        } else {
+          raise_magnitude(x.terms, a[i]);
+        }
       }
+      a += rows;
     }
+  });
 }
 
 template <Scalar S>
 void StoppingRule<S>::take_scales() {
   if (!terms_shown_) return;
   terms_shown_ = false;
-  for (Index j = 0; j < size_; ++j) {
-    raise_magnitude(terms_[j], (*p0_)[j]);
-    set(scale_[j], terms_[j]);
-    set_zero(terms_[j]);
+  const S* p0 = p0_->data();
+  for (Coordinate& x : coordinates_) {
+    raise_magnitude(x.terms, *p0++);
+    set(x.scale, x.terms);
+    set_zero(x.terms);
+    set_bounds(x);
+    finite_ = finite_ && is_finite(x.scale);
   }
 }
 
@@ -118,14 +127,14 @@ template <Scalar S>
 void StoppingRule<S>::find_rate() {
   S& now = left_;
   bool known = false;
-  for (Index j = 0; j < size_ && sweeps_ > 1; ++j) {
-    set_rounding(j, t_);
-    if (!exceeds(last_[j], t_)) continue;
-    if (!known) set(now, least_rate_);
-    known = true;
-    set_product(t_, now, last_[j]);
-    if (exceeds(change_[j], t_)) set_quotient(now, change_[j], last_[j]);
-  }
+  if (sweeps_ > 1)
+    for (const Coordinate& x : coordinates_) {
+      if (!exceeds(x.last, x.rounding)) continue;
+      if (!known) set(now, least_rate_);
+      known = true;
+      set_product(t_, now, x.last);
+      if (exceeds(x.change, t_)) set_quotient(now, x.change, x.last);
+    }
   if (!known) {
     if (sweeps_ == 1) set(last_rate_, rate_);
     return;
@@ -136,60 +145,78 @@ void StoppingRule<S>::find_rate() {
 }
 
 template <Scalar S>
-void StoppingRule<S>::set_rounding(Index j, S& bound) const {
-  set_product(bound, exceeds(scale_[j], positions_[j]) ? scale_[j] : positions_[j], bound_);
+void StoppingRule<S>::set_bounds(Coordinate& x) {
+  set_product(x.noise, x.scale, bound_);
+  set_product(x.rounding, exceeds(x.scale, x.position) ? x.scale : x.position, bound_);
+  set_product(x.negligible, x.scale, negligible_);
+  set_product(x.coarse, x.scale, coarse_bound_);
+}
+
+template <Scalar S>
+bool StoppingRule<S>::is_negligible(Coordinate& x) {
+  const bool first = sweeps_ == 1;
+  const bool clean = exceeds(x.change, x.noise);
+  if (first || clean)
+    set(x.expected, x.change);
+  else
+    set_product(x.expected, x.expected, last_rate_);
+  set_product(left_, x.expected, last_rate_);
+  if (!first && !exceeds(x.change, x.negligible) && !exceeds(x.last, x.negligible)) return true;
+  if (exceeds(left_, x.negligible)) return false;
+  if (first || !clean) return true;
+  // A coordinate much smaller than its body's others may have a rate of its own.
+  set_product(left_, last_rate_, x.last);
+  if (!exceeds(x.change, left_)) return true;
+  set_quotient(left_, x.change, x.last);
+  set_product(left_, left_, x.expected);
+  return !exceeds(left_, x.negligible);
+}
+
+template <Scalar S>
+bool StoppingRule<S>::is_settled(Coordinate& x) {
+  const bool first = sweeps_ == 1;
+  const bool negligible = is_negligible(x);
+  set_product(t_, x.rounding, kappa_);
+  const bool rounding = !exceeds(x.change, t_) || !exceeds(x.change, tiny_);
+  if (first) x.risen = 0;
+  set_product(t_, x.least, sixteen_);
+  const bool rises = !first && !rounding && exceeds(x.change, t_);
+  if (rises) ++x.risen;
+  if (first || rises || exceeds(x.least, x.change)) {
+    set(x.least, x.change);
+    x.waiting = 0;
+  } else {
+    ++x.waiting;
+  }
+  if (first || !rounding) {
+    x.vanishing = 0;
+  } else {
+    set_sum(t_, x.change, x.change);
+    x.vanishing = exceeds(x.scale, t_) ? 0 : x.vanishing + 1;
+  }
+  const bool vanishes = x.vanishing >= (exceeds(last_rate_, coarse_bound_) ? 2 : 1);
+  return negligible || (rounding && (x.waiting >= 2 || vanishes || (!first && x.settled)));
 }
 
 template <Scalar S>
 typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
   ++sweeps_;
-  const bool first = sweeps_ == 1;
   take_scales();
   coarse_ = false;
-  for (Index j = 0; j < size_; ++j) {
-    if (!is_finite(change_[j]) || !is_finite(scale_[j])) return Verdict::not_finite;
-    set_product(t_, scale_[j], coarse_bound_);
-    if (exceeds(change_[j], t_)) coarse_ = true;
+  if (!finite_) return Verdict::not_finite;
+  for (const Coordinate& x : coordinates_) {
+    if (!is_finite(x.change)) return Verdict::not_finite;
+    if (exceeds(x.change, x.coarse)) coarse_ = true;
   }
   find_rate();
 
   bool all = true, waiting_long = false;
-  for (Index j = 0; j < size_; ++j) {
-    const auto n = static_cast<std::size_t>(j);
-    set_product(t_, scale_[j], bound_);
-    const bool clean = exceeds(change_[j], t_);
-    set_product(left_, expected_[j], last_rate_);
-    set(expected_[j], first || clean ? change_[j] : left_);
-    set_product(left_, expected_[j], last_rate_);
-    // A coordinate much smaller than its body's others may have a rate of its own.
-    set_product(t_, last_rate_, last_[j]);
-    if (clean && !first && exceeds(change_[j], t_)) {
-      set_quotient(left_, change_[j], last_[j]);
-      set_product(left_, left_, expected_[j]);
-    }
-    set_product(t_, scale_[j], negligible_);
-    const bool negligible = !exceeds(left_, t_) || (!first && !exceeds(change_[j], t_) && !exceeds(last_[j], t_));
-    set_rounding(j, t_);
-    set_product(t_, t_, kappa_);
-    const bool rounding = !exceeds(change_[j], t_) || !exceeds(change_[j], tiny_);
-    if (first) risen_[n] = 0;
-    set_product(t_, least_[j], sixteen_);
-    const bool rises = !first && !rounding && exceeds(change_[j], t_);
-    if (rises) ++risen_[n];
-    if (first || rises || exceeds(least_[j], change_[j])) {
-      set(least_[j], change_[j]);
-      waiting_[n] = 0;
-    } else {
-      ++waiting_[n];
-    }
-    set_sum(t_, change_[j], change_[j]);
-    vanishing_[n] = first || !rounding || exceeds(scale_[j], t_) ? 0 : vanishing_[n] + 1;
-    const bool vanishes = vanishing_[n] >= (exceeds(last_rate_, coarse_bound_) ? 2 : 1);
-    settled_[n] = negligible || (rounding && (waiting_[n] >= 2 || vanishes || (!first && settled_[n])));
-    all = all && settled_[n];
-    waiting_long = waiting_long || (!settled_[n] && waiting_[n] + risen_[n] >= patience);
-    set(last_[j], change_[j]);
-    set_zero(change_[j]);
+  for (Coordinate& x : coordinates_) {
+    x.settled = is_settled(x);
+    all = all && x.settled;
+    waiting_long = waiting_long || (!x.settled && x.waiting + x.risen >= patience);
+    set(x.last, x.change);
+    set_zero(x.change);
   }
   if (all) return Verdict::converged;
   if (waiting_long) return Verdict::stagnant;
@@ -199,26 +226,24 @@ typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
 template <Scalar S>
 long StoppingRule<S>::least_left() const {
   long least = 0;
-  for (Index j = 0; j < size_; ++j)
-    if (expected_[j] != 0)
-      least = std::min(least, binary_exponent(expected_[j]) + binary_exponent(last_rate_) - binary_exponent(scale_[j]));
+  for (const Coordinate& x : coordinates_)
+    if (x.expected != 0)
+      least = std::min(least, binary_exponent(x.expected) + binary_exponent(last_rate_) - binary_exponent(x.scale));
   return least;
 }
 
 template <Scalar S>
 S StoppingRule<S>::relative_change() const {
   S greatest = 0;
-  for (Index j = 0; j < size_; ++j)
-    if (last_[j] != 0) raise_to(greatest, S(last_[j] / scale_[j]));
+  for (const Coordinate& x : coordinates_)
+    if (x.last != 0) raise_to(greatest, S(x.last / x.scale));
   return greatest;
 }
 
 template <Scalar S>
 bool StoppingRule<S>::grows() const {
-  for (Index j = 0; j < size_; ++j)
-    if (!settled_[static_cast<std::size_t>(j)] && (risen_[static_cast<std::size_t>(j)] > 1 || last_[j] > 2 * least_[j]))
-      return true;
-  return false;
+  return std::any_of(coordinates_.begin(), coordinates_.end(),
+                     [](const Coordinate& x) { return !x.settled && (x.risen > 1 || x.last > 2 * x.least); });
 }
 
 template <Scalar S>
@@ -233,12 +258,8 @@ StageFailure StoppingRule<S>::failure(Verdict verdict) const {
 template <Scalar S>
 double StoppingRule<S>::condition_wanted() const {
   double wanted = 1;
-  S bound;
-  for (Index j = 0; j < size_; ++j) {
-    if (settled_[static_cast<std::size_t>(j)]) continue;
-    set_rounding(j, bound);
-    wanted = std::max(wanted, approximately(S(last_[j] / bound)));
-  }
+  for (const Coordinate& x : coordinates_)
+    if (!x.settled) wanted = std::max(wanted, approximately(S(x.last / x.rounding)));
   return wanted;
 }
 

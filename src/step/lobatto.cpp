@@ -125,7 +125,7 @@ void LobattoStepper<S>::describe_parts() {
   stage.add_products(s * gradient_.stored());
   parts_[gradients].per_call = gradient_.operations();
   for (const auto& pair : gradient_.couplings()) {
-    parts_[matrix].per_call.add_dots(s * s, static_cast<Index>(pair.terms.size()));
+    parts_[matrix].per_call.add_dots(s * s, pair.terms());
     parts_[matrix].per_call.add(Op::multiply, (s - 1) * (s - 1));
   }
   parts_[factors].per_call = system_.factor_operations();

@@ -42,6 +42,21 @@ TYPED_TEST(Legendre, IsOrthonormal) {
   }
 }
 
+/// Both sides computed; on the right no number is larger than on the left.
+TYPED_TEST(Legendre, ContinuesBeyondOne) {
+  const Vector<TypeParam> c = this->points(10), later = c.array() + TypeParam(1);
+  const Matrix<TypeParam> T = legendre_shift<TypeParam>(this->count),
+                          beyond = legendre_values<TypeParam>(later, this->count),
+                          sum = legendre_values<TypeParam>(c, this->count).lazyProduct(T);
+  for (int j = 0; j < this->count; ++j) {
+    for (int i = 0; i < c.size(); ++i)
+      EXPECT_LE(magnitude(TypeParam(sum(i, j) - beyond(i, j))), this->tolerance() * T.col(j).maxCoeff())
+          << i << " " << j;
+    EXPECT_LE(magnitude(TypeParam(T(j, j) - 1)), this->tolerance());
+    for (int i = j + 1; i < this->count; ++i) EXPECT_EQ(T(i, j), 0);
+  }
+}
+
 TYPED_TEST(Legendre, HasItsValuesAtTheEndsAndTheMiddle) {
   Vector<TypeParam> c(3);
   c << TypeParam(0), TypeParam(1) / 2, TypeParam(1);

@@ -23,11 +23,16 @@ S xi(int j);
 template <Scalar S>
 Matrix<S> X_matrix(int s);
 
+/// T(i, j), upper triangular, with P_j(1 + c) = sum_{i <= j} P_i(c) T(i, j), by the recurrence in j.
+template <Scalar S>
+Matrix<S> legendre_shift(int count);
+
 #define HBVM_DECLARE(S)                                                   \
   extern template Matrix<S> legendre_values<S>(const Vector<S>&, int);    \
   extern template Matrix<S> legendre_integrals<S>(const Vector<S>&, int); \
   extern template S xi<S>(int);                                           \
-  extern template Matrix<S> X_matrix<S>(int);
+  extern template Matrix<S> X_matrix<S>(int);                             \
+  extern template Matrix<S> legendre_shift<S>(int);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 

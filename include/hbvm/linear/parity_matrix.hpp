@@ -1,5 +1,9 @@
 #pragma once
 
+#include <concepts>
+#include <type_traits>
+
+#include "hbvm/linear/aligned_matrix.hpp"
 #include "hbvm/linear/operation_counts.hpp"
 #include "hbvm/linear/product.hpp"
 
@@ -31,14 +35,21 @@ class ParityMatrix {
  private:
   bool is_even(Index function) const { return (function % 2 == 0) == (first_even_ == 0); }
   bool find_mirrored(const Matrix<S>& a) const;
+  struct NotAligned {};
+  struct Part {
+    Matrix<S> a;
+    std::conditional_t<std::same_as<S, Mpfr>, AlignedMatrix, NotAligned> aligned;
+    explicit Part(Matrix<S> matrix = {});
+    void times(S* r, const S* x, Index stride);
+  };
   /// r_{first + 2 i} = (a x)_i.
-  void take_turns(S* r, Index first, const Matrix<S>& a, const S* x);
+  void take_turns(S* r, Index first, Part& part, const S* x);
 
   Nodes nodes_;
   Index n_, functions_;           ///< numbers of nodes and functions
   Index first_even_, first_odd_;  ///< functions
-  Matrix<S> whole_;               ///< if it is not mirrored
-  Matrix<S> even_, odd_;          ///< those functions at the first half of the nodes, the middle one with the even
+  Part whole_;                    ///< if it is not mirrored
+  Part even_, odd_;               ///< those functions at the first half of the nodes, the middle one with the even
   Vector<S> even_half_, odd_half_, turns_;  ///< scratch
   bool mirrored_ = false;
 };

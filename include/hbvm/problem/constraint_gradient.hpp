@@ -34,7 +34,12 @@ class ConstraintGradient {
   /// grad g_a(q_i)^T M^-1 grad g_b(q_j) is 0 but for these pairs (a, b).
   struct Coupling {
     Index a, b;
-    std::vector<std::pair<Index, Index>> terms;  ///< columns of the stored gradients that meet
+    /// So many columns of the stored gradients, from these on, meet one by one.
+    struct Run {
+      Index left, right, count;
+    };
+    std::vector<Run> runs;
+    Index terms() const;  ///< the sum of the counts
   };
   const std::vector<Coupling>& couplings() const { return couplings_; }
   /// grad g_a of this in lane i with M^-1 grad g_b of `right`, which may be this, in lane j: result(i, j), column by
@@ -47,6 +52,12 @@ class ConstraintGradient {
   struct Pattern {
     Index first = 0;
     std::vector<Index> coordinates;
+    /// So many neighbours among the coordinates, from this one on.
+    struct Run {
+      Index coordinate, count;
+    };
+    std::vector<Run> runs;
+    Pattern(Index first_column, std::vector<Index> ascending);
     Index column(Index coordinate) const;
   };
   /// The coordinates where grad g_a, and M^-1 grad g_a, can be nonzero, and the values there in every lane.
@@ -58,15 +69,16 @@ class ConstraintGradient {
  private:
   static void add_times(const std::vector<Pattern>& patterns, const Matrix<S>& values, const Matrix<S>& lambda,
                         Lanes<S> out, S& t);
-  /// One column of M^-1 grad g: to = factor from, or += if it is not the first; no factor stands for 1.
+  /// So many columns of M^-1 grad g: to = factor from, or += if it is not the first; no factor stands for 1.
   struct Weighing {
-    Index to, from;
+    Index to, from, count;
     bool first;
     const S* factor;
   };
   void prepare_weighing(const Pattern& from, const Pattern& to);
   void update_all(Lanes<const S> q, Matrix<S>* g);
-  GradientTarget<S> target(std::size_t a, S* g);
+  template <class Count>
+  GradientTarget<S, Count> target(std::size_t a, S* g, Count lanes);
   void weigh();
 
   const Problem<S>& problem_;

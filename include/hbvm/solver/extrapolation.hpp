@@ -5,6 +5,7 @@
 #include "hbvm/linear/matrix.hpp"
 #include "hbvm/linear/operation_counts.hpp"
 #include "hbvm/scalar/archive.hpp"
+#include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -50,6 +51,15 @@ class Extrapolation {
       for (Index r = 1; r <= orders_[column]; ++r)
         for (Index n = 0, i = static_cast<Index>(column) * rows_; n < rows_; ++n, ++i)
           set_sum(x[i], x[i], differences_.data()[r * size_ + i]);
+  }
+  /// log2 of the error that the last prediction of a column would have had by its present order.
+  long error_exponent(Index column) const {
+    const Index difference = order(column) + 1;
+    if (difference >= known_) return -exponent_of_zero;
+    long greatest = exponent_of_zero;
+    for (Index i = 0; i < rows_; ++i)
+      greatest = std::max(greatest, binary_exponent(differences_(column * rows_ + i, difference)));
+    return greatest;
   }
   /// What a prediction and an element take at most.
   OperationCounts operations() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hbvm/solver/continuation.hpp"
 #include "hbvm/solver/extrapolation.hpp"
 #include "hbvm/solver/jacobian.hpp"
 #include "hbvm/solver/position_scale.hpp"
@@ -20,7 +21,8 @@ namespace hbvm {
 /// Nonlinear Equations, 1995, section 7.3). Where increments grow although the Jacobian is that of the last iterate,
 /// the iterate was a step too far: it is taken back and made by half (Deuflhard's natural monotonicity).
 ///
-/// The iteration starts from the extrapolation of the last steps' solutions, or if that leads nowhere (and in the first
+/// The iteration starts from the extrapolation of the last steps' solutions, or from the polynomials of the last one,
+/// which are nearer at many stages, or if that leads nowhere (and in the first
 /// step) from the constant v = p0, or from the solution of a step half as long. The stage equations may have several
 /// solutions, of which the one that shrinks to the start with the step is meant: a solution far from its start is
 /// followed from shorter steps as well, and the one found so is taken if they differ.
@@ -30,7 +32,10 @@ namespace hbvm {
 template <Scalar S>
 class SimplifiedNewton {
  public:
-  SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method);
+  /// As a start for more digits a solution is good when increments have come down to what may be rounding, body by
+  /// body; what StoppingRule waits for beyond is that errors of many steps do not add up.
+  enum class Wanted { solution, start };
+  SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& method, Wanted wanted = Wanted::solution);
 
   /// \return the number of residuals
   /// \throws StageFailure
@@ -62,13 +67,15 @@ class SimplifiedNewton {
   void add_change_of_momentum(const Matrix<S>& momentum, const Matrix<S>& correction, Vector<S>& change) const;
 
   void remember(Archive& archive) {
-    archive(h_, extrapolation_, usable_);
+    archive(h_, extrapolation_, continuation_, usable_);
     if (usable_) archive(jacobian_);
   }
 
  private:
   enum class Start { previous, constant, shorter, shortest };
   void prepare(Start start, const Vector<S>& p0);
+  /// Than the extrapolation, by what either expects of its error.
+  bool continuation_is_nearer() const;
   /// Follows the solution from a step 2^-halvings as long, where the constant v = p0 is a good start if it ever is, to
   /// the full one, by steps that grow as fast as Newton's iteration can follow.
   long grow(const StepStart<S>& from, int halvings);
@@ -104,6 +111,7 @@ class SimplifiedNewton {
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
+  Wanted wanted_;
   StageEquations<S> equations_;
   Jacobian<S> jacobian_;
   bool usable_ = false;  ///< the Jacobian
@@ -121,6 +129,7 @@ class SimplifiedNewton {
   Vector<S> first_row_of_inverse_X_, sequence_;
   StepChange<S> step_change_;
   Extrapolation<S> extrapolation_;
+  Continuation<S> continuation_;
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;

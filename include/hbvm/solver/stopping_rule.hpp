@@ -53,7 +53,7 @@ class StoppingRule {
   /// The change of each column in this sweep: now - before, times `factor` if there is one.
   void show_change(const Matrix<S>& now, const Matrix<S>& before, const S* factor = nullptr);
   void show_change(const Matrix<S>& change);
-  void show_change(Index j, const S& change) { raise_magnitude(change_[j], change); }
+  void show_change(Index j, const S& change) { raise_magnitude(at(j).change, change); }
   /// Terms of each column, times `factor` if there is one; wanted in every sweep as long as changes are coarse.
   void show_terms(const Matrix<S>& terms, const S* factor = nullptr);
 
@@ -63,7 +63,7 @@ class StoppingRule {
   const S& rate() const { return rate_; }
   /// The error that is left of the coordinate that is nearest to its solution, over its scale, as log2.
   long least_left() const;
-  const S& scale(Index j) const { return scale_[j]; }
+  const S& scale(Index j) const { return coordinates_[static_cast<std::size_t>(j)].scale; }
 
   /// Whether the last changes were above 2^-10 of the scale somewhere.
   bool is_coarse() const { return coarse_; }
@@ -76,22 +76,32 @@ class StoppingRule {
   double condition_wanted() const;
 
  private:
+  struct Coordinate {
+    S change = 0, terms = 0;  ///< shown since the last judgement
+    S scale = 0, position = 0, last = 0, least = 0, expected = 0;
+    /// Parts of the scale: C epsilon (of what rounding of the position amounts to, if that is larger), 2^-12 epsilon,
+    /// ...
+    S noise = 0, rounding = 0, negligible = 0, coarse = 0;
+    long waiting = 0, risen = 0, vanishing = 0;
+    bool settled = false;
+  };
+  Coordinate& at(Index j) { return coordinates_[static_cast<std::size_t>(j)]; }
+  /// Whether all that is left to change is negligible; updates what is expected of the next change.
+  bool is_negligible(Coordinate& x);
+  bool is_settled(Coordinate& x);
   bool grows() const;
   void take_scales();
   void find_rate();
-  /// C epsilon max(scale_j, positions_j).
-  void set_rounding(Index j, S& bound) const;
+  /// The bounds of a coordinate, from its scale and what rounding of its position amounts to.
+  void set_bounds(Coordinate& x);
 
-  Index size_;
   long sweeps_ = 0, max_sweeps_;
-  bool coarse_ = true, terms_shown_ = false;
+  bool coarse_ = true, terms_shown_ = false, finite_ = true;
   S bound_, negligible_, tiny_, least_rate_;  // C epsilon, 2^-12 epsilon, C times the least number
   S coarse_bound_, kappa_ = 1, rate_ = 1, last_rate_ = 1;
   S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16;
   const Vector<S>* p0_ = nullptr;
-  Vector<S> change_, last_, least_, expected_, terms_, scale_, positions_;
-  std::vector<long> waiting_, risen_, vanishing_;
-  std::vector<bool> settled_;
+  std::vector<Coordinate> coordinates_;
 };
 
 #define HBVM_DECLARE(S) extern template class StoppingRule<S>;

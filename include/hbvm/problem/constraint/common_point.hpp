@@ -73,7 +73,8 @@ struct CommonPoint {
         for (Index i = 0; i < to.lanes; ++i) set(to.column(columns_[b])[i], form_.x.blocks[b].weight);
     }
 
-    void update(Lanes<const S> q, const GradientTarget<S>& to) const {
+    template <class Count>
+    void update(Lanes<const S, Count> q, const GradientTarget<S, Count>& to) const {
       if (!to.g) return;
       for (Index i = 0; i < to.lanes; ++i) {
         if (form_.x.shift.size() > 0)

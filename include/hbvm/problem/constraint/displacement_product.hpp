@@ -83,7 +83,8 @@ struct DisplacementProduct {
 
     void begin(const GradientTarget<S>&) const {}
 
-    void update(Lanes<const S> q, const GradientTarget<S>& to) const {
+    template <class Count>
+    void update(Lanes<const S, Count> q, const GradientTarget<S, Count>& to) const {
       displace(form_.x, dimension_, q, to.x.data(), to.lanes);
       displace(form_.y, dimension_, q, to.y.data(), to.lanes);
       if (to.g)

@@ -22,28 +22,29 @@ class GradientShares {
 
   /// The columns of what `moving` is made of get its weights times the vector.
   void add(const Displacement<S>& moving, Of vector) {
-    for (const auto& block : moving.blocks)
-      for (Index j = 0; j < dimension_; ++j) {
-        const auto at = std::lower_bound(coordinates_.begin(), coordinates_.end(), block.offset + j);
-        const auto column = static_cast<Index>(at - coordinates_.begin());
-        shares_.push_back({column, j, vector, touched_.insert(column).second, block.weight});
-      }
+    for (const auto& block : moving.blocks) {
+      // The columns of a block are next to each other.
+      const auto at = std::lower_bound(coordinates_.begin(), coordinates_.end(), block.offset);
+      const auto column = static_cast<Index>(at - coordinates_.begin());
+      shares_.push_back({column, vector, touched_.insert(column).second, block.weight});
+    }
   }
 
   /// Computes the columns from x and y of the target.
-  void spread(const GradientTarget<S>& to) const {
-    const Index lanes = to.lanes;
+  template <class Count>
+  void spread(const GradientTarget<S, Count>& to) const {
+    const Index size = dimension_ * to.lanes;
     for (const Share& share : shares_) {
-      const S* const from = (share.vector == Of::x ? to.x : to.y).data() + share.component * lanes;
-      S* const column = to.column(share.column);
+      const S* const from = (share.vector == Of::x ? to.x : to.y).data();
+      S* const columns = to.column(share.column);
       if (!share.first)
-        add_weighted(column, share.weight, from, lanes, to.t);
+        add_weighted(columns, share.weight, from, size, to.t);
       else if (share.weight == 1)
-        for (Index i = 0; i < lanes; ++i) set(column[i], from[i]);
+        for (Index i = 0; i < size; ++i) set(columns[i], from[i]);
       else if (share.weight == -1)
-        for (Index i = 0; i < lanes; ++i) set_negative(column[i], from[i]);
+        for (Index i = 0; i < size; ++i) set_negative(columns[i], from[i]);
       else
-        for (Index i = 0; i < lanes; ++i) set_product(column[i], share.weight, from[i]);
+        for (Index i = 0; i < size; ++i) set_product(columns[i], share.weight, from[i]);
     }
   }
 
@@ -52,19 +53,19 @@ class GradientShares {
     OperationCounts counts;
     for (const Share& share : shares_) {
       if (!share.first)
-        counts += weighted_sum(share.weight, 1);
+        counts += weighted_sum(share.weight, dimension_);
       else if (share.weight == -1)
-        counts.add(Op::negate, 1);
+        counts.add(Op::negate, dimension_);
       else if (share.weight != 1)
-        counts.add(Op::multiply, 1);
+        counts.add(Op::multiply, dimension_);
     }
     return counts;
   }
 
  private:
-  /// column = weight component, or += if it is not the first.
+  /// So many columns as there are components = weight vector, or += if it is not the first.
   struct Share {
-    Index column, component;
+    Index column;
     Of vector;
     bool first;
     S weight;

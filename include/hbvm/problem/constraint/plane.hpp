@@ -61,7 +61,8 @@ struct Plane {
         for (Index i = 0; i < to.lanes; ++i) set(to.column(j)[i], form_.normal[j]);
     }
 
-    void update(Lanes<const S> q, const GradientTarget<S>& to) const {
+    template <class Count>
+    void update(Lanes<const S, Count> q, const GradientTarget<S, Count>& to) const {
       if (!to.g) return;
       for (Index i = 0; i < to.lanes; ++i) set_negative(to.g[i], form_.offset);
       for (Index j = 0; j < form_.normal.size(); ++j)

@@ -74,8 +74,9 @@ struct Quadric {
 
     void begin(const GradientTarget<S>&) const {}
 
-    void update(Lanes<const S> q, const GradientTarget<S>& to) const {
-      const Index lanes = to.lanes;
+    template <class Count>
+    void update(Lanes<const S, Count> q, const GradientTarget<S, Count>& to) const {
+      const auto lanes = to.lanes;
       if (to.g)
         for (Index i = 0; i < lanes; ++i) set(to.g[i], form_.c);
       for (Index j = 0; j < form_.b.size(); ++j) {

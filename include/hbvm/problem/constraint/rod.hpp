@@ -76,7 +76,8 @@ struct Rod {
 
     void begin(const GradientTarget<S>&) const {}
 
-    void update(Lanes<const S> q, const GradientTarget<S>& to) const {
+    template <class Count>
+    void update(Lanes<const S, Count> q, const GradientTarget<S, Count>& to) const {
       displace(form_.x, dimension_, q, to.x.data(), to.lanes);
       if (to.g)
         for (Index i = 0; i < to.lanes; ++i) {

@@ -23,8 +23,8 @@ struct Displacement {
 };
 
 /// r_i += weight a_i for i < count, which for the usual weights 1 and -1 is an addition each; `t` is scratch.
-template <Scalar S>
-void add_weighted(S* r, const S& weight, const S* a, Index count, S& t) {
+template <Scalar S, class Count>
+void add_weighted(S* r, const S& weight, const S* a, Count count, S& t) {
   if (weight == 1)
     for (Index i = 0; i < count; ++i) set_sum(r[i], r[i], a[i]);
   else if (weight == -1)
@@ -57,8 +57,35 @@ OperationCounts operations(const Displacement<S>& x, Index dimension) {
 }
 
 /// The displacement at q: component j of lane i goes to out[j * stride + i].
-template <Scalar S>
-void displace(const Displacement<S>& x, Index dimension, Lanes<const S> q, S* out, Index stride);
+template <Scalar S, class Count>
+void displace(const Displacement<S>& x, Index dimension, Lanes<const S, Count> q, S* out, Index stride) {
+  if (x.blocks.size() == 2 && x.shift.size() == 0 && x.blocks[0].weight == 1 && x.blocks[1].weight == -1) {
+    // The usual pair, in one pass.
+    const S* a = q[x.blocks[0].offset];
+    const S* b = q[x.blocks[1].offset];
+    for (Index j = 0; j < dimension; ++j, out += stride, a += q.count, b += q.count)
+      for (Index i = 0; i < q.count; ++i) set_difference(out[i], a[i], b[i]);
+    return;
+  }
+  S& t = scratch<S>();
+  for (Index j = 0; j < dimension; ++j, out += stride) {
+    bool first = true;
+    for (const auto& block : x.blocks) {
+      const S* const column = q[block.offset + j];
+      if (!first)
+        add_weighted(out, block.weight, column, q.count, t);
+      else if (block.weight == 1)
+        for (Index i = 0; i < q.count; ++i) set(out[i], column[i]);
+      else
+        for (Index i = 0; i < q.count; ++i) set_product(out[i], block.weight, column[i]);
+      first = false;
+    }
+    if (first)
+      for (Index i = 0; i < q.count; ++i) set_zero(out[i]);
+    if (x.shift.size() == 0) continue;
+    for (Index i = 0; i < q.count; ++i) set_sum(out[i], out[i], x.shift[j]);
+  }
+}
 
 /// The same of one q.
 template <Scalar S>
@@ -109,9 +136,5 @@ Displacement<double> in_double(const Displacement<S>& x) {
   result.shift = in_double(x.shift);
   return result;
 }
-
-#define HBVM_DECLARE(S) extern template void displace<S>(const Displacement<S>&, Index, Lanes<const S>, S*, Index);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm

@@ -8,13 +8,13 @@ namespace hbvm {
 
 /// Positions (or velocities, forces …) of all coordinates in several lanes, a lane being one node of a quadrature:
 /// coordinate j of lane i is data[j * count + i]. A matrix with a row a lane has this layout, and so has one vector,
-/// with a single lane.
-template <class T>
+/// with a single lane. Their number may be a constant of type Count (with_constant_count).
+template <class T, class Count = Index>
 struct Lanes {
   T* data;
-  Index count;
+  Count count;
   T* operator[](Index coordinate) const { return data + coordinate * count; }
-  operator Lanes<const T>() const requires(!std::is_const_v<T>) { return {data, count}; }
+  operator Lanes<const T, Count>() const requires(!std::is_const_v<T>) { return {data, count}; }
 };
 
 template <Scalar S>

@@ -1,0 +1,99 @@
+#include "hbvm/linear/aligned_matrix.hpp"
+
+#include <gmp.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "linear/limb_sum.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr long no_exponent = std::numeric_limits<long>::min();
+
+/// The greatest exponent of n numbers of so many bits; no_exponent if all are 0. \return false if one is not finite
+bool find_exponent(const Mpfr* x, Index stride, Index n, long bits, long& exponent) {
+  exponent = no_exponent;
+  for (Index i = 0; i < n; ++i) {
+    mpfr_srcptr const a = raw(x[i * stride]);
+    if (mpfr_regular_p(a)) {
+      if (mpfr_get_prec(a) != bits) return false;
+      exponent = std::max(exponent, mpfr_get_exp(a));
+    } else if (!mpfr_zero_p(a)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+signed char sign_of(mpfr_srcptr x) { return static_cast<signed char>(mpfr_sgn(x)); }
+
+}  // namespace
+
+AlignedMatrix::AlignedMatrix(const Matrix<Mpfr>& a) : rows_(a.rows()), columns_(a.cols()), bits_(mpfr_working_bits()) {
+  limbs_ = (bits_ + guard_bits + limb_bits - 1) / limb_bits;
+  if (limbs_ > max_limbs || !find_exponent(a.data(), 1, a.size(), bits_, exponent_)) {
+    limbs_ = 0;
+    return;
+  }
+  entries_.resize(static_cast<std::size_t>(a.size() * limbs_));
+  signs_.resize(static_cast<std::size_t>(a.size()));
+  for (Index i = 0, n = 0; i < rows_; ++i)
+    for (Index j = 0; j < columns_; ++j, ++n) {
+      signs_[static_cast<std::size_t>(n)] = sign_of(raw(a(i, j)));
+      align(&entries_[static_cast<std::size_t>(n * limbs_)], raw(a(i, j)), exponent_);
+    }
+  x_.resize(static_cast<std::size_t>(columns_ * limbs_));
+  x_signs_.resize(static_cast<std::size_t>(columns_));
+  product_.resize(static_cast<std::size_t>(2 * limbs_));
+  sum_.resize(static_cast<std::size_t>(2 * limbs_ + 1));
+}
+
+void AlignedMatrix::align(Limb* to, mpfr_srcptr x, long exponent) const {
+  std::fill_n(to, limbs_, Limb{0});
+  if (!mpfr_regular_p(x)) return;
+  const long down = exponent - mpfr_get_exp(x), whole = down / limb_bits, kept = limbs_ - whole;
+  if (kept <= 0) return;
+  const auto* const digits = static_cast<const mp_limb_t*>(mpfr_custom_get_significand(x));
+  const long own = (bits_ + limb_bits - 1) / limb_bits;
+  // The highest limbs: of x all, or as many as are kept.
+  const long taken = std::min(own, kept);
+  std::copy_n(digits + own - taken, taken, to + kept - taken);
+  if (const auto bits = static_cast<unsigned>(down % limb_bits); bits != 0) mpn_rshift(to, to, kept, bits);
+}
+
+bool AlignedMatrix::times(Mpfr* r, const Mpfr* x, Index stride) {
+  if (limbs_ == 0) return false;
+  long x_exponent = 0;
+  if (!find_exponent(x, stride, columns_, bits_, x_exponent)) return false;
+  if (x_exponent == no_exponent || exponent_ == no_exponent) {
+    for (Index i = 0; i < rows_; ++i) mpfr_set_zero(raw(r[i]), 1);
+    return true;
+  }
+  for (Index l = 0; l < columns_; ++l) {
+    x_signs_[static_cast<std::size_t>(l)] = sign_of(raw(x[l * stride]));
+    align(&x_[static_cast<std::size_t>(l * limbs_)], raw(x[l * stride]), x_exponent);
+  }
+  const long width = 2 * limbs_ + 1;
+  Limb* const sum = sum_.data();
+  const Limb* entry = entries_.data();
+  const signed char* sign = signs_.data();
+  for (Index i = 0; i < rows_; ++i) {
+    std::fill_n(sum, width, Limb{0});
+    const Limb* factor = x_.data();
+    for (Index l = 0; l < columns_; ++l, ++sign, entry += limbs_, factor += limbs_) {
+      const int signs = *sign * x_signs_[static_cast<std::size_t>(l)];
+      if (signs == 0) continue;
+      mpn_mul_n(product_.data(), entry, factor, limbs_);
+      if (signs > 0)
+        sum[width - 1] += mpn_add_n(sum, sum, product_.data(), width - 1);
+      else
+        sum[width - 1] -= mpn_sub_n(sum, sum, product_.data(), width - 1);
+    }
+    set_limb_sum(raw(r[i]), sum, width, exponent_ + x_exponent);
+  }
+  return true;
+}
+
+}  // namespace hbvm

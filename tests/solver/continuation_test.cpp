@@ -1,0 +1,77 @@
+#include "hbvm/solver/continuation.hpp"
+
+#include "hbvm/basis/legendre.hpp"
+#include "hbvm/scalar/binary_exponent.hpp"
+#include "printing.hpp"
+#include "scalar/random_values.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class ContinuationTest : public ::testing::Test {
+ protected:
+  static constexpr int s = 7;
+  PrecisionScope digits{50};
+  RandomValues<S> random{11};
+  Hbvm<S> method = make_hbvm<S>(s, s);
+
+  StageUnknowns<S> polynomials(Index m, Index nu, int decay_bits) {
+    const Matrix<S> zero = Matrix<S>::Zero(s, m);
+    StageUnknowns<S> x{zero, zero, zero, Matrix<S>::Zero(s, nu)};
+    S size = 1;
+    for (Index i = 0; i < s; ++i, size *= power_of_two<S>(-decay_bits))
+      for (Index j = 0; j < m; ++j) x.gamma(i, j) = size * (1 + magnitude(random.value()));
+    for (Index j = 0; j < x.lambda.size(); ++j) x.lambda.data()[j] = random.value();
+    return x;
+  }
+};
+TYPED_TEST_SUITE(ContinuationTest, AllScalars, ScalarNames);
+
+/// The coefficients found take the values of the old polynomial one step on; multipliers at the nodes, by Lagrange's
+/// formula, those of theirs.
+TYPED_TEST(ContinuationTest, FollowsPolynomialsBeyondTheStep) {
+  using S = TypeParam;
+  const StageUnknowns<S> last = this->polynomials(2, 3, 0);
+  Continuation<S> continuation(this->method, 2, 3);
+  continuation.keep(last);
+  StageUnknowns<S> x = last;
+  continuation.predict(x);
+  const Vector<S>& c = this->method.c;
+  const Vector<S> later = c.array() + S(1);
+  const Matrix<S> now = legendre_values<S>(c, this->s), beyond = legendre_values<S>(later, this->s);
+  const S tolerance = S(1000) * max_norm(beyond) * epsilon<S>();
+  const Matrix<S> found = now.lazyProduct(x.gamma), true_values = beyond.lazyProduct(last.gamma);
+  for (Index i = 0; i < found.size(); ++i)
+    EXPECT_LE(magnitude(S(found.data()[i] - true_values.data()[i])), tolerance) << i;
+  for (Index a = 0; a < 3; ++a)
+    for (Index i = 0; i < this->s; ++i) {
+      S sum = 0;
+      for (Index l = 0; l < this->s; ++l) {
+        S lagrange = last.lambda(l, a);
+        for (Index n = 0; n < this->s; ++n)
+          if (n != l) lagrange *= (later[i] - c[n]) / (c[l] - c[n]);
+        sum += lagrange;
+      }
+      EXPECT_LE(magnitude(S(sum - x.lambda(i, a))), 100 * tolerance) << a << " " << i;
+    }
+}
+
+/// Seven terms grow by 2^13; coefficients that fall by 2^-10 each leave 2^-50 of the last but one.
+TYPED_TEST(ContinuationTest, KnowsWhatTheGrowthLeaves) {
+  using S = TypeParam;
+  Continuation<S> continuation(this->method, 3, 0);
+  EXPECT_GT(continuation.error_exponent(0), 1000);
+  StageUnknowns<S> last = this->polynomials(3, 0, 10);
+  last.gamma(this->s - 1, 1) = last.gamma(0, 1);
+  last.gamma.col(2).setZero();
+  continuation.keep(last);
+  EXPECT_NEAR(static_cast<double>(continuation.error_exponent(0) - continuation.size_exponent(0)), 13 - 50, 2);
+  EXPECT_GT(continuation.error_exponent(1), continuation.size_exponent(1));
+  EXPECT_EQ(continuation.error_exponent(2), exponent_of_zero);
+  continuation.clear();
+  EXPECT_GT(continuation.error_exponent(0), 1000);
+}
+
+}  // namespace
+}  // namespace hbvm
