@@ -11,12 +11,20 @@ namespace {
 /// r = sum_l x_l a_l, column by column of `rows` entries.
 template <Scalar S, class Rows, class Terms>
 void add_columns(S* r, Rows rows, const S* a, Terms inner, const S* x, Index x_stride) {
-  S& t = scratch<S>();
-  for (Index i = 0; i < rows; ++i) set_product(r[i], a[i], x[0]);
-  for (Index l = 1; l < inner; ++l) {
-    const S* const column = a + l * rows;
-    const S& factor = x[l * x_stride];
-    for (Index i = 0; i < rows; ++i) add_product(r[i], column[i], factor, t);
+  if constexpr (is_constant_count<Rows>) {
+    S sums[Rows::value];
+    for (Index i = 0; i < rows; ++i) sums[i] = a[i] * x[0];
+    for (Index l = 1; l < inner; ++l)
+      for (Index i = 0; i < rows; ++i) sums[i] += a[l * rows + i] * x[l * x_stride];
+    for (Index i = 0; i < rows; ++i) r[i] = sums[i];
+  } else {
+    S& t = scratch<S>();
+    for (Index i = 0; i < rows; ++i) set_product(r[i], a[i], x[0]);
+    for (Index l = 1; l < inner; ++l) {
+      const S* const column = a + l * rows;
+      const S& factor = x[l * x_stride];
+      for (Index i = 0; i < rows; ++i) add_product(r[i], column[i], factor, t);
+    }
   }
 }
 

@@ -100,6 +100,7 @@ void ConstraintGradient<S>::prepare_weighing(const Pattern& from, const Pattern&
 template <Scalar S>
 void ConstraintGradient<S>::update(Lanes<const S> q) {
   update_all(q, nullptr);
+  weigh();
 }
 
 template <Scalar S>
@@ -125,7 +126,6 @@ void ConstraintGradient<S>::update_all(Lanes<const S> q, Matrix<S>* g) {
           gradients_[a]);
     }
   });
-  weigh();
 }
 
 template <Scalar S>
@@ -164,8 +164,18 @@ OperationCounts ConstraintGradient<S>::operations() const {
 template <Scalar S>
 void ConstraintGradient<S>::transposed_times(Index a, Lanes<const S> v, S* result) {
   const Pattern& pattern = patterns_[static_cast<std::size_t>(a)];
-  with_constant_count<S>(lanes_, [&](auto lanes) {
+  with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
     const S* column = values_.data() + pattern.first * lanes;
+    if constexpr (is_constant_count<Count>) {
+      S sums[Count::value] = {};
+      for (const auto& run : pattern.runs) {
+        const S* in = v[run.coordinate];
+        for (Index c = 0; c < run.count; ++c, column += lanes, in += lanes)
+          for (Index i = 0; i < lanes; ++i) sums[i] += column[i] * in[i];
+      }
+      for (Index i = 0; i < lanes; ++i) result[i] = sums[i];
+      return;
+    }
     bool first = true;
     for (const auto& run : pattern.runs) {
       const S* in = v[run.coordinate];
@@ -209,7 +219,19 @@ void ConstraintGradient<S>::add_weighted_times(const Matrix<S>& lambda, Lanes<S>
 
 template <Scalar S>
 void ConstraintGradient<S>::coupling(const Coupling& pair, const ConstraintGradient& right, S* result) {
-  with_constant_count<S>(lanes_, [&](auto lanes) {
+  with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
+    if constexpr (is_constant_count<Count>) {
+      S sums[Count::value * Count::value] = {};
+      for (const auto& run : pair.runs) {
+        const S* x = values_.data() + run.left * lanes;
+        const S* y = right.weighted_.data() + run.right * lanes;
+        for (Index c = 0; c < run.count; ++c, x += lanes, y += lanes)
+          for (Index j = 0; j < lanes; ++j)
+            for (Index i = 0; i < lanes; ++i) sums[i + j * lanes] += x[i] * y[j];
+      }
+      for (Index i = 0; i < lanes * lanes; ++i) result[i] = sums[i];
+      return;
+    }
     bool first = true;
     for (const auto& run : pair.runs) {
       const S* x = values_.data() + run.left * lanes;

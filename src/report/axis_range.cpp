@@ -63,16 +63,32 @@ Tics decimal_tics(const AxisRange& range, int most) {
   Tics result = power_tics(range, 10, most);
   constexpr int fine = 8;
   if (range.length() > fine) return result;
-  // Few powers of ten: 2 and 5 times them bear numbers, too.
-  const bool numbered =
-      std::count_if(result.tics.begin(), result.tics.end(), [](const Tic& t) { return !t.text.empty(); }) < 2;
+  // Counts of something, as digits from 20 to 1000, are written out.
+  constexpr double at_most = 4, few_powers = 2.5;
+  const bool counts = range.from >= 0 && range.to <= at_most && range.length() <= few_powers;
+  const auto text = [&](int digit, long power) {
+    if (counts) return fmt::format("{}{}", digit, std::string(static_cast<std::size_t>(power), '0'));
+    return fmt::format("{}·10^{{{}}}", digit, power);
+  };
+  if (counts)
+    for (Tic& tic : result.tics) tic.text = text(1, std::lround(tic.at));
   const auto [first, last] = multiples({std::floor(range.from), std::ceil(range.to)}, 1);
+  const auto is_inside = [&](int digit, long power) {
+    const double at = static_cast<double>(power) + std::log10(digit);
+    constexpr double rounding = 1e-9;
+    return at >= range.from - rounding && at <= range.to + rounding;
+  };
+  // Few powers of ten: 2 and 5 times them bear numbers, too.
+  auto written = std::count_if(result.tics.begin(), result.tics.end(), [](const Tic& t) { return !t.text.empty(); });
+  const bool few = written < 2;
+  for (long n = first; n <= last; ++n) written += is_inside(2, n) + is_inside(5, n);
+  const bool numbered = few || (counts && written <= most);
   for (long n = first; n <= last; ++n)
     for (int digit = 2; digit <= 9; ++digit) {
+      if (!is_inside(digit, n)) continue;
       const double at = static_cast<double>(n) + std::log10(digit);
-      if (at < range.from || at > range.to) continue;
-      const bool written = numbered && (digit == 2 || digit == 5);
-      result.tics.push_back({at, written ? fmt::format("{}·10^{{{}}}", digit, n) : std::string()});
+      const bool with_number = numbered && (digit == 2 || digit == 5);
+      result.tics.push_back({at, with_number ? text(digit, n) : std::string()});
     }
   return result;
 }

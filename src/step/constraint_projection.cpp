@@ -106,7 +106,10 @@ long ConstraintProjection<S>::find_position(const Vector<S>& free, const S& fact
       const PartCall counted = call(gradients);
       found().update(lanes(std::as_const(q)), g_);
     }
-    if (converged || (stagnant && is_round_off(q))) return iterations;
+    if (converged || (stagnant && is_round_off(q))) {
+      found().weigh();
+      return iterations;
+    }
     if (!solve(found(), directions(), g_) || ++iterations > max_iterations)
       throw StageFailure(FailureCause::stage_equations_diverge, "no position on the constraints was found",
                          to_scientific(increment, 3), iterations);

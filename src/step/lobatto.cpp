@@ -203,6 +203,7 @@ bool LobattoStepper<S>::sweep(const State<S>& state) {
     {
       const PartCall counted = call(gradients);
       gradient_.update(lanes(std::as_const(Q_)), g_);
+      gradient_.weigh();
     }
     if (!correct_multipliers()) return false;
     for (Index i = 0; i < lambda_.size(); ++i) set_negative(pull_.data()[i], lambda_.data()[i]);

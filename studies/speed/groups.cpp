@@ -253,6 +253,9 @@ Curve curve_of(const std::filesystem::path& file, const std::vector<std::pair<do
     text += fmt::format("{:.6g},{:.6g}\n", curve.points.back()[0], curve.points.back()[1]);
   }
   write_file(file, text);
+  // The power of x that the last two points show.
+  const PlotPoint &last = curve.points.back(), &before = curve.points[curve.points.size() - 2];
+  curve.label += fmt::format(", slope {:.1f}", (last[1] - before[1]) / (last[0] - before[0]));
   return curve;
 }
 

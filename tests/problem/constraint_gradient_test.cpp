@@ -32,6 +32,7 @@ TYPED_TEST(ConstraintGradientTest, AgreesWithDenseMatricesInEveryLane) {
                       lambda = this->random.matrix(this->count, nu), start = this->random.matrix(this->count, m);
       Matrix<S> g(this->count, nu), rates_of(this->count, 1);
       gradient.update(lanes(q), g);
+      gradient.weigh();
       Matrix<S> force = start, velocity = start;
       gradient.add_times(lambda, lanes(force));
       gradient.add_weighted_times(lambda, lanes(velocity));

@@ -55,6 +55,8 @@ TEST(Tics, OfPowersStandAtPowers) {
   EXPECT_EQ(texts(tics_of({-12, -2}, AxisScale::binary, 6)),
             (Texts{"2^{-12}", "2^{-10}", "2^{-8}", "2^{-6}", "2^{-4}", "2^{-2}"}));
   // Between powers there are small ones, at the logarithms of 2 to 9.
+  EXPECT_EQ(texts(tics_of({std::log10(20), 3}, AxisScale::decimal, 6)),
+            (Texts{"100", "1000", "20", "50", "200", "500"}));
   const Tics tics = tics_of({-1, 1}, AxisScale::decimal, 6);
   EXPECT_EQ(texts(tics), (Texts{"10^{-1}", "10^{0}", "10^{1}"}));
   EXPECT_EQ(tics.tics.size(), 3u + 2 * 8);

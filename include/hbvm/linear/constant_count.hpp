@@ -32,4 +32,8 @@ decltype(auto) with_constant_count(Index n, F&& f) {
   return std::forward<F>(f)(n);
 }
 
+/// Whether the type of a count is that of a constant: sums of so many numbers can stay in registers.
+template <class Count>
+inline constexpr bool is_constant_count = !std::same_as<Count, Index>;
+
 }  // namespace hbvm

@@ -21,8 +21,9 @@ class ConstraintGradient {
   /// Numbers stored for grad g in one lane.
   Index stored() const { return values_.cols(); }
 
-  /// g as well, lanes x nu, from the same displacements.
+  /// grad g and g, lanes x nu, from the same displacements; M^-1 grad g by weigh(), once it is wanted.
   void update(Lanes<const S> q, Matrix<S>& g);
+  void weigh();
 
   /// result_i = (grad g^T v)_a in lane i, for all lanes.
   void transposed_times(Index a, Lanes<const S> v, S* result);
@@ -79,7 +80,6 @@ class ConstraintGradient {
   void update_all(Lanes<const S> q, Matrix<S>* g);
   template <class Count>
   GradientTarget<S, Count> target(std::size_t a, S* g, Count lanes);
-  void weigh();
 
   const Problem<S>& problem_;
   Index lanes_;

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hbvm/scene/scene.hpp"
+
+namespace hbvm {
+
+/// The ways to a reference solution that share nothing but the scene: the Taylor series of TaylorMotion, and Gauss
+/// methods of high order, HBVM(s,s), with their output state.
+enum class Route { taylor, hbvm };
+const char* name_of(Route route);
+/// \throws InputError
+Route parse_route(std::string_view name);
+
+struct ReferenceRequest {
+  Scene scene;
+  std::vector<Expression> times;  ///< positive, ascending
+  int digits = 30;
+  std::optional<Route> only;  ///< one route alone: nothing is confirmed then
+  /// Called now and then with the part that is done, from any thread; it may throw to end the work.
+  std::function<void(double)> progress = {};
+};
+
+/// A decimal text for each number, to `digits` digits after the leading one of its vector's greatest component.
+struct ReferenceState {
+  std::string t;
+  std::vector<std::string> q, p, lambda;  ///< p tangential, lambda of (Theorem lamex)
+  std::string H;
+  std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
+  long agreed = 0;  ///< digits after the leading one on which the routes agree, the least of all vectors
+};
+
+struct RouteReport {
+  std::string name, settings;
+  double cpu_seconds = 0;
+};
+
+struct Reference {
+  std::string scene, title, scene_hash;
+  int digits = 0;
+  std::vector<ReferenceState> times;
+  std::vector<std::string> momentum_names;
+  std::vector<RouteReport> routes;
+  double digits_lost = 0;  ///< by which the motion magnifies an error of the start, in decimal digits
+};
+
+/// The state at the times, each digit found by both routes; order, step, precision and guard digits are chosen here:
+/// from the growth of a small change of the start and the radius of convergence of the series, at low precision. Where
+/// the routes agree in fewer digits, both are made again with more.
+/// \throws InputError for digits or times out of range; IntegrationError where the motion ends, or the routes never
+/// agree, with both values
+Reference compute_reference(const ReferenceRequest& request);
+
+/// Of what a scene says, its name and comments apart.
+std::string scene_hash(const Scene& scene);
+
+inline constexpr int least_reference_digits = 1, most_reference_digits = 5000;
+
+}  // namespace hbvm

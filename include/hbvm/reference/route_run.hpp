@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hbvm/scene/assemble.hpp"
+
+namespace hbvm {
+
+/// A state of the exact motion as one route found it, in the digits of its scope.
+struct RoutePoint {
+  Vector<Mpfr> q, p, lambda;
+};
+
+/// What one route found, and how.
+struct RouteRun {
+  std::string settings;
+  double cpu_seconds = 0;
+  std::vector<RoutePoint> points;
+};
+
+/// Called with the part of the time that is done.
+using RouteProgress = std::function<void(double)>;
+
+/// The states at these times, ascending, in the digits of the scope.
+/// \throws IntegrationError
+RouteRun taylor_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, const RouteProgress& progress);
+
+/// The same by HBVM(s,s) with so many digits right, if the motion is analytic within 2^log2_radius of the time axis.
+/// \throws IntegrationError
+RouteRun hbvm_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, double digits, double log2_radius,
+                    const RouteProgress& progress);
+
+/// What a motion does to errors, and how far from the time axis its nearest singularity lies.
+struct MotionNature {
+  double digits_lost = 0;  ///< log10 of the factor by which a change of the start grows until the last time, at least 0
+  double log2_radius = 0;  ///< least radius of convergence of the Taylor series
+};
+
+/// From two motions at low precision, the start of one changed a little.
+/// \throws IntegrationError
+MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times);
+
+}  // namespace hbvm

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+
+#include "hbvm/linear/lu.hpp"
+#include "hbvm/problem/problem.hpp"
+#include "hbvm/reference/program_series.hpp"
+
+namespace hbvm {
+
+/// The motion by its Taylor series, in the digits of the scope: no quadrature, no stage equations, no basis, no
+/// iteration. With q' = M^-1 p, p' = grad U(q) - grad g(q) lambda and grad g affine in q, coefficient after
+/// coefficient,
+///
+///     (n+1) q_{n+1} = v_n,  v = M^-1 p,  (n+1) p_{n+1} = F_n - sum_{i <= n} G_i lambda_{n-i}
+///
+/// where F is grad U, by the program of its gradient, and G = grad g by its second derivatives and values; lambda_n by
+/// coefficient n + 1 of the hidden constraint G^T v = 0,
+///
+///     G_0^T M^-1 G_0 lambda_n = G_0^T M^-1 (F_n - sum_{0 < i <= n} G_i lambda_{n-i}) + (n+1) sum_{0 < i <= n+1} G_i^T
+///     v_{n+1-i}
+///
+/// whose matrix is factored once a step; for n = 0 that is (Theorem lamex). Order and step after Jorba and Zou
+/// (Experimental Mathematics 14, 2005): the step is so long that the last two terms are round-off of every body's
+/// position and momentum. After each step the state is moved to the constraints and their tangent space, by round-off.
+class TaylorMotion {
+ public:
+  /// From (q0, p0), consistent, at t = 0. The problem must outlive it.
+  /// \throws IntegrationError if there is no series there
+  TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0);
+
+  /// The state at t, not before the last.
+  /// \throws IntegrationError at a singularity of the forces or of the constraints, with its time
+  /// \param after_step is called with the time after every step, and may throw to end the work
+  void advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step = {});
+  const Vector<Mpfr>& q() const { return q_; }
+  const Vector<Mpfr>& p() const { return p_; }
+  const Vector<Mpfr>& lambda() const { return lambda_; }
+
+  Index order() const { return order_; }
+  long steps() const { return steps_; }
+  /// log2 of the least radius of convergence that the coefficients of a step showed.
+  double least_radius() const { return least_radius_; }
+
+ private:
+  /// An affine form of q: a component of grad g, which several coordinates have but for the sign.
+  struct Form {
+    Mpfr constant;
+    std::vector<std::pair<Index, Mpfr>> terms;
+    Index constraint;
+    std::vector<std::pair<Index, int>> columns;  ///< coordinates, with the sign
+  };
+  /// One body or pair of an effect.
+  struct Force {
+    const EffectTerm<Mpfr>& term;
+    const Displacement<Mpfr>& displacement;
+    ProgramSeries series;
+  };
+  Mpfr* q_series(Index j) { return &q_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
+  Mpfr* p_series(Index j) { return &p_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
+  Mpfr* v_series(Index j) { return &v_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
+  Mpfr* form_series(std::size_t l) { return &form_values_[l * static_cast<std::size_t>(order_ + 2)]; }
+  /// sum of the signs times v of the form's columns.
+  Mpfr* form_velocity(std::size_t l) { return &form_velocities_[l * static_cast<std::size_t>(order_ + 2)]; }
+  Mpfr* lambda_series(Index a) { return &lambda_values_[static_cast<std::size_t>(a * (order_ + 2))]; }
+
+  void collect_forms();
+  void set_velocity(Index n);
+  void set_forms(Index n);
+  void factor_gram();
+  /// Brings q_0 to the constraints and p_0 to their tangent space, but for round-off there already.
+  void project();
+  void set_force(Index n);
+  void set_multipliers(Index n);
+  /// Coefficients of degree 0 from q_, p_, with the Gram matrix; then all.
+  void begin(const Vector<Mpfr>& q, const Vector<Mpfr>& p);
+  void expand();
+  void choose_step();
+  /// The series at the time tau after the step's start.
+  void evaluate(const Mpfr& tau, Vector<Mpfr>& q, Vector<Mpfr>& p);
+  /// The multiplier at q_, p_, moved to the constraints first.
+  void finish();
+
+  const Problem<Mpfr>& problem_;
+  Index order_;
+  std::vector<Form> forms_;
+  std::deque<Force> forces_;
+  std::vector<Mpfr> q_values_, p_values_, v_values_, form_values_, form_velocities_, lambda_values_;
+  Lu<Mpfr> gram_;
+  Vector<Mpfr> F_, weighted_, rhs_, powers_;  ///< grad U less sum G_i lambda, M^-1 of it
+  Vector<Mpfr> start_q_, start_p_, q_, p_, lambda_;
+  Mpfr start_ = 0, length_ = 0, t_ = 0, x_ = 0;
+  long steps_ = 0;
+  double least_radius_ = 0;
+};
+
+}  // namespace hbvm

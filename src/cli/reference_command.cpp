@@ -1,0 +1,325 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.hpp"
+#include "hbvm/analysis/against.hpp"
+#include "hbvm/interruption.hpp"
+#include "hbvm/read_file.hpp"
+#include "hbvm/reference/reference.hpp"
+#include "hbvm/reference/store.hpp"
+#include "hbvm/scene/coordinate_names.hpp"
+#include "hbvm/version.hpp"
+#include "progress_bar.hpp"
+#include "signals.hpp"
+#include "written.hpp"
+
+namespace hbvm {
+namespace {
+
+struct ReferenceArguments {
+  std::optional<std::string> scene, until, route, out, verify, show, plot;
+  std::vector<std::string> at, against, map;
+  int digits = 30;
+  bool json = false, list = false;
+};
+
+Expression time_of(const std::string& text) {
+  try {
+    return Expression::parse(text);
+  } catch (const ExpressionError& error) {
+    throw InputError("a time of the reference: " + std::string(error.what()));
+  }
+}
+
+std::string today() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm date{};
+  gmtime_r(&now, &date);
+  return fmt::format("{:04}-{:02}-{:02}", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
+}
+
+Reference compute(ReferenceRequest request) {
+  ProgressBar bar("reference");
+  end_runs_on_signals();
+  request.progress = [&bar](double part) {
+    constexpr long parts = 10'000;
+    bar.update(static_cast<long>(part * parts), parts);
+    if (const int signal = interruption)
+      throw Interrupted(signal, "the reference was not finished: nothing is given out");
+  };
+  return compute_reference(request);
+}
+
+nlohmann::ordered_json json_of(const Reference& r, const std::string& until, const std::string& command) {
+  nlohmann::ordered_json j{{"scene", r.scene}, {"until", until}, {"digits", r.digits}};
+  j["times"] = nlohmann::ordered_json::array();
+  for (const ReferenceState& state : r.times) {
+    nlohmann::ordered_json entry{
+        {"t", state.t}, {"q", state.q}, {"p", state.p}, {"lambda", state.lambda}, {"H", state.H}};
+    entry["momenta"] = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < state.momenta.size(); ++i) entry["momenta"][r.momentum_names[i]] = state.momenta[i];
+    entry["agreed"] = r.routes.size() > 1 ? nlohmann::ordered_json(state.agreed) : nlohmann::ordered_json(nullptr);
+    j["times"].push_back(entry);
+  }
+  j["routes"] = nlohmann::ordered_json::array();
+  for (const RouteReport& route : r.routes)
+    j["routes"].push_back({{"name", route.name}, {"settings", route.settings}, {"cpu_seconds", route.cpu_seconds}});
+  j["digits_lost"] = r.digits_lost;
+  j["scene_hash"] = r.scene_hash;
+  j["version"] = version();
+  j["command"] = command;
+  return j;
+}
+
+void print_vector(const char* symbol, const std::vector<std::string>& names, const std::vector<std::string>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    fmt::print("  {:<9}{:<12}{}\n", fmt::format("{}_{}", symbol, i + 1), i < names.size() ? names[i] : "", values[i]);
+}
+
+void print(const Scene& scene, const Reference& r) {
+  fmt::print("{}: {}\n", r.scene, r.title);
+  for (const ReferenceState& state : r.times) {
+    fmt::print("\nt = {}\n", state.t);
+    print_vector("q", coordinate_names(scene), state.q);
+    print_vector("p", coordinate_names(scene, "p"), state.p);
+    print_vector("lambda", {}, state.lambda);
+    fmt::print("  {:<21}{}\n", "H", state.H);
+    for (std::size_t i = 0; i < state.momenta.size(); ++i)
+      fmt::print("  {:<21}{}\n", r.momentum_names[i], state.momenta[i]);
+    if (r.routes.size() > 1)
+      fmt::print("{} digits after the leading one; the routes agree in {}\n", r.digits, state.agreed);
+    else
+      fmt::print("{} digits after the leading one, by one route: nothing confirms them\n", r.digits);
+  }
+  fmt::print("\n");
+  for (const RouteReport& route : r.routes)
+    fmt::print("{:<8}{}, {:.3g} s of processor time\n", route.name, route.settings, route.cpu_seconds);
+  fmt::print("the motion magnifies an error of the start by 10^{:.1f}\n", r.digits_lost);
+}
+
+StoredReference stored_reference(const std::string& file) { return read_reference(read_file(file), file); }
+
+/// How to read the first number in programs that compute with many digits.
+void print_loading(const StoredReference& stored) {
+  const Reference& r = stored.reference;
+  const std::string x = r.times.back().q.front();
+  const int digits = r.digits + 5;
+  fmt::print("\nq_1 at t = {} elsewhere:\n", r.times.back().t);
+  fmt::print("  Python   from mpmath import mp, mpf; mp.dps = {}; q1 = mpf(\"{}\")\n", digits, x);
+  fmt::print("  Python   from decimal import Decimal, getcontext; getcontext().prec = {}; q1 = Decimal(\"{}\")\n",
+             digits, x);
+  fmt::print("  Julia    setprecision(BigFloat, {}); q1 = parse(BigFloat, \"{}\")\n", 10 * digits / 3 + 1, x);
+  fmt::print("  Matlab   digits({}); q1 = vpa('{}')\n", digits, x);
+  std::string power = x;
+  if (const auto e = power.find('e'); e != std::string::npos) power.replace(e, 1, "*^");
+  fmt::print("  Mathematica   q1 = SetPrecision[{}, {}]\n", power, digits);
+}
+
+void list_references() {
+  for (const auto& [name, text] : shipped_references()) {
+    const StoredReference stored = read_reference(text, name);
+    std::string times;
+    for (const ReferenceState& state : stored.reference.times) times += (times.empty() ? "" : ", ") + state.t;
+    fmt::print("{:<32}t = {:<14}{:>5} digits\n", name, times, stored.reference.digits);
+  }
+}
+
+void show_references(const std::string& scene) {
+  bool found = false;
+  for (const auto& [name, text] : shipped_references()) {
+    const StoredReference stored = read_reference(text, name);
+    if (stored.reference.scene != scene && name != scene) continue;
+    found = true;
+    print(load_scene(stored.reference.scene), stored.reference);
+    print_loading(stored);
+  }
+  if (!found) throw InputError("no reference of '" + scene + "' is shipped (see hbvm reference --list)");
+}
+
+void verify(const ReferenceArguments& o) {
+  const StoredReference stored = stored_reference(*o.verify);
+  const Reference& r = stored.reference;
+  ReferenceRequest request;
+  request.scene = load_scene(o.scene.value_or(r.scene));
+  request.digits = r.digits;
+  if (o.route) request.only = parse_route(*o.route);
+  if (scene_hash(request.scene) != r.scene_hash)
+    throw InputError(*o.verify + ": scene '" + request.scene.name + "' is not the one it was made of: its hash is " +
+                     scene_hash(request.scene) + ", not " + r.scene_hash);
+  for (const ReferenceState& state : r.times) request.times.push_back(time_of(state.t));
+  const std::vector<Difference> found = differences(r, compute(request));
+  for (const Difference& d : found) fmt::print("t = {}: {} is {}, not {}\n", d.t, d.what, d.found, d.stored);
+  if (!found.empty()) {
+    fmt::print("{}: {} numbers differ\n", *o.verify, found.size());
+    std::fflush(stdout);
+    throw CLI::RuntimeError(1);
+  }
+  fmt::print("{}: all digits of {} times are found again\n", *o.verify, r.times.size());
+}
+
+/// "theirs=ours": theirs may hold no "=".
+std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::string>> map;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw InputError("--map: '" + text + "' is not of the form theirs=ours");
+    map.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return map;
+}
+
+nlohmann::ordered_json json_of(const Against& against) {
+  nlohmann::ordered_json j{{"digits", against.digits}, {"files", nlohmann::ordered_json::array()}};
+  for (const FileAgainst& file : against.files) {
+    nlohmann::ordered_json entry{{"name", file.name}, {"t", file.times}, {"unused", file.unused}};
+    for (const ComponentDigits& c : file.components) entry["right_digits"][c.name] = c.digits;
+    entry["log10_H_drift"] = file.H_drift;
+    entry["log10_g_drift"] = file.g_drift;
+    j["files"].push_back(entry);
+  }
+  j["by_growth"] = against.by_growth;
+  j["orders"] = against.orders;
+  return j;
+}
+
+void print(const FileAgainst& file, const std::vector<double>& by_growth) {
+  fmt::print("{}\n", file.name);
+  for (const std::string& reason : file.unused) fmt::print("  not used: {}\n", reason);
+  fmt::print("  {:<16}{:>7}  {:<14}{:>16}{:>8}{:>8}\n", "t", "digits", "least right", "growth leaves", "H off",
+             "g off");
+  constexpr std::size_t most_lines = 20;
+  const std::size_t lines = std::min(most_lines, file.times.size());
+  const auto power = [](const std::vector<double>& drift, std::size_t n) {
+    return n < drift.size() ? std::isinf(drift[n]) ? std::string("0") : fmt::format("1e{:.0f}", drift[n])
+                            : std::string("-");
+  };
+  for (std::size_t i = 1; i <= lines; ++i) {
+    const std::size_t n = file.times.size() * i / lines - 1;
+    const auto worst = std::min_element(file.components.begin(), file.components.end(),
+                                        [n](const auto& a, const auto& b) { return a.digits[n] < b.digits[n]; });
+    fmt::print("  {:<16}{:>7.1f}  {:<14}{:>16}{:>8}{:>8}\n", file.times[n], worst->digits[n], worst->name,
+               n < by_growth.size() ? fmt::format("{:.1f}", by_growth[n]) : "", power(file.H_drift, n),
+               power(file.g_drift, n));
+  }
+  fmt::print("  at the end:");
+  for (const ComponentDigits& c : file.components) fmt::print(" {} {:.1f}", c.name, c.digits.back());
+  // Where most is lost from one time to the next.
+  std::size_t where = 0;
+  const ComponentDigits* what = nullptr;
+  double most = 1;
+  for (const ComponentDigits& c : file.components)
+    for (std::size_t n = 1; n < c.digits.size(); ++n)
+      if (c.digits[n - 1] - c.digits[n] > most) {
+        most = c.digits[n - 1] - c.digits[n];
+        where = n;
+        what = &c;
+      }
+  if (what)
+    fmt::print("\n  most is lost between t = {} and {}: {:.1f} digits of {}", file.times[where - 1], file.times[where],
+               most, what->name);
+  fmt::print("\n");
+}
+
+void compare(const ReferenceArguments& o) {
+  if (!o.scene)
+    throw InputError("reference --against: a scene is missing, as in hbvm reference SCENE --against FILE.csv");
+  AgainstRequest request;
+  request.scene = load_scene(*o.scene);
+  for (const std::string& file : o.against) request.files.push_back({file, read_file(file)});
+  request.map = read_map(o.map);
+  ProgressBar bar("reference");
+  end_runs_on_signals();
+  request.progress = [&bar](double part) {
+    constexpr long parts = 10'000;
+    bar.update(static_cast<long>(part * parts), parts);
+    if (const int signal = interruption) throw Interrupted(signal, "the comparison was not finished");
+  };
+  const Against against = compare_with_reference(request);
+  if (o.plot) {
+    draw(against_figure(request, against, "against"), *o.plot);
+    say_written(*o.plot);
+  }
+  if (o.json) {
+    std::cout << json_of(against).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
+    return;
+  }
+  fmt::print("right digits beside a reference of {} digits\n", against.digits);
+  for (std::size_t f = 0; f < against.files.size(); ++f)
+    print(against.files[f], f == 0 ? against.by_growth : std::vector<double>());
+  for (std::size_t f = 0; f < against.orders.size(); ++f)
+    fmt::print("order of convergence from {} to {}: {:.2f}\n", against.files[f].name, against.files[f + 1].name,
+               against.orders[f]);
+}
+
+void reference_command(const ReferenceArguments& o) {
+  if (!o.against.empty()) return compare(o);
+  if (!o.map.empty() || o.plot) throw InputError("reference: --map and --plot go with --against");
+  if (o.list) return list_references();
+  if (o.show) return show_references(*o.show);
+  if (o.verify) return verify(o);
+  if (!o.scene) throw InputError("reference: a scene is missing (see hbvm reference --help)");
+  if (!o.until && o.at.empty()) throw InputError("reference: --until or --at is missing");
+  ReferenceRequest request;
+  request.scene = load_scene(*o.scene);
+  request.digits = o.digits;
+  for (const std::string& text : o.at) request.times.push_back(time_of(text));
+  if (o.at.empty()) request.times.push_back(time_of(*o.until));
+  if (o.route) request.only = parse_route(*o.route);
+  std::string command = "hbvm reference " + *o.scene;
+  if (o.until) command += " --until " + *o.until;
+  for (std::size_t i = 0; i < o.at.size(); ++i) command += (i == 0 ? " --at " : ",") + o.at[i];
+  command += fmt::format(" --digits {}", o.digits);
+  if (o.route) command += " --route " + *o.route;
+  const Reference reference = compute(request);
+  if (o.out) {
+    if (o.route) throw InputError("--out: what one route found alone is no reference");
+    write_and_say(*o.out, to_toml({reference, version(), today()}));
+  }
+  if (o.json)
+    std::cout << json_of(reference, o.until.value_or(request.times.back().text()), command)
+                     .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+              << std::endl;
+  else
+    print(request.scene, reference);
+}
+
+}  // namespace
+
+void add_reference_command(CLI::App& app) {
+  auto o = std::make_shared<ReferenceArguments>();
+  CLI::App* const command = app.add_subcommand(
+      "reference", "A solution with as many digits as asked for, each found by two routes that share only the scene");
+  command->add_option("SCENE", o->scene, "Scene file or built-in scene");
+  command->add_option("--until", o->until, "Time of the state, as 10 or 2pi");
+  command->add_option("--at", o->at, "Times T1,T2,... of the states instead, ascending")->delimiter(',');
+  command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")
+      ->capture_default_str();
+  command->add_option("--route", o->route, "taylor or hbvm alone, which confirms nothing");
+  command->add_option("--out", o->out, "Write it to this file, in TOML");
+  command->add_flag("--json", o->json, "Print one JSON object and nothing else");
+  command->add_flag("--list", o->list, "List the references that are shipped");
+  command->add_option("--show", o->show, "Print those of a scene, and how to load them elsewhere");
+  command->add_option("--verify", o->verify, "Compute the reference of this file again, and compare digit by digit");
+  command
+      ->add_option("--against", o->against, "Files of results of any program, CSV: how many of their digits are right")
+      ->delimiter(',');
+  command
+      ->add_option("--map", o->map,
+                   "What their columns are, \"theirs=ours,...\": theirs an expression in their names, ours t or a name "
+                   "of q, p or velocity, as in sin(theta)=bob.x")
+      ->delimiter(',');
+  command->add_option("--plot", o->plot, "With --against: digits against time, SVG, PDF or PNG");
+  command->footer("Example: hbvm reference tethered_satellites --until 10 --digits 50");
+  command->callback([o] { reference_command(*o); });
+}
+
+}  // namespace hbvm

@@ -1,0 +1,147 @@
+#include "hbvm/reference/store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "hbvm/error.hpp"
+#include "toml/toml_table.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr const char* format_name = "hbvm reference, format 1";
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c < ' ' && c >= 0 ? ' ' : c;
+  }
+  return result + '"';
+}
+
+std::string list(const char* key, const std::vector<std::string>& texts) {
+  std::string result = std::string(key) + " = [";
+  for (std::size_t i = 0; i < texts.size(); ++i) result += (i > 0 ? ",\n  " : "\n  ") + quoted(texts[i]);
+  return result + (texts.empty() ? "]\n" : "\n]\n");
+}
+
+/// A decimal of a sign, digits with at most one point, and an exponent.
+bool is_decimal(const std::string& text) {
+  std::size_t i = text.starts_with('-') ? 1 : 0, digits = 0, points = 0;
+  for (; i < text.size() && (std::isdigit(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.'); ++i)
+    (text[i] == '.' ? points : digits) += 1;
+  if (digits == 0 || points > 1) return false;
+  if (i == text.size()) return true;
+  if (text[i] != 'e' && text[i] != 'E') return false;
+  ++i;
+  if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
+  return i < text.size() && std::all_of(text.begin() + static_cast<std::ptrdiff_t>(i), text.end(),
+                                        [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+std::vector<std::string> decimals(TomlTable& table, const char* key) {
+  std::vector<std::string> result = table.strings(key);
+  for (const std::string& text : result)
+    if (!is_decimal(text)) table.fail(std::string("'") + key + "' holds '" + text + "', which is no decimal");
+  return result;
+}
+
+template <class Read>
+void for_each_table(const TomlSource& source, TomlTable& root, const char* key, const Read& read) {
+  for (const toml::table* const entry : root.tables(key)) {
+    TomlTable table(source, *entry, key);
+    read(table);
+    table.finish();
+  }
+}
+
+}  // namespace
+
+std::string to_toml(const StoredReference& stored) {
+  const Reference& r = stored.reference;
+  std::string text =
+      fmt::format("format = {}\nscene = {}\nscene_hash = {}\ndigits = {}\ndigits_lost = {}\nversion = {}\ndate = {}\n",
+                  quoted(format_name), quoted(r.scene), quoted(r.scene_hash), r.digits,
+                  quoted(fmt::format("{:.2f}", r.digits_lost)), quoted(stored.version), quoted(stored.date));
+  text += list("momenta", r.momentum_names);
+  for (const RouteReport& route : r.routes)
+    text += fmt::format("\n[[route]]\nname = {}\nsettings = {}\ncpu_seconds = {}\n", quoted(route.name),
+                        quoted(route.settings), quoted(fmt::format("{:.3f}", route.cpu_seconds)));
+  for (const ReferenceState& state : r.times) {
+    text += fmt::format("\n[[time]]\nt = {}\nagreed = {}\n", quoted(state.t), state.agreed);
+    text += list("q", state.q) + list("p", state.p) + list("lambda", state.lambda);
+    text += "H = " + quoted(state.H) + "\n" + list("momenta", state.momenta);
+  }
+  return text;
+}
+
+StoredReference read_reference(const std::string& toml, const std::string& name) {
+  const TomlSource source(toml, name);
+  const toml::table parsed = source.parse();
+  TomlTable root(source, parsed, "the reference");
+  if (!root.has("format") || root.string("format") != format_name)
+    root.fail(std::string("it does not begin with format = \"") + format_name + "\"");
+  StoredReference stored;
+  Reference& r = stored.reference;
+  r.scene = root.string("scene");
+  r.scene_hash = root.string("scene_hash");
+  r.digits = static_cast<int>(root.integer("digits"));
+  const std::string lost = root.string("digits_lost");
+  if (!is_decimal(lost)) root.fail("'digits_lost' is no decimal");
+  r.digits_lost = std::stod(lost);
+  stored.version = root.string("version");
+  stored.date = root.string("date");
+  r.momentum_names = root.strings("momenta");
+  for_each_table(source, root, "route", [&](TomlTable& table) {
+    RouteReport route{table.string("name"), table.string("settings")};
+    const std::string seconds = table.string("cpu_seconds");
+    if (!is_decimal(seconds)) table.fail("'cpu_seconds' is no decimal");
+    route.cpu_seconds = std::stod(seconds);
+    r.routes.push_back(std::move(route));
+  });
+  for_each_table(source, root, "time", [&](TomlTable& table) {
+    ReferenceState state;
+    state.t = table.string("t");
+    state.agreed = table.integer("agreed");
+    state.q = decimals(table, "q");
+    state.p = decimals(table, "p");
+    state.lambda = decimals(table, "lambda");
+    state.H = table.string("H");
+    if (!is_decimal(state.H)) table.fail("'H' is no decimal");
+    state.momenta = decimals(table, "momenta");
+    if (state.p.size() != state.q.size()) table.fail("'q' and 'p' have different lengths");
+    if (state.momenta.size() != r.momentum_names.size()) table.fail("'momenta' has not a number for each name");
+    r.times.push_back(std::move(state));
+  });
+  root.finish();
+  return stored;
+}
+
+std::vector<Difference> differences(const Reference& stored, const Reference& found) {
+  std::vector<Difference> result;
+  const auto compare = [&](const std::string& t, const std::string& what, const std::vector<std::string>& a,
+                           const std::vector<std::string>& b) {
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      const std::string x = i < a.size() ? a[i] : "nothing", y = i < b.size() ? b[i] : "nothing";
+      if (x != y) result.push_back({t, a.size() == 1 && what == "H" ? what : fmt::format("{}_{}", what, i + 1), x, y});
+    }
+  };
+  for (std::size_t n = 0; n < std::max(stored.times.size(), found.times.size()); ++n) {
+    static const ReferenceState none{};
+    const ReferenceState& a = n < stored.times.size() ? stored.times[n] : none;
+    const ReferenceState& b = n < found.times.size() ? found.times[n] : none;
+    const std::string& t = a.t.empty() ? b.t : a.t;
+    if (a.t != b.t) result.push_back({t, "time", a.t, b.t});
+    compare(t, "q", a.q, b.q);
+    compare(t, "p", a.p, b.p);
+    compare(t, "lambda", a.lambda, b.lambda);
+    compare(t, "H", {a.H}, {b.H});
+    compare(t, "momentum", a.momenta, b.momenta);
+  }
+  return result;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "cli/json.hpp"
+#include "cli/program.hpp"
+
+namespace hbvm {
+namespace {
+
+using nlohmann::ordered_json;
+
+TEST(ReferenceCommand, PrintsJson) {
+  const Outcome outcome =
+      hbvm({"reference", "simple_pendulum", "--until", "10", "--at", "5/2,10", "--digits", "40", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const ordered_json j = ordered_json::parse(outcome.out);
+  EXPECT_EQ(j["scene"], "simple_pendulum");
+  EXPECT_EQ(j["until"], "10");
+  EXPECT_EQ(j["digits"], 40);
+  ASSERT_EQ(j["times"].size(), 2u);
+  EXPECT_EQ(j["times"][0]["t"], "5/2");
+  for (const auto& state : j["times"]) {
+    EXPECT_EQ(state["q"].size(), 2u);
+    EXPECT_EQ(state["p"].size(), 2u);
+    EXPECT_EQ(state["lambda"].size(), 1u);
+    EXPECT_TRUE(state["H"].is_string());
+    EXPECT_GT(state["agreed"], 40);
+  }
+  // q_1 = -sin(theta) of Jacobi's functions, t = 10.
+  EXPECT_EQ(j["times"][1]["q"][0].get<std::string>().substr(0, 32), "0.114003850418645211312316725708");
+  ASSERT_EQ(j["routes"].size(), 2u);
+  for (const auto& route : j["routes"]) {
+    EXPECT_TRUE(route["settings"].is_string());
+    EXPECT_GT(route["cpu_seconds"], 0);
+  }
+  for (const char* key : {"scene_hash", "version", "command"}) EXPECT_TRUE(j[key].is_string()) << key;
+}
+
+TEST(ReferenceCommand, WritesAFileAndFindsAWrongDigitInIt) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("reference_command_" + std::to_string(getpid()) + ".toml");
+  const Outcome made =
+      hbvm({"reference", "conical_pendulum", "--until", "1", "--digits", "25", "--out", file.string()});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("the routes agree in"), std::string::npos);
+  const Outcome verified = hbvm({"reference", "--verify", file.string()});
+  EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
+  std::string text;
+  {
+    std::ifstream in(file);
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const std::size_t digit = text.find("q = [\n  \"") + 25;
+  text[digit] = text[digit] == '7' ? '8' : '7';
+  std::ofstream(file) << text;
+  const Outcome wrong = hbvm({"reference", "--verify", file.string(), "--route", "taylor"});
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_NE(wrong.out.find("t = 1: q_1 is "), std::string::npos) << wrong.out;
+  std::filesystem::remove(file);
+}
+
+TEST(ReferenceCommand, RefusesWhatItCannotDo) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"reference"},
+        {"reference", "simple_pendulum"},
+        {"reference", "simple_pendulum", "--until", "-1"},
+        {"reference", "simple_pendulum", "--until", "x"},
+        {"reference", "simple_pendulum", "--until", "1", "--digits", "0"},
+        {"reference", "simple_pendulum", "--until", "1", "--route", "euler"},
+        {"reference", "nonsense", "--until", "1"},
+        {"reference", "--verify", "/nonexistent"},
+        {"reference", "--show", "nonsense"}}) {
+    const Outcome outcome = hbvm(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+/// The fall into a centre has no state after 1.11.
+TEST(ReferenceCommand, SaysWhereTheMotionEnds) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("reference_fall_" + std::to_string(getpid()) + ".toml");
+  std::ofstream(file) << "dimension = 2\npoint = [{ name = \"sun\", position = [0, 0] }]\nbody = [{ name = \"stone\", "
+                         "mass = 1, position = [1, 0], velocity = [0, 0] }]\neffect = [{ kind = \"central_gravity\", "
+                         "center = \"sun\", strength = 1 }]\n";
+  const Outcome outcome = hbvm({"reference", file.string(), "--until", "2", "--digits", "20"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("singularity at about t = 1.11"), std::string::npos) << outcome.err;
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace hbvm

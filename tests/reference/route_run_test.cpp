@@ -1,0 +1,58 @@
+#include "hbvm/reference/route_run.hpp"
+
+#include "hbvm/reference/taylor.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+/// The two routes on motions with constraints, and none of them in the other's code: to all digits but a few.
+TEST(Routes, Agree) {
+  for (const char* name : {"modified_pendulum", "tethered_satellites", "double_pendulum"}) {
+    const Scene text = load_scene(name);
+    const std::vector<Expression> times{Expression::parse("1/3"), Expression::parse("2")};
+    const MotionNature nature = nature_of(text, times);
+    constexpr unsigned digits = 45;
+    const PrecisionScope scope(digits);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(text);
+    const std::vector<Mpfr> at{literal<Mpfr>("1/3"), Mpfr(2)};
+    double done = 0;
+    const RouteProgress progress = [&done](double part) { done = part; };
+    const RouteRun a = taylor_route(scene, at, progress);
+    const RouteRun b = hbvm_route(scene, at, digits - 3, nature.log2_radius, progress);
+    EXPECT_NEAR(done, 1, 1e-12);
+    ASSERT_EQ(a.points.size(), 2u);
+    const Mpfr tolerance = literal<Mpfr>("1e-34");
+    for (std::size_t n = 0; n < 2; ++n) {
+      EXPECT_LE(distance(a.points[n].q, b.points[n].q), tolerance) << name;
+      EXPECT_LE(distance(a.points[n].p, b.points[n].p), tolerance) << name;
+      EXPECT_LE(distance(a.points[n].lambda, b.points[n].lambda), tolerance * 100) << name;
+    }
+  }
+}
+
+/// A pendulum loses a digit or two, a chaotic one many: what nature_of says is what a change of the start really does.
+TEST(Routes, KnowHowErrorsGrow) {
+  const std::vector<Expression> times{Expression::parse("20")};
+  const double regular = nature_of(load_scene("simple_pendulum"), times).digits_lost;
+  EXPECT_GT(regular, 0);
+  EXPECT_LT(regular, 3);
+  const Scene chaotic = load_scene("double_pendulum");
+  const MotionNature nature = nature_of(chaotic, times);
+  EXPECT_GT(nature.log2_radius, -10);
+  EXPECT_LT(nature.log2_radius, 5);
+  const PrecisionScope scope(60);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(chaotic);
+  TaylorMotion one(scene.problem, scene.q0, scene.p0),
+      other(scene.problem, scene.q0, Vector<Mpfr>(scene.p0 * literal<Mpfr>("1+1e-30")));
+  one.advance_to(Mpfr(20));
+  other.advance_to(Mpfr(20));
+  const Mpfr change = distance(one.q(), other.q());
+  if (change > 0) {
+    EXPECT_NEAR(nature.digits_lost, 30 + approximately(Mpfr(log10(change))), 3);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm

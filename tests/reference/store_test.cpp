@@ -1,0 +1,77 @@
+#include "hbvm/reference/store.hpp"
+
+#include "hbvm/error.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+StoredReference example() {
+  StoredReference stored;
+  Reference& r = stored.reference;
+  r.scene = "a \"quoted\" \\ scene";
+  r.scene_hash = "0123456789abcdef";
+  r.digits = 20;
+  r.digits_lost = 1.5;
+  r.momentum_names = {"L_z"};
+  r.routes = {{"taylor", "order 40", 0.5}, {"hbvm", "HBVM(20,20)", 1.25}};
+  r.times = {{"1/3", {"0.1", "-2.5e-30"}, {"1", "0"}, {"3.25"}, "-0.5", {"7"}, 25},
+             {"2", {"0.2", "-2"}, {"1.5", "0"}, {"3"}, "-0.5", {"7"}, 24}};
+  stored.version = "1.2.3";
+  stored.date = "2026-01-02";
+  return stored;
+}
+
+TEST(Store, ReadsWhatItWrote) {
+  const StoredReference stored = example(), read = read_reference(to_toml(stored), "file");
+  EXPECT_EQ(to_toml(read), to_toml(stored));
+  EXPECT_EQ(read.reference.scene, stored.reference.scene);
+  EXPECT_TRUE(differences(stored.reference, read.reference).empty());
+}
+
+/// One digit anywhere is found, and named with its time.
+TEST(Store, FindsEveryDigitThatChanged) {
+  const Reference stored = example().reference;
+  const auto expect = [&](const char* t, const char* what, const auto& change) {
+    Reference other = stored;
+    change(other);
+    const std::vector<Difference> found = differences(stored, other);
+    ASSERT_EQ(found.size(), 1u) << what;
+    EXPECT_EQ(found[0].t, t);
+    EXPECT_EQ(found[0].what, what);
+    EXPECT_NE(found[0].stored, found[0].found);
+  };
+  expect("1/3", "q_2", [](Reference& r) { r.times[0].q[1] = "-2.6e-30"; });
+  expect("2", "p_1", [](Reference& r) { r.times[1].p[0] = "1.6"; });
+  expect("2", "lambda_1", [](Reference& r) { r.times[1].lambda[0] = "3.1"; });
+  expect("1/3", "H", [](Reference& r) { r.times[0].H = "0.5"; });
+  expect("1/3", "momentum_1", [](Reference& r) { r.times[0].momenta[0] = "8"; });
+  expect("2", "q_2", [](Reference& r) { r.times[1].q.pop_back(); });
+}
+
+TEST(Store, RefusesWhatIsNone) {
+  const std::string good = to_toml(example());
+  const auto broken = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  for (const std::string& bad :
+       {std::string("nonsense"), std::string(), broken("format 1", "format 9"), broken("\"0.1\"", "\"0.1x\""),
+        broken("\"0.1\"", "0.1"), broken("digits = 20", "digits = \"many\""), broken("H = ", "h = "),
+        broken("\"-2.5e-30\"", "\"-2.5e\""), broken("\"0.1\",", ""), broken("scene_hash", "hash")})
+    EXPECT_THROW(read_reference(bad, "file"), InputError) << bad;
+}
+
+/// Two routes agreed on everything that is shipped.
+TEST(Store, ShipsReferencesThatCanBeRead) {
+  for (const auto& [name, text] : shipped_references()) {
+    const StoredReference stored = read_reference(text, name);
+    EXPECT_EQ(stored.reference.routes.size(), 2u) << name;
+    EXPECT_EQ(scene_hash(load_scene(stored.reference.scene)), stored.reference.scene_hash) << name;
+    for (const ReferenceState& state : stored.reference.times) EXPECT_GT(state.agreed, stored.reference.digits) << name;
+  }
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,88 @@
+#include "hbvm/reference/taylor.hpp"
+
+#include "hbvm/problem/point.hpp"
+#include "hbvm/reference/closed_form.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+void expect_near(const Vector<Mpfr>& found, const Vector<Mpfr>& expected, const Mpfr& tolerance,
+                 const std::string& what) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (Index j = 0; j < found.size(); ++j)
+    EXPECT_LE(magnitude(Mpfr(found[j] - expected[j])), tolerance) << what << ", component " << j;
+}
+
+/// Pendula by Jacobi's functions and a circle: position, momentum; the multiplier by its formula at that state.
+TEST(Taylor, FollowsClosedForms) {
+  for (const unsigned digits : {25U, 60U, 150U})
+    for (const char* name : {"simple_pendulum", "conical_pendulum"}) {
+      const PrecisionScope scope(digits);
+      const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
+      TaylorMotion motion(scene.problem, scene.q0, scene.p0);
+      const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
+      for (const char* time : {"1/1000", "1", "5/2", "10"}) {
+        const Mpfr t = literal<Mpfr>(time);
+        motion.advance_to(t);
+        const auto exact = closed_form(name, t);
+        ASSERT_TRUE(exact);
+        const std::string what = std::string(name) + " at " + time + " in " + std::to_string(digits) + " digits";
+        expect_near(motion.q(), exact->q, tolerance, what);
+        expect_near(motion.p(), exact->p, tolerance, what);
+        Point<Mpfr> point(scene.problem);
+        expect_near(motion.lambda(), point.multiplier(exact->q, exact->p), tolerance, what);
+      }
+    }
+}
+
+/// Kepler's ellipse closes after 2 pi (the third law, with unit axis and strength).
+TEST(Taylor, ClosesKeplersEllipse) {
+  const PrecisionScope scope(50);
+  const Assembled<Mpfr> scene =
+      assemble<Mpfr>(read_scene("dimension = 2\npoint = [{ name = \"sun\", position = [0, 0] }]\nbody = [{ name = "
+                                "\"planet\", mass = 1, position = "
+                                "[\"1/2\", 0], velocity = [0, \"sqrt(3)\"] }]\neffect = [{ kind = \"central_gravity\", "
+                                "center = \"sun\", strength = 1 "
+                                "}]\n",
+                                "ellipse"));
+  TaylorMotion motion(scene.problem, scene.q0, scene.p0);
+  motion.advance_to(literal<Mpfr>("2*pi"));
+  expect_near(motion.q(), scene.q0, 10'000 * epsilon<Mpfr>(), "position");
+  expect_near(motion.p(), scene.p0, 10'000 * epsilon<Mpfr>(), "momentum");
+}
+
+/// Constraints, hidden constraints and H of scenes with every form of constraint and rigid bodies, whatever the sizes.
+TEST(Taylor, KeepsWhatTheMotionKeeps) {
+  for (const auto& [name, text] : built_in_scenes()) {
+    const PrecisionScope scope(40);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(text, name));
+    TaylorMotion motion(scene.problem, scene.q0, scene.p0);
+    motion.advance_to(literal<Mpfr>("1/4"));
+    Point<Mpfr> point(scene.problem);
+    const Mpfr before = point.energy(scene.q0, scene.p0), size = point.energy_size(scene.q0, scene.p0);
+    const Mpfr after = point.energy(motion.q(), motion.p());
+    const Mpfr limit = 100'000 * epsilon<Mpfr>();
+    EXPECT_LE(magnitude(Mpfr(after - before)), limit * (size + point.energy_size(motion.q(), motion.p()))) << name;
+    if (scene.problem.nu() == 0) continue;
+    EXPECT_LE(max_norm(point.constraints(motion.q())), limit * point.constraint_size(motion.q())) << name;
+  }
+}
+
+TEST(Taylor, EndsWithATypedErrorAtASingularity) {
+  const PrecisionScope scope(30);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(
+      "dimension = 2\npoint = [{ name = \"sun\", position = [0, 0] }]\nbody = [{ name = \"stone\", mass = 1, position "
+      "= [1, "
+      "0], velocity = [0, 0] }]\neffect = [{ kind = \"central_gravity\", center = \"sun\", strength = 1 }]\n",
+      "fall"));
+  TaylorMotion motion(scene.problem, scene.q0, scene.p0);
+  // It falls in after pi / (2 sqrt 2) = 1.11.
+  EXPECT_NO_THROW(motion.advance_to(literal<Mpfr>("1.1")));
+  EXPECT_THROW(motion.advance_to(literal<Mpfr>("1.2")), IntegrationError);
+}
+
+}  // namespace
+}  // namespace hbvm
