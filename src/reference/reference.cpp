@@ -209,7 +209,9 @@ std::string scene_hash(const Scene& scene) {
 
 Reference compute_reference(const ReferenceRequest& request) {
   check(request);
-  const MotionNature nature = nature_of(request.scene, request.times);
+  MotionNature nature = nature_of(request.scene, request.times, [&](double part) {
+    if (request.progress) request.progress(part);
+  });
   constexpr int rounds = 3, first_guard = 12, more_guard = 8;
   Reference result{.scene = request.scene.name,
                    .title = request.scene.title,
@@ -230,6 +232,8 @@ Reference compute_reference(const ReferenceRequest& request) {
     for (const ComparedState& state : states) agreed = std::min(agreed, state.agreed());
     if (agreed <= request.digits) {
       if (round == rounds) disagree(request, states);
+      // What the radius of convergence is later on may not have shown.
+      nature.log2_radius -= 1;
       guard += static_cast<int>(std::max(0L, request.digits + 1 - agreed)) + more_guard;
       continue;
     }

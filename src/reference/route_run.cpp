@@ -49,8 +49,8 @@ RouteRun hbvm_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times
   // With a singularity at the distance R the coefficients of a step fall by 4 R/h each, errors of the output state by
   // its square a stage. As a step takes s^2 to s^3 operations, nine stages for twenty digits are the best (measured
   // from 30 to 150 digits); a fifth of the step is left for what the radius of a series at low precision does not show.
-  constexpr int least_stages = 4, most_stages = 400;
-  const int s = std::clamp(static_cast<int>(std::lround(9 * digits / 20)), least_stages, most_stages);
+  constexpr int least_stages = 4;
+  const int s = std::clamp(static_cast<int>(std::lround(9 * digits / 20)), least_stages, max_s);
   double log2_step = log2_radius + std::log2(double{16} / 5) - digits * std::log2(double{10}) / (2 * s);
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
   const Problem<Mpfr>& problem = scene.problem;
@@ -95,37 +95,37 @@ RouteRun hbvm_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times
   }
 }
 
-MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times) {
-  // A change that grows to a thousandth of what it changes is as good as lost: more digits then, and a smaller one.
+MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times, const RouteProgress& progress) {
+  // A change that grows to a thousandth of what it changes tells its rate: from there on it is taken to grow like that.
   constexpr double lost = -3;
-  constexpr unsigned first_digits = 30, most_digits = 4000;
-  for (unsigned digits = first_digits;; digits *= 2) {
-    const PrecisionScope scope(digits);
-    const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
-    const int change = static_cast<int>(digits) / 2;
-    const Mpfr delta = literal<Mpfr>("1e-" + std::to_string(change));
-    Vector<Mpfr> q0 = assembled.q0, p0 = assembled.p0;
-    for (Index j = 0; j < q0.size(); ++j) {
-      // Changes of both signs, of which no symmetry of a scene is left.
-      q0[j] += delta * max_norm(assembled.q0) * (j % 3 - 1);
-      p0[j] += delta * max_norm(assembled.p0) * (1 + j % 5) / (j % 2 == 0 ? 5 : -5);
-    }
-    TaylorMotion motion(assembled.problem, assembled.q0, assembled.p0), other(assembled.problem, q0, p0);
-    double worst = -change;
-    for (const Expression& time : times) {
-      const Mpfr t = evaluate<Mpfr>(time, scene.constants);
-      motion.advance_to(t);
-      other.advance_to(t);
-      for (const auto vector : {&TaylorMotion::q, &TaylorMotion::p}) {
-        const Mpfr size = max_norm((motion.*vector)());
-        if (size > 0)
-          worst = std::max(worst, (log2_of(distance((motion.*vector)(), (other.*vector)())) - log2_of(size)) /
-                                      std::log2(double{10}));
-      }
-    }
-    if (worst > lost && 2 * digits <= most_digits) continue;
-    return {std::max(double{0}, worst + change), motion.least_radius()};
+  constexpr int change = 15, pieces = 64;
+  constexpr unsigned digits = 2 * change;
+  const PrecisionScope scope(digits);
+  const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
+  const Mpfr delta = literal<Mpfr>("1e-" + std::to_string(change));
+  Vector<Mpfr> q0 = assembled.q0, p0 = assembled.p0;
+  for (Index j = 0; j < q0.size(); ++j) {
+    // Changes of both signs, of which no symmetry of a scene is left.
+    q0[j] += delta * max_norm(assembled.q0) * (j % 3 - 1);
+    p0[j] += delta * max_norm(assembled.p0) * (1 + j % 5) / (j % 2 == 0 ? 5 : -5);
   }
+  TaylorMotion motion(assembled.problem, assembled.q0, assembled.p0), other(assembled.problem, q0, p0);
+  const Mpfr end = evaluate<Mpfr>(times.back(), scene.constants);
+  double worst = -change, times_longer = 1;
+  for (int piece = 1; piece <= pieces && worst <= lost; ++piece) {
+    const Mpfr t = end * piece / pieces;
+    const auto after_step = [&](const Mpfr&) { progress(0); };
+    motion.advance_to(t, after_step);
+    other.advance_to(t, after_step);
+    for (const auto vector : {&TaylorMotion::q, &TaylorMotion::p}) {
+      const Mpfr size = max_norm((motion.*vector)());
+      if (size > 0)
+        worst = std::max(
+            worst, (log2_of(distance((motion.*vector)(), (other.*vector)())) - log2_of(size)) / std::log2(double{10}));
+    }
+    times_longer = static_cast<double>(pieces) / piece;
+  }
+  return {std::max(double{0}, (worst + change) * times_longer), motion.least_radius()};
 }
 
 }  // namespace hbvm

@@ -38,8 +38,9 @@ struct MotionNature {
   double log2_radius = 0;  ///< least radius of convergence of the Taylor series
 };
 
-/// From two motions at low precision, the start of one changed a little.
-/// \throws IntegrationError
-MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times);
+/// From two motions at low precision, the start of one changed a little. Where the change has grown so far that it
+/// tells no more, its rate until then is taken for that of all the time, and the radius for the least. \param progress
+/// is called with 0 now and then, and may throw to end the work \throws IntegrationError
+MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times, const RouteProgress& progress);
 
 }  // namespace hbvm
