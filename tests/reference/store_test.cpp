@@ -40,6 +40,7 @@ TEST(Store, FindsEveryDigitThatChanged) {
     EXPECT_EQ(found[0].t, t);
     EXPECT_EQ(found[0].what, what);
     EXPECT_NE(found[0].stored, found[0].found);
+    EXPECT_EQ(differences(other, stored).size(), 1u) << what;
   };
   expect("1/3", "q_2", [](Reference& r) { r.times[0].q[1] = "-2.6e-30"; });
   expect("2", "p_1", [](Reference& r) { r.times[1].p[0] = "1.6"; });
