@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "linear/limb_products.hpp"
 #include "linear/limb_sum.hpp"
 
 namespace hbvm {
@@ -46,8 +47,7 @@ AlignedMatrix::AlignedMatrix(const Matrix<Mpfr>& a) : rows_(a.rows()), columns_(
     }
   x_.resize(static_cast<std::size_t>(columns_ * limbs_));
   x_signs_.resize(static_cast<std::size_t>(columns_));
-  product_.resize(static_cast<std::size_t>(2 * limbs_));
-  sum_.resize(static_cast<std::size_t>(2 * limbs_ + 1));
+  sum_.resize(static_cast<std::size_t>(limbs_ + 2));
 }
 
 void AlignedMatrix::align(Limb* to, mpfr_srcptr x, long exponent) const {
@@ -75,23 +75,18 @@ bool AlignedMatrix::times(Mpfr* r, const Mpfr* x, Index stride) {
     x_signs_[static_cast<std::size_t>(l)] = sign_of(raw(x[l * stride]));
     align(&x_[static_cast<std::size_t>(l * limbs_)], raw(x[l * stride]), x_exponent);
   }
-  const long width = 2 * limbs_ + 1;
-  Limb* const sum = sum_.data();
+  static thread_local LimbProducts products;
   const Limb* entry = entries_.data();
   const signed char* sign = signs_.data();
-  for (Index i = 0; i < rows_; ++i) {
-    std::fill_n(sum, width, Limb{0});
-    const Limb* factor = x_.data();
-    for (Index l = 0; l < columns_; ++l, ++sign, entry += limbs_, factor += limbs_) {
-      const int signs = *sign * x_signs_[static_cast<std::size_t>(l)];
-      if (signs == 0) continue;
-      mpn_mul_n(product_.data(), entry, factor, limbs_);
-      if (signs > 0)
-        sum[width - 1] += mpn_add_n(sum, sum, product_.data(), width - 1);
-      else
-        sum[width - 1] -= mpn_sub_n(sum, sum, product_.data(), width - 1);
-    }
-    set_limb_sum(raw(r[i]), sum, width, exponent_ + x_exponent);
+  const signed char* const x_sign = x_signs_.data();
+  const Limb* const factors = x_.data();
+  const auto columns = static_cast<std::size_t>(columns_), limbs = static_cast<std::size_t>(limbs_);
+  for (Index i = 0; i < rows_; ++i, entry += columns_ * limbs_, sign += columns_) {
+    products.set(columns, [=](std::size_t l) -> LimbProducts::Signed {
+      return {entry + l * limbs, factors + l * limbs, sign[l] * x_sign[l]};
+    });
+    products.set_upper_sum(sum_.data(), limbs_);
+    set_limb_sum(raw(r[i]), sum_.data(), limbs_ + 2, exponent_ + x_exponent);
   }
   return true;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "hbvm/error.hpp"
-#include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -13,27 +12,11 @@ namespace {
   throw IntegrationError(std::string("the forces have no Taylor series here: ") + what);
 }
 
-/// r = sum_{first <= i <= last} a_i b_{n-i}.
-void set_convolution(Mpfr& r, const Mpfr* a, const Mpfr* b, Index n, Index first, Index last) {
-  set_dot(r, a + first, 1, b + n - first, -1, last - first + 1);
-}
-
-/// r = sum_{first <= i <= n - first} a_i a_{n-i}: equal terms once.
-void set_square(Mpfr& r, const Mpfr* a, Index n, Index first, Mpfr& t) {
-  const Index pairs = (n + 1) / 2 - first;  // i < n - i
-  if (pairs > 0)
-    set_convolution(r, a, a, n, first, first + pairs - 1);
-  else
-    set_zero(r);
-  mpfr_mul_2ui(raw(r), raw(r), 1, MPFR_RNDN);
-  if (n % 2 == 0 && n / 2 >= first) add_product(r, a[n / 2], a[n / 2], t);
-}
-
 }  // namespace
 
 ProgramSeries::ProgramSeries(const Program<Mpfr>& program, Index inputs, std::vector<const Mpfr*> coefficients,
                              Index order)
-    : order_(order) {
+    : order_(order), inputs_(inputs) {
   Index count = inputs;
   // Registers serve several values in turn; here each has a series of its own.
   std::vector<Value> registers(program.temporaries());
@@ -71,6 +54,36 @@ ProgramSeries::ProgramSeries(const Program<Mpfr>& program, Index inputs, std::ve
   }
   for (const Operand& output : program.output_operands()) outputs_.push_back(value_of(output));
   values_.assign(static_cast<std::size_t>(count * (order + 1)), Mpfr(0));
+  position_.assign(static_cast<std::size_t>(count), -1);
+  for (const Node& node : nodes_) {
+    if (node.computed) continue;
+    const bool both = node.op == Op::multiply && node.a.series >= 0 && node.b.series >= 0;
+    if (both || node.op == Op::reciprocal || node.op == Op::log) align(node.a.series);
+    if (both) align(node.b.series);
+    if (node.op == Op::reciprocal || node.op == Op::sqrt || node.op == Op::exp) align(node.z);
+    for (const Index i : {node.aux, node.other}) align(i);
+    if (node.other >= 0) align(node.z);
+  }
+}
+
+void ProgramSeries::align(Index i) {
+  if (i < 0 || position_[static_cast<std::size_t>(i)] >= 0) return;
+  position_[static_cast<std::size_t>(i)] = static_cast<Index>(aligned_.size());
+  aligned_.emplace_back(order_ + 1);
+}
+
+void ProgramSeries::keep(Index i, Index n) {
+  if (i >= 0 && position_[static_cast<std::size_t>(i)] >= 0) aligned(i).set(n, series(i)[n]);
+}
+
+void ProgramSeries::set_convolution(Mpfr& r, Index a, Index b, Index n, Index first, Index last) {
+  hbvm::set_convolution(r, aligned(a), aligned(b), n, first, last);
+}
+
+void ProgramSeries::set_square(Mpfr& r, Index a, Index n, Index first, Mpfr& t) {
+  set_convolution(r, a, a, n, first, (n + 1) / 2 - 1);  // i < n - i
+  mpfr_mul_2ui(raw(r), raw(r), 1, MPFR_RNDN);
+  if (n % 2 == 0 && n / 2 >= first) add_product(r, series(a)[n / 2], series(a)[n / 2], t);
 }
 
 const Mpfr& ProgramSeries::at(const Value& x, Index n) const {
@@ -81,6 +94,7 @@ const Mpfr& ProgramSeries::at(const Value& x, Index n) const {
 const Mpfr& ProgramSeries::output(std::size_t i, Index n) const { return at(outputs_[i], n); }
 
 void ProgramSeries::advance(Index n) {
+  for (Index i = 0; i < inputs_; ++i) keep(i, n);
   for (const Node& node : nodes_) {
     if (node.computed) continue;
     switch (node.op) {
@@ -101,6 +115,9 @@ void ProgramSeries::advance(Index n) {
           go_on(node, n);
         break;
     }
+    if (n == 0) keep(node.aux, 0);
+    keep(node.z, n);
+    keep(node.other, n);
   }
 }
 
@@ -128,9 +145,9 @@ void ProgramSeries::multiply(const Node& node, Index n) {
     return set_product(z, *(number.number ? number.number : &at(number, 0)), at(varying, n));
   }
   if (node.a.series == node.b.series)
-    set_square(z, series(node.a.series), n, 0, t_);
+    set_square(z, node.a.series, n, 0, t_);
   else
-    set_convolution(z, series(node.a.series), series(node.b.series), n, 0, n);
+    set_convolution(z, node.a.series, node.b.series, n, 0, n);
 }
 
 void ProgramSeries::start(const Node& node) {
@@ -163,48 +180,49 @@ void ProgramSeries::start(const Node& node) {
 }
 
 void ProgramSeries::go_on(const Node& node, Index n) {
+  if (node.a.series < 0) return;  // of a number: 0
   const auto whole = static_cast<unsigned long>(n);
   Mpfr* const z = series(node.z);
   const Mpfr& a_n = at(node.a, n);
   switch (node.op) {
     case Op::reciprocal:
-      set_convolution(t_, series(node.a.series), z, n, 1, n);
+      set_convolution(t_, node.a.series, node.z, n, 1, n);
       set_product(t_, t_, z[0]);
       set_negative(z[n], t_);
       break;
     case Op::sqrt:
-      set_square(t_, z, n, 1, z[n]);
+      set_square(t_, node.z, n, 1, z[n]);
       set_difference(t_, a_n, t_);
       mpfr_div_2ui(raw(t_), raw(t_), 1, MPFR_RNDN);
       set_quotient(z[n], t_, z[0]);
       break;
     case Op::log: {
       Mpfr* const weighted = series(node.aux);
-      set_convolution(t_, weighted, series(node.a.series), n, 1, n - 1);
+      set_convolution(t_, node.aux, node.a.series, n, 1, n - 1);
       mpfr_div_ui(raw(t_), raw(t_), whole, MPFR_RNDN);
       set_difference(t_, a_n, t_);
       set_quotient(z[n], t_, at(node.a, 0));
       mpfr_mul_ui(raw(weighted[n]), raw(z[n]), whole, MPFR_RNDN);
+      keep(node.aux, n);
       break;
     }
     case Op::exp: {
       Mpfr* const weighted = series(node.aux);
       mpfr_mul_ui(raw(weighted[n]), raw(a_n), whole, MPFR_RNDN);
-      set_convolution(t_, weighted, z, n, 1, n);
+      keep(node.aux, n);
+      set_convolution(t_, node.aux, node.z, n, 1, n);
       mpfr_div_ui(raw(z[n]), raw(t_), whole, MPFR_RNDN);
       break;
     }
     default: {
-      Mpfr* const weighted = series(node.aux);
-      Mpfr* const other = series(node.other);
-      mpfr_mul_ui(raw(weighted[n]), raw(a_n), whole, MPFR_RNDN);
-      Mpfr* const sine = node.op == Op::sin ? z : other;
-      Mpfr* const cosine = node.op == Op::sin ? other : z;
-      set_convolution(t_, weighted, cosine, n, 1, n);
-      mpfr_div_ui(raw(sine[n]), raw(t_), whole, MPFR_RNDN);
-      set_convolution(t_, weighted, sine, n, 1, n);
+      mpfr_mul_ui(raw(series(node.aux)[n]), raw(a_n), whole, MPFR_RNDN);
+      keep(node.aux, n);
+      const Index sine = node.op == Op::sin ? node.z : node.other, cosine = node.op == Op::sin ? node.other : node.z;
+      set_convolution(t_, node.aux, cosine, n, 1, n);
+      mpfr_div_ui(raw(series(sine)[n]), raw(t_), whole, MPFR_RNDN);
+      set_convolution(t_, node.aux, sine, n, 1, n);
       set_negative(t_, t_);
-      mpfr_div_ui(raw(cosine[n]), raw(t_), whole, MPFR_RNDN);
+      mpfr_div_ui(raw(series(cosine)[n]), raw(t_), whole, MPFR_RNDN);
       break;
     }
   }

@@ -15,6 +15,9 @@
 namespace hbvm {
 namespace {
 
+/// Polynomial motions are exact over any time; steps are no longer than 2^this.
+constexpr double longest = 40;
+
 /// Jorba and Zou have half of the bits, in units of e, from the work of the convolutions alone; what is linear in the
 /// order makes a fifth more the best (measured from 30 to 1000 digits).
 Index order_for(int bits) {
@@ -53,8 +56,9 @@ TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
       forces_.push_back({term, term.displacements[n],
                          ProgramSeries(term.gradient, problem.potential.dimension, coefficients, order_)});
     }
-  begin(start_q_, start_p_);
-  expand();
+  aligned_lambda_.assign(static_cast<std::size_t>(problem.nu()), AlignedSeries(order_ + 1));
+  find_unit();
+  take_up();
   finish();
 }
 
@@ -74,7 +78,12 @@ void TaylorMotion::collect_forms() {
         constraint.form);
     std::vector<Form> own;
     for (const Index j : coordinates(constraint, d)) {
-      Form form{Mpfr(0), {second[j].begin(), second[j].end()}, a, {{j, 1}}};
+      Form form{.constant = Mpfr(0),
+                .terms = {second[j].begin(), second[j].end()},
+                .constraint = a,
+                .columns = {{j, 1}},
+                .series = AlignedSeries(order_ + 2),
+                .velocity = AlignedSeries(order_ + 2)};
       std::erase_if(form.terms, [](const auto& term) { return term.second == 0; });
       {
         // What q_j takes g to, less its square: exact with twice the digits and some.
@@ -102,6 +111,13 @@ void TaylorMotion::collect_forms() {
       else
         own.push_back(std::move(form));
     }
+    for (Form& form : own) {
+      std::ranges::sort(form.columns);
+      const Mpfr factor = form.terms.empty() ? Mpfr(0) : Mpfr(form.terms.front().second * form.columns.front().second);
+      if (std::equal(form.terms.begin(), form.terms.end(), form.columns.begin(), form.columns.end(),
+                     [&](const auto& x, const auto& y) { return x.first == y.first && x.second == factor * y.second; }))
+        form.factor = factor;
+    }
     forms_.insert(forms_.end(), own.begin(), own.end());
   }
 }
@@ -110,12 +126,13 @@ void TaylorMotion::set_velocity(Index n) {
   for (const auto& block : problem_.mass.blocks())
     for (Index j = 0; j < block.size; ++j) {
       Mpfr& v = v_series(block.offset + j)[n];
-      if (!block.full) {
+      if (block.full) {
+        set_zero(v);
+        for (Index i = 0; i < block.size; ++i) add_product(v, block.W(j, i), p_series(block.offset + i)[n], x_);
+      } else {
         set_product(v, block.inverse_mass, p_series(block.offset + j)[n]);
-        continue;
       }
-      set_zero(v);
-      for (Index i = 0; i < block.size; ++i) add_product(v, block.W(j, i), p_series(block.offset + i)[n], x_);
+      set_product(v, v, unit_);
     }
   for (std::size_t l = 0; l < forms_.size(); ++l) {
     Mpfr& sum = form_velocity(l)[n];
@@ -126,6 +143,7 @@ void TaylorMotion::set_velocity(Index n) {
       else
         set_difference(sum, sum, v_series(j)[n]);
     }
+    if (forms_[l].factor == 0 || n == 0) forms_[l].velocity.set(n, sum);
   }
 }
 
@@ -137,6 +155,7 @@ void TaylorMotion::set_forms(Index n) {
     else
       set_zero(sum);
     for (const auto& [j, h] : forms_[l].terms) add_product(sum, h, q_series(j)[n], x_);
+    forms_[l].series.set(n, sum);
   }
 }
 
@@ -184,6 +203,7 @@ void TaylorMotion::project() {
   for (std::size_t l = 0; l < forms_.size(); ++l)
     add_product(rhs_[forms_[l].constraint], form_series(l)[0], form_velocity(l)[0], x_);
   gram_.solve(rhs_);
+  for (Index a = 0; a < nu; ++a) set_quotient(rhs_[a], rhs_[a], unit_);
   for (std::size_t l = 0; l < forms_.size(); ++l)
     for (const auto& [j, sign] : forms_[l].columns) {
       set_product(t_, form_series(l)[0], rhs_[forms_[l].constraint]);
@@ -216,6 +236,18 @@ void TaylorMotion::set_force(Index n) {
   }
 }
 
+void TaylorMotion::set_hidden(Mpfr& r, std::size_t l, Index n) {
+  const Form& form = forms_[l];
+  if (form.factor == 0) return set_convolution(r, form.series, form.velocity, n + 1, 1, n + 1);
+  // With (k+1) G_{k+1} = factor v_k: sum_i (n+2-i) G_i G_{n+2-i}, of which mirrored terms make n + 2 together.
+  set_convolution(r, form.series, form.series, n + 2, 1, (n + 1) / 2);
+  mpfr_mul_2ui(raw(r), raw(r), 1, MPFR_RNDN);
+  if (n % 2 == 0) add_product(r, form_series(l)[n / 2 + 1], form_series(l)[n / 2 + 1], x_);
+  mpfr_mul_ui(raw(r), raw(r), static_cast<unsigned long>(n + 2), MPFR_RNDN);
+  mpfr_div_2ui(raw(r), raw(r), 1, MPFR_RNDN);
+  set_quotient(r, r, form.factor);
+}
+
 void TaylorMotion::set_multipliers(Index n) {
   const Index nu = problem_.nu();
   if (nu == 0) return;
@@ -223,11 +255,10 @@ void TaylorMotion::set_multipliers(Index n) {
   for (Index a = 0; a < nu; ++a) set_zero(rhs_[a]);
   for (std::size_t l = 0; l < forms_.size(); ++l) {
     const Form& form = forms_[l];
-    const Mpfr* const G = form_series(l);
-    set_dot(t_, G + 1, 1, form_velocity(l) + n, -1, n + 1);
+    set_hidden(t_, l, n);
     set_sum(rhs_[form.constraint], rhs_[form.constraint], t_);
     if (n == 0) continue;
-    set_dot(t_, G + 1, 1, lambda_series(form.constraint) + n - 1, -1, n);
+    set_convolution(t_, form.series, aligned_lambda_[static_cast<std::size_t>(form.constraint)], n, 1, n);
     for (const auto& [j, sign] : form.columns) {
       if (sign > 0)
         set_difference(F_[j], F_[j], t_);
@@ -236,7 +267,10 @@ void TaylorMotion::set_multipliers(Index n) {
     }
   }
   problem_.mass.velocity(lanes(std::as_const(F_)), lanes(weighted_));
-  for (Index a = 0; a < nu; ++a) mpfr_mul_ui(raw(rhs_[a]), raw(rhs_[a]), static_cast<unsigned long>(n + 1), MPFR_RNDN);
+  for (Index a = 0; a < nu; ++a) {
+    mpfr_mul_ui(raw(rhs_[a]), raw(rhs_[a]), static_cast<unsigned long>(n + 1), MPFR_RNDN);
+    set_product(rhs_[a], rhs_[a], per_square_);
+  }
   for (std::size_t l = 0; l < forms_.size(); ++l) {
     const Form& form = forms_[l];
     set_zero(t_);
@@ -249,7 +283,10 @@ void TaylorMotion::set_multipliers(Index n) {
     add_product(rhs_[form.constraint], form_series(l)[0], t_, x_);
   }
   gram_.solve(rhs_);
-  for (Index a = 0; a < nu; ++a) set(lambda_series(a)[n], rhs_[a]);
+  for (Index a = 0; a < nu; ++a) {
+    set(lambda_series(a)[n], rhs_[a]);
+    aligned_lambda_[static_cast<std::size_t>(a)].set(n, rhs_[a]);
+  }
   for (std::size_t l = 0; l < forms_.size(); ++l) {
     const Form& form = forms_[l];
     set_product(t_, form_series(l)[0], rhs_[form.constraint]);
@@ -273,65 +310,116 @@ void TaylorMotion::begin(const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
   project();
 }
 
-void TaylorMotion::expand() {
-  for (Index n = 0; n < order_; ++n) {
+void TaylorMotion::expand(Index order) {
+  for (Index n = 0; n < order; ++n) {
     const auto next = static_cast<unsigned long>(n + 1);
     for (Index j = 0; j < F_.size(); ++j) mpfr_div_ui(raw(q_series(j)[n + 1]), raw(v_series(j)[n]), next, MPFR_RNDN);
     set_forms(n + 1);
     set_force(n);
     set_multipliers(n);
-    for (Index j = 0; j < F_.size(); ++j) mpfr_div_ui(raw(p_series(j)[n + 1]), raw(F_[j]), next, MPFR_RNDN);
+    for (Index j = 0; j < F_.size(); ++j) {
+      Mpfr& p = p_series(j)[n + 1];
+      set_product(p, F_[j], unit_);
+      mpfr_div_ui(raw(p), raw(p), next, MPFR_RNDN);
+    }
     set_velocity(n + 1);
   }
-  choose_step();
 }
 
-void TaylorMotion::choose_step() {
-  // Of each body: log2 of its size, what it is and what it moves by in a step, and of its last coefficients.
-  const double bits = significand_bits<Mpfr>() + 2,
-               last_length = steps_ > 0 ? log2_of(length_) : -std::numeric_limits<double>::infinity();
-  double length = std::numeric_limits<double>::infinity(), radius = length;
-  const auto greatest = [&](const auto& block, auto series, Index n) {
-    double result = -std::numeric_limits<double>::infinity();
-    for (Index j = block.offset; j < block.offset + block.size; ++j)
-      result = std::max(result, log2_of((this->*series)(j)[n]));
-    return result;
-  };
+TaylorMotion::Extent TaylorMotion::extent(Index order) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const double bits = significand_bits<Mpfr>() + 2;
+  Extent result{infinite, infinite, -infinite};
   for (const auto& block : problem_.mass.blocks())
     for (const auto series : {&TaylorMotion::q_series, &TaylorMotion::p_series}) {
-      const double size =
-          std::max(greatest(block, series, 0), greatest(block, series, 1) + std::min(last_length, double{0}));
-      for (const Index n : {order_ - 1, order_}) {
-        const double tail = greatest(block, series, n);
-        if (std::isnan(tail) || std::isinf(size)) continue;
-        length = std::min(length, (size - bits - tail) / static_cast<double>(n));
-        radius = std::min(radius, (size - tail) / static_cast<double>(n));
+      const auto greatest = [&](Index n) {
+        double exponent = -infinite;
+        for (Index j = block.offset; j < block.offset + block.size; ++j)
+          exponent = std::max(exponent, log2_of((this->*series)(j)[n]));
+        return exponent;
+      };
+      // What it is and what it moves by.
+      const double size = std::max(greatest(0), greatest(1));
+      if (std::isinf(size)) continue;
+      for (const Index n : {order - 1, order}) {
+        const double tail = greatest(n);
+        if (std::isnan(tail)) continue;
+        result.step = std::min(result.step, (size - bits - tail) / static_cast<double>(n));
+        result.radius = std::min(result.radius, (size - tail) / static_cast<double>(n));
       }
       // Of an entire motion terms may grow before they fall: what they are larger than their sum they cancel of its
       // digits.
-      for (Index n = 2; n < order_ - 1; ++n) {
-        const double term = greatest(block, series, n);
-        if (!std::isinf(size)) length = std::min(length, (size + 1 - term) / static_cast<double>(n));
+      for (Index n = 2; n < order - 1; ++n) {
+        const double term = greatest(n);
+        result.step = std::min(result.step, (size + 1 - term) / static_cast<double>(n));
+        result.growth = std::max(result.growth, term - size);
       }
     }
-  // Polynomial motions are exact over any time.
-  constexpr double longest = 40;
-  length = std::min(length, longest);
-  radius = std::min(radius, longest);
-  least_radius_ = steps_ == 0 ? radius : std::min(least_radius_, radius);
-  if (!(length > -bits))
-    throw IntegrationError("the motion has a singularity at about t = " + to_scientific(start_, 10) +
-                           ": its Taylor series converges nowhere there");
-  length_ = Mpfr(1);
-  const double whole = std::floor(length);
-  const double fraction = std::exp2(length - whole);
-  mpfr_set_d(raw(length_), fraction, MPFR_RNDN);
-  mpfr_mul_2si(raw(length_), raw(length_), static_cast<long>(whole), MPFR_RNDN);
+  return result;
+}
+
+void TaylorMotion::set_unit(double log2) {
+  log2_unit_ = std::min(log2, longest);
+  const double whole = std::floor(log2_unit_);
+  mpfr_set_d(raw(unit_), std::exp2(log2_unit_ - whole), MPFR_RNDN);
+  mpfr_mul_2si(raw(unit_), raw(unit_), static_cast<long>(whole), MPFR_RNDN);
+  set_product(t_, unit_, unit_);
+  mpfr_ui_div(raw(per_square_), 1, raw(t_), MPFR_RNDN);
+}
+
+void TaylorMotion::find_unit() {
+  const Index few = std::min<Index>(order_, 16);
+  constexpr int most_tries = 100;
+  constexpr double most_change = 40, near = 2;
+  set_unit(0);
+  for (int tries = 0; tries < most_tries; ++tries) {
+    begin(start_q_, start_p_);
+    expand(few);
+    const double radius = extent(few).radius, before = log2_unit_;
+    // The step that the last terms of all the orders make round-off.
+    const double fall = static_cast<double>(significand_bits<Mpfr>()) / static_cast<double>(order_);
+    set_unit(log2_unit_ + (std::isinf(radius) ? most_change : radius - fall));
+    if (std::abs(log2_unit_ - before) < near) break;
+  }
+  first_log2_unit_ = log2_unit_;
+}
+
+void TaylorMotion::take_up() {
+  // More and the terms before the largest would lose digits beside it.
+  constexpr double most_growth = AlignedSeries::guard_bits / 2;
+  // A little more than the last step: where the series would take more, the unit follows.
+  constexpr double room = double{1} / 16, most_rise = 1;
+  const double bits = significand_bits<Mpfr>();
+  for (;;) {
+    if (!(log2_unit_ > first_log2_unit_ - 2 * bits) || !(log2_unit_ > log2_of(start_) - bits))
+      throw IntegrationError("the motion has a singularity at about t = " + to_scientific(start_, 10) +
+                             ": its Taylor series converges nowhere there");
+    begin(start_q_, start_p_);
+    expand(order_);
+    const Extent found = extent(order_);
+    const double next = log2_unit_ + std::min(found.step + room, most_rise);
+    if (found.growth > most_growth) {
+      set_unit(std::min(next, log2_unit_ - 1));
+      continue;
+    }
+    const double radius = std::min(found.radius + log2_unit_, longest);
+    least_radius_ = steps_ == 0 ? radius : std::min(least_radius_, radius);
+    set(length_, unit_);
+    if (found.step < 0) {
+      const double whole = std::floor(found.step);
+      mpfr_set_d(raw(t_), std::exp2(found.step - whole), MPFR_RNDN);
+      mpfr_mul_2si(raw(t_), raw(t_), static_cast<long>(whole), MPFR_RNDN);
+      set_product(length_, length_, t_);
+    }
+    next_log2_unit_ = next;
+    return;
+  }
 }
 
 void TaylorMotion::evaluate(const Mpfr& tau, Vector<Mpfr>& q, Vector<Mpfr>& p) {
   set(powers_[0], Mpfr(1));
-  for (Index n = 1; n <= order_; ++n) set_product(powers_[n], powers_[n - 1], tau);
+  set_quotient(t_, tau, unit_);
+  for (Index n = 1; n <= order_; ++n) set_product(powers_[n], powers_[n - 1], t_);
   for (Index j = 0; j < q.size(); ++j) {
     set_dot(q[j], q_series(j), 1, powers_.data(), 1, order_ + 1);
     set_dot(p[j], p_series(j), 1, powers_.data(), 1, order_ + 1);
@@ -370,8 +458,8 @@ void TaylorMotion::advance_to(const Mpfr& t, const std::function<void(const Mpfr
     start_ += length_;
     ++steps_;
     if (after_step) after_step(start_);
-    begin(start_q_, start_p_);
-    expand();
+    set_unit(next_log2_unit_);
+    take_up();
   }
 }
 

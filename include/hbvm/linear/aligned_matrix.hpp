@@ -34,7 +34,7 @@ class AlignedMatrix {
   long bits_ = 0, limbs_ = 0, exponent_ = 0;  ///< of the largest entry
   std::vector<Limb> entries_;                 ///< row by row
   std::vector<signed char> signs_;            ///< 0 of an entry that is 0
-  std::vector<Limb> x_, product_, sum_;       ///< scratch
+  std::vector<Limb> x_, sum_;                 ///< scratch
   std::vector<signed char> x_signs_;
 };
 

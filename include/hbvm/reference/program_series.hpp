@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hbvm/linear/aligned_series.hpp"
 #include "hbvm/problem/effect/program.hpp"
 
 namespace hbvm {
@@ -45,15 +46,25 @@ class ProgramSeries {
   Mpfr* series(Index i) { return &values_[static_cast<std::size_t>(i * (order_ + 1))]; }
   const Mpfr* series(Index i) const { return &values_[static_cast<std::size_t>(i * (order_ + 1))]; }
   const Mpfr& at(const Value& x, Index n) const;
+  /// Series i is one of a convolution.
+  void align(Index i);
+  AlignedSeries& aligned(Index i) { return aligned_[static_cast<std::size_t>(position_[static_cast<std::size_t>(i)])]; }
+  /// Coefficient n of series i is known.
+  void keep(Index i, Index n);
+  void set_convolution(Mpfr& r, Index a, Index b, Index n, Index first, Index last);
+  /// r = sum_{first <= i <= n - first} a_i a_{n-i}: equal terms once.
+  void set_square(Mpfr& r, Index a, Index n, Index first, Mpfr& t);
   void linear(const Node& node, Index n);
   void multiply(const Node& node, Index n);
   void start(const Node& node);
   void go_on(const Node& node, Index n);
 
-  Index order_;
+  Index order_, inputs_;
   std::vector<Node> nodes_;
   std::vector<Value> outputs_;
   std::vector<Mpfr> values_;  ///< series after series
+  std::vector<AlignedSeries> aligned_;
+  std::vector<Index> position_;  ///< of a series in aligned_, or -1
   Mpfr zero_ = 0, t_ = 0;
 };
 

@@ -10,20 +10,22 @@
 namespace hbvm {
 
 /// The motion by its Taylor series, in the digits of the scope: no quadrature, no stage equations, no basis, no
-/// iteration. With q' = M^-1 p, p' = grad U(q) - grad g(q) lambda and grad g affine in q, coefficient after
-/// coefficient,
+/// iteration. In a unit of time h, about as long as the step, q' = h M^-1 p, p' = h (grad U(q) - grad g(q) lambda) and
+/// grad g is affine in q. Coefficient after coefficient,
 ///
-///     (n+1) q_{n+1} = v_n,  v = M^-1 p,  (n+1) p_{n+1} = F_n - sum_{i <= n} G_i lambda_{n-i}
+///     (n+1) q_{n+1} = v_n,  v = h M^-1 p,  (n+1) p_{n+1} = h (F_n - sum_{i <= n} G_i lambda_{n-i})
 ///
 /// where F is grad U, by the program of its gradient, and G = grad g by its second derivatives and values; lambda_n by
 /// coefficient n + 1 of the hidden constraint G^T v = 0,
 ///
-///     G_0^T M^-1 G_0 lambda_n = G_0^T M^-1 (F_n - sum_{0 < i <= n} G_i lambda_{n-i}) + (n+1) sum_{0 < i <= n+1} G_i^T
-///     v_{n+1-i}
+///     G_0^T M^-1 G_0 lambda_n = G_0^T M^-1 (F_n - sum_{0 < i <= n} G_i lambda_{n-i})
+///                               + (n+1)/h^2 sum_{0 < i <= n+1} G_i^T v_{n+1-i}
 ///
 /// whose matrix is factored once a step; for n = 0 that is (Theorem lamex). Order and step after Jorba and Zou
 /// (Experimental Mathematics 14, 2005): the step is so long that the last two terms are round-off of every body's
-/// position and momentum. After each step the state is moved to the constraints and their tangent space, by round-off.
+/// position and momentum. As h is that long, coefficients fall to round-off, and so do the numbers of which
+/// convolutions consist (AlignedSeries). After each step the state is moved to the constraints and their tangent space,
+/// by round-off.
 class TaylorMotion {
  public:
   /// From (q0, p0), consistent, at t = 0. The problem must outlive it.
@@ -50,6 +52,9 @@ class TaylorMotion {
     std::vector<std::pair<Index, Mpfr>> terms;
     Index constraint;
     std::vector<std::pair<Index, int>> columns;  ///< coordinates, with the sign
+    /// Its terms are the columns times this, if it is not 0: then its velocity is its derivative over it.
+    Mpfr factor = 0;
+    AlignedSeries series, velocity;
   };
   /// One body or pair of an effect.
   struct Force {
@@ -61,7 +66,7 @@ class TaylorMotion {
   Mpfr* p_series(Index j) { return &p_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
   Mpfr* v_series(Index j) { return &v_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
   Mpfr* form_series(std::size_t l) { return &form_values_[l * static_cast<std::size_t>(order_ + 2)]; }
-  /// sum of the signs times v of the form's columns.
+  /// sum of the signs times v of the form's columns, the form's velocity.
   Mpfr* form_velocity(std::size_t l) { return &form_velocities_[l * static_cast<std::size_t>(order_ + 2)]; }
   Mpfr* lambda_series(Index a) { return &lambda_values_[static_cast<std::size_t>(a * (order_ + 2))]; }
 
@@ -75,8 +80,20 @@ class TaylorMotion {
   void set_multipliers(Index n);
   /// Coefficients of degree 0 from q_, p_, with the Gram matrix; then all.
   void begin(const Vector<Mpfr>& q, const Vector<Mpfr>& p);
-  void expand();
-  void choose_step();
+  void expand(Index order);
+  /// The unit of time, from what a few coefficients at (q0, p0) show.
+  void find_unit();
+  void set_unit(double log2);
+  /// The series from start_q_, start_p_, in a unit in which they do not grow, and the step.
+  void take_up();
+  /// What some coefficients of a body's position or momentum say, as log2: `step` units that the series may take,
+  /// `radius` units of convergence, and by how much terms are larger than what it is in a unit.
+  struct Extent {
+    double step, radius, growth;
+  };
+  Extent extent(Index order);
+  /// (G^T v)_{n+1} less G_0^T v_{n+1}, of one form.
+  void set_hidden(Mpfr& r, std::size_t l, Index n);
   /// The series at the time tau after the step's start.
   void evaluate(const Mpfr& tau, Vector<Mpfr>& q, Vector<Mpfr>& p);
   /// The multiplier at q_, p_, moved to the constraints first.
@@ -90,6 +107,10 @@ class TaylorMotion {
   Lu<Mpfr> gram_;
   Vector<Mpfr> F_, weighted_, rhs_, powers_;  ///< grad U less sum G_i lambda, M^-1 of it
   Vector<Mpfr> start_q_, start_p_, q_, p_, lambda_;
+  std::vector<AlignedSeries> aligned_lambda_;
+  /// The unit of time h, log2 of it, and 1/h^2.
+  Mpfr unit_ = 1, per_square_ = 1;
+  double log2_unit_ = 0, first_log2_unit_ = 0, next_log2_unit_ = 0;
   Mpfr start_ = 0, length_ = 0, t_ = 0, x_ = 0;
   long steps_ = 0;
   double least_radius_ = 0;

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <gmp.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hbvm {
+
+/// Products of whole numbers, each of as many limbs, that are added or subtracted.
+class LimbProducts {
+ public:
+  /// x y, whose limbs, lowest first, must stay, times a sign: 1, -1, or 0, which adds nothing.
+  struct Signed {
+    const mp_limb_t *x, *y;
+    int sign;
+  };
+  /// Those of next() for n = 0, 1, ... count - 1.
+  template <class Next>
+  void set(std::size_t count, Next next) {
+    if (count + 1 > positive_.size()) {
+      positive_.resize(count + 1);
+      negative_.resize(count + 1);
+    }
+    // Signs follow no pattern that a processor could foresee.
+    Product* positive = positive_.data();
+    Product* negative = negative_.data();
+    for (std::size_t n = 0; n < count; ++n) {
+      const Signed product = next(n);
+      *positive = *negative = {product.x, product.y};
+      positive += product.sign > 0 ? 1 : 0;
+      negative += product.sign < 0 ? 1 : 0;
+    }
+    positives_ = static_cast<std::size_t>(positive - positive_.data());
+    negatives_ = static_cast<std::size_t>(negative - negative_.data());
+  }
+
+  /// sum, in two's complement with limbs + 2 limbs, = the sum of all over b^(limbs - 1), b = 2^limb_bits, without
+  /// products of limbs of lower order: each misses less than `limbs` units.
+  void set_upper_sum(mp_limb_t* sum, long limbs);
+
+ private:
+  struct Product {
+    const mp_limb_t *x, *y;
+  };
+  using Products = std::span<const Product>;
+  template <std::size_t limbs>
+  static void set_columns(mp_limb_t* sum, Products products);
+  static void set_columns(mp_limb_t* sum, long limbs, Products products);
+  static void set_by_parts(mp_limb_t* sum, long limbs, Products products);
+  static void set_one_sign(mp_limb_t* sum, long limbs, Products products);
+
+  std::vector<Product> positive_, negative_;
+  std::size_t positives_ = 0, negatives_ = 0;
+  std::vector<mp_limb_t> taken_;
+};
+
+}  // namespace hbvm
