@@ -177,7 +177,7 @@ bool StoppingRule<S>::is_settled(Coordinate& x) {
   const bool first = sweeps_ == 1;
   const bool negligible = is_negligible(x);
   set_product(t_, x.rounding, kappa_);
-  const bool rounding = !exceeds(x.change, t_) || !exceeds(x.change, tiny_);
+  const bool rounding = !exceeds(x.change, t_) || !exceeds(x.change, tiny_), only_rounding = !exceeds(x.scale, t_);
   if (first) x.risen = 0;
   set_product(t_, x.least, sixteen_);
   const bool rises = !first && !rounding && exceeds(x.change, t_);
@@ -194,7 +194,8 @@ bool StoppingRule<S>::is_settled(Coordinate& x) {
     set_sum(t_, x.change, x.change);
     x.vanishing = exceeds(x.scale, t_) ? 0 : x.vanishing + 1;
   }
-  const bool vanishes = x.vanishing >= (exceeds(last_rate_, coarse_bound_) ? 2 : 1);
+  const bool fast = !exceeds(last_rate_, coarse_bound_);
+  const bool vanishes = x.vanishing >= (fast ? 1 : 2) || (!first && fast && rounding && only_rounding);
   return negligible || (rounding && (x.waiting >= 2 || vanishes || (!first && x.settled)));
 }
 

@@ -26,7 +26,7 @@ namespace hbvm {
 ///   positions amounts to, and not below its least one (since it last rose to 16 times that) for two sweeps. C bounds
 ///   the roundings of a sweep, kappa the factor by which the constraints magnify them;
 /// - or if it vanishes: below that bound, and changing by all it is for two sweeps, or one where changes fall to 2^-10
-///   a sweep. Nobody waits for what goes to 0.
+///   a sweep; there it need not change by all it is if that is below the bound, too. Nobody waits for what goes to 0.
 template <Scalar S>
 class StoppingRule {
  public:
