@@ -1,6 +1,7 @@
 #include "hbvm/solver/continuation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "hbvm/basis/legendre.hpp"
 #include "hbvm/linear/arrays.hpp"
@@ -10,16 +11,24 @@
 namespace hbvm {
 
 template <Scalar S>
-Continuation<S>::Continuation(const Hbvm<S>& method, Index coordinates, Index multipliers)
+Continuation<S>::Continuation(const Hbvm<S>& method, std::vector<Index> body, Index multipliers)
     : s_(method.s),
+      degree_(method.s),
+      body_(std::move(body)),
+      rounding_(body_.empty() ? std::size_t{0} : static_cast<std::size_t>(body_.back() + 1)),
       columns_(legendre_shift<S>(method.s).transpose()),
       P_(method.P_s, ParityMatrix<S>::Nodes::rows, ParityMatrix<S>::First::even),
       projection_(method.projection, ParityMatrix<S>::Nodes::columns, ParityMatrix<S>::First::even),
       coefficients_(s_, multipliers),
       x_(s_) {
+  const auto coordinates = static_cast<Index>(body_.size());
   const Matrix<S> zero = Matrix<S>::Zero(s_, coordinates);
   last_ = {zero, zero, zero, Matrix<S>::Zero(s_, multipliers)};
-  growth_ = binary_exponent(max_norm(columns_));
+  growth_ = {0};
+  for (Index l = 0; l < s_; ++l) {
+    growth_.push_back(growth_.back());
+    for (Index i = 0; i <= l; ++i) growth_.back() = std::max(growth_.back(), binary_exponent(columns_(l, i)));
+  }
   for (Index i = 0; i < s_; ++i) part_.per_call.add_dots(coordinates + multipliers, s_ - i);
   if (multipliers > 0) part_.per_call += P_.operations(multipliers) + projection_.operations(multipliers);
 }
@@ -32,6 +41,28 @@ void Continuation<S>::keep(const StageUnknowns<S>& solution) {
   set(last_.zeta, solution.zeta);
   set(last_.lambda, solution.lambda);
   known_ = true;
+  find_degree();
+}
+
+template <Scalar S>
+void Continuation<S>::find_degree() {
+  // Of sums and products of a step.
+  constexpr long rounding_bits = 4;
+  std::ranges::fill(rounding_, exponent_of_zero);
+  for (std::size_t j = 0; j < body_.size(); ++j) {
+    long& greatest = rounding_[static_cast<std::size_t>(body_[j])];
+    greatest = std::max(greatest, size_exponent(static_cast<Index>(j)));
+  }
+  for (long& exponent : rounding_)
+    if (exponent != exponent_of_zero) exponent += rounding_bits - significand_bits<S>();
+  const auto counts = [&](Index i) {
+    for (std::size_t j = 0; j < body_.size(); ++j)
+      if (binary_exponent(last_.gamma(i, static_cast<Index>(j))) > rounding_[static_cast<std::size_t>(body_[j])])
+        return true;
+    return false;
+  };
+  degree_ = s_;
+  while (degree_ > 1 && !counts(degree_ - 1)) --degree_;
 }
 
 template <Scalar S>
@@ -44,18 +75,20 @@ long Continuation<S>::size_exponent(Index coordinate) const {
 template <Scalar S>
 long Continuation<S>::error_exponent(Index coordinate) const {
   if (!known_) return -exponent_of_zero;
+  long last = rounding_[static_cast<std::size_t>(body_[static_cast<std::size_t>(coordinate)])];
+  if (last == exponent_of_zero) return last;
   // Every other coefficient of an even or odd motion is 0.
-  long last = exponent_of_zero;
-  for (Index i = std::max<Index>(s_ - 2, 0); i < s_; ++i)
+  for (Index i = std::max<Index>(degree_ - 2, 0); i < degree_; ++i)
     last = std::max(last, binary_exponent(last_.gamma(i, coordinate)));
-  return last == exponent_of_zero ? last : last + growth_;
+  return last + growth_[static_cast<std::size_t>(degree_)];
 }
 
 template <Scalar S>
 void Continuation<S>::shift(Matrix<S>& x) {
   for (Index j = 0; j < x.cols(); ++j) {
-    for (Index i = 0; i < s_; ++i) set_dot(x_[i], &columns_(i, i), 1, &x(i, j), 1, s_ - i);
-    for (Index i = 0; i < s_; ++i) set(x(i, j), x_[i]);
+    for (Index i = 0; i < degree_; ++i) set_dot(x_[i], &columns_(i, i), 1, &x(i, j), 1, degree_ - i);
+    for (Index i = 0; i < degree_; ++i) set(x(i, j), x_[i]);
+    for (Index i = degree_; i < s_; ++i) set_zero(x(i, j));
   }
 }
 

@@ -17,6 +17,16 @@ constexpr int slow = 10;
 /// Corrections that are kept: with as many updates the Jacobian is as good as a new one if updates make it so.
 constexpr std::size_t most_kept = 16;
 
+/// Of each coordinate.
+template <Scalar S>
+std::vector<Index> bodies_of(const Problem<S>& problem) {
+  std::vector<Index> bodies;
+  Index body = 0;
+  for (const auto& block : problem.mass.blocks())
+    bodies.insert(bodies.end(), static_cast<std::size_t>(block.size), body++);
+  return bodies;
+}
+
 /// Row 0 of X^-1.
 template <Scalar S>
 Vector<S> first_row_of_inverse(const Matrix<S>& X) {
@@ -49,7 +59,7 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
       sequence_(x_.gamma.size() + x_.lambda.size()),
       step_change_(problem.m()),
       extrapolation_(method.s, problem.m() + problem.nu()),
-      continuation_(method, problem.m(), problem.nu()),
+      continuation_(method, bodies_of(problem), problem.nu()),
       position_scale_(problem),
       positions_(problem.m()),
       rule_(problem.m(), roundings_of_a_sweep(problem, method)),

@@ -33,7 +33,7 @@ TYPED_TEST_SUITE(ContinuationTest, AllScalars, ScalarNames);
 TYPED_TEST(ContinuationTest, FollowsPolynomialsBeyondTheStep) {
   using S = TypeParam;
   const StageUnknowns<S> last = this->polynomials(2, 3, 0);
-  Continuation<S> continuation(this->method, 2, 3);
+  Continuation<S> continuation(this->method, {0, 0}, 3);
   continuation.keep(last);
   StageUnknowns<S> x = last;
   continuation.predict(x);
@@ -60,7 +60,7 @@ TYPED_TEST(ContinuationTest, FollowsPolynomialsBeyondTheStep) {
 /// Seven terms grow by 2^13; coefficients that fall by 2^-10 each leave 2^-50 of the last but one.
 TYPED_TEST(ContinuationTest, KnowsWhatTheGrowthLeaves) {
   using S = TypeParam;
-  Continuation<S> continuation(this->method, 3, 0);
+  Continuation<S> continuation(this->method, {0, 1, 2}, 0);
   EXPECT_GT(continuation.error_exponent(0), 1000);
   StageUnknowns<S> last = this->polynomials(3, 0, 10);
   last.gamma(this->s - 1, 1) = last.gamma(0, 1);

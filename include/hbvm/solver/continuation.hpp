@@ -14,17 +14,20 @@ namespace hbvm {
 ///
 /// Legendre polynomials grow by 3 + 2 sqrt 2 a degree out to 2, and the coefficients of a step of high order fall by
 /// more: with the 22 stages for 50 digits of the satellites by 14, so that 8 digits are right before the first sweep.
-/// Only for steps of one size.
+/// Coefficients that are rounding, beside the greatest of their body, would grow, too; from the degree on from which
+/// all are, they are left out. Only for steps of one size.
 template <Scalar S>
 class Continuation {
  public:
-  Continuation(const Hbvm<S>& method, Index coordinates, Index multipliers);
+  /// \param body the number of the body, or other block of the mass matrix, of each coordinate, ascending from 0
+  Continuation(const Hbvm<S>& method, std::vector<Index> body, Index multipliers);
 
   void clear() { known_ = false; }
   /// The solution of a step.
   void keep(const StageUnknowns<S>& solution);
   /// log2 of the greatest coefficient of a momentum, and of the error that its prediction may have, by the size of the
-  /// last coefficients and their growth; the greatest there is, if no step is known.
+  /// last coefficients that are not rounding, or of rounding, and their growth; the greatest there is, if no step is
+  /// known.
   long size_exponent(Index coordinate) const;
   long error_exponent(Index coordinate) const;
   /// gamma and lambda of the next step; psi and zeta of the last one, for their size.
@@ -32,15 +35,22 @@ class Continuation {
 
   const PartCount& part_count() const { return part_; }
   void measure_time() { timed_ = true; }
-  void remember(Archive& archive) { archive(known_, last_.gamma, last_.psi, last_.zeta, last_.lambda); }
+  void remember(Archive& archive) {
+    archive(known_, last_.gamma, last_.psi, last_.zeta, last_.lambda);
+    if (known_) find_degree();
+  }
 
  private:
   /// x = T x, column by column.
   void shift(Matrix<S>& x);
+  /// Sets degree_ and rounding_.
+  void find_degree();
 
-  Index s_;
-  Matrix<S> columns_;  ///< column i holds T_il, l = i .. s - 1, from row i on
-  long growth_ = 0;    ///< log2 of the greatest entry of T
+  Index s_, degree_;  ///< coefficients below this degree count
+  std::vector<Index> body_;
+  std::vector<long> rounding_;  ///< of each body, as log2
+  Matrix<S> columns_;           ///< column i holds T_il, l = i .. s - 1, from row i on
+  std::vector<long> growth_;    ///< log2 of the greatest entry in the first columns of T, by their number
   ParityMatrix<S> P_, projection_;
   StageUnknowns<S> last_;
   Matrix<S> coefficients_;  ///< s x nu
