@@ -2,26 +2,34 @@
 
 #include <cmath>
 
+#include "hbvm/scalar/in_place.hpp"
+
 namespace hbvm {
 
 using std::sqrt;
 
 template <Scalar S>
 Matrix<S> legendre_values(const Vector<S>& c, int count) {
+  // (j + 1) L_{j+1} = (2 j + 1) x L_j - j L_{j-1} for polynomials L with L(1) = 1.
   Matrix<S> values(c.size(), count);
+  S t, u;
   for (Index i = 0; i < c.size(); ++i) {
     const S x = 2 * c[i] - 1;
-    S previous = 0, value = 1;
     for (int j = 0; j < count; ++j) {
-      values(i, j) = value;
-      const S next = ((2 * j + 1) * x * value - j * previous) / (j + 1);
-      previous = value;
-      value = next;
+      if (j < 2) {
+        values(i, j) = j == 0 ? S(1) : x;
+        continue;
+      }
+      set_product(t, x, values(i, j - 1));
+      set_difference(u, t, values(i, j - 2));
+      set_product(u, u, S(j - 1));
+      set_quotient(u, u, S(j));
+      set_sum(values(i, j), t, u);
     }
   }
   for (int j = 1; j < count; ++j) {
     const S scale = sqrt(S(2 * j + 1));
-    for (Index i = 0; i < c.size(); ++i) values(i, j) *= scale;
+    for (Index i = 0; i < c.size(); ++i) set_product(values(i, j), values(i, j), scale);
   }
   return values;
 }
@@ -44,12 +52,24 @@ Matrix<S> X_matrix(int s) {
 
 template <Scalar S>
 Matrix<S> legendre_integrals(const Vector<S>& c, int count) {
-  const Matrix<S> values = legendre_values<S>(c, count + 1);
-  Matrix<S> integrals(c.size(), count);
-  for (int j = 0; j < count; ++j) {
-    const S above = xi<S>(j + 1), below = xi<S>(j);
-    for (Index i = 0; i < c.size(); ++i)
-      integrals(i, j) = above * values(i, j + 1) + (j == 0 ? below : S(-below * values(i, j - 1)));
+  return legendre_integrals<S>(legendre_values<S>(c, count + 1));
+}
+
+template <Scalar S>
+Matrix<S> legendre_integrals(const Matrix<S>& values) {
+  const Index count = values.cols() - 1;
+  Matrix<S> integrals(values.rows(), count);
+  S t;
+  for (Index j = 0; j < count; ++j) {
+    const S above = xi<S>(static_cast<int>(j) + 1), below = xi<S>(static_cast<int>(j));
+    for (Index i = 0; i < values.rows(); ++i) {
+      S& integral = integrals(i, j);
+      set_product(integral, above, values(i, j + 1));
+      if (j == 0)
+        set_sum(integral, integral, below);
+      else
+        subtract_product(integral, below, values(i, j - 1), t);
+    }
   }
   return integrals;
 }
@@ -77,6 +97,7 @@ Matrix<S> legendre_shift(int count) {
 #define HBVM_DEFINE(S)                                             \
   template Matrix<S> legendre_values<S>(const Vector<S>&, int);    \
   template Matrix<S> legendre_integrals<S>(const Vector<S>&, int); \
+  template Matrix<S> legendre_integrals<S>(const Matrix<S>&);      \
   template S xi<S>(int);                                           \
   template Matrix<S> X_matrix<S>(int);                             \
   template Matrix<S> legendre_shift<S>(int);

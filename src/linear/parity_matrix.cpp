@@ -47,17 +47,23 @@ bool ParityMatrix<S>::find_mirrored(const Matrix<S>& a) const {
   if (std::same_as<S, double> && a.size() < small) return false;
   // Each of two entries is rounded from values at a rounded node: a few units of its own.
   constexpr int units = 8;
-  const auto at = [&](Index node, Index function) {
+  const auto at = [&](Index node, Index function) -> const S& {
     return nodes_ == Nodes::rows ? a(node, function) : a(function, node);
   };
+  S largest, defect, allowed;
+  const S relative = units * epsilon<S>();
   for (Index j = 0; j < functions_; ++j) {
-    S largest = 0;
+    hbvm::set_zero(largest);
     for (Index i = 0; i < n_; ++i) raise_magnitude(largest, at(i, j));
     for (Index i = 0; 2 * i < n_; ++i) {
-      const S here = at(i, j), there = at(n_ - 1 - i, j);
+      const S &here = at(i, j), &there = at(n_ - 1 - i, j);
       const bool middle = 2 * i + 1 == n_;
-      const S defect = is_even(j) ? S(here - there) : S(here + there);
-      if (magnitude(defect) > units * epsilon<S>() * (middle ? largest : magnitude(here))) return false;
+      if (is_even(j))
+        set_difference(defect, here, there);
+      else
+        set_sum(defect, here, there);
+      set_product(allowed, relative, middle ? largest : here);
+      if (exceeds(defect, allowed)) return false;
     }
   }
   return true;

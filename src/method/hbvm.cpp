@@ -5,6 +5,9 @@
 #include "hbvm/basis/gauss_legendre.hpp"
 #include "hbvm/basis/legendre.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/linear/in_double.hpp"
+#include "hbvm/linear/product.hpp"
+#include "hbvm/scalar/in_place.hpp"
 #include "linear/rounded.hpp"
 
 namespace hbvm {
@@ -14,8 +17,47 @@ namespace {
 Matrix<Mpfr> projection_of(const Matrix<Mpfr>& P, const Vector<Mpfr>& b) {
   Matrix<Mpfr> r(P.cols(), P.rows());
   for (Index i = 0; i < P.rows(); ++i)
-    for (Index j = 0; j < P.cols(); ++j) r(j, i) = b[i] * P(i, j);
+    for (Index j = 0; j < P.cols(); ++j) set_product(r(j, i), b[i], P(i, j));
   return r;
+}
+
+/// P_j(c_i), j < count, at Gauss nodes: those past 1/2 mirror the others.
+Matrix<Mpfr> values_at(const Vector<Mpfr>& c, int count) {
+  const Index n = c.size(), half = (n + 1) / 2;
+  const Matrix<Mpfr> first = legendre_values<Mpfr>(c.head(half), count);
+  Matrix<Mpfr> P(n, count);
+  for (Index j = 0; j < count; ++j)
+    for (Index i = 0; i < half; ++i) {
+      P(i, j) = first(i, j);
+      if (j % 2 == 0)
+        P(n - 1 - i, j) = P(i, j);
+      else if (2 * i + 1 < n)
+        set_negative(P(n - 1 - i, j), P(i, j));
+    }
+  return P;
+}
+
+/// I P^T Omega: mirrored nodes have the terms of even and of odd functions in common, but for the sign.
+Matrix<Mpfr> butcher_matrix(const Matrix<Mpfr>& I, const Matrix<Mpfr>& projection) {
+  const Index s = I.rows(), half = (s + 1) / 2;
+  const Matrix<Mpfr> rows = I.topRows(half).transpose();
+  Matrix<Mpfr> A(s, s);
+  Mpfr even, odd, first;
+  for (Index j = 0; j < half; ++j)
+    for (Index i = 0; i < half; ++i) {
+      // I_0 = c_i, of which c_i - 1/2 is odd about 1/2; the other I_l are odd for even l.
+      set_product(first, projection(0, j), I(i, 0));
+      set_dot(even, &rows(0, i) + 2, 2, &projection(0, j) + 2, 2, (s - 1) / 2);
+      set_dot(odd, &rows(0, i) + 1, 2, &projection(0, j) + 1, 2, s / 2);
+      set_sum(A(i, j), first, even);
+      set_difference(A(i, s - 1 - j), A(i, j), odd);
+      set_sum(A(i, j), A(i, j), odd);
+      set_product(first, projection(0, j), I(s - 1 - i, 0));
+      set_difference(A(s - 1 - i, j), first, even);
+      set_difference(A(s - 1 - i, s - 1 - j), A(s - 1 - i, j), odd);
+      set_sum(A(s - 1 - i, j), A(s - 1 - i, j), odd);
+    }
+  return A;
 }
 
 /// The method in the precision of the scope, from nodes of that precision.
@@ -24,23 +66,33 @@ Hbvm<Mpfr> assemble(int k, int s) {
   Hbvm<Mpfr> m;
   m.k = k;
   m.s = s;
-  const Quadrature<Mpfr> gauss = gauss_legendre<Mpfr>(s), gauss_hat = gauss_legendre<Mpfr>(k);
-  m.c = gauss.c;
-  m.b = gauss.b;
-  m.c_hat = gauss_hat.c;
-  m.b_hat = gauss_hat.b;
-  m.P_s = legendre_values<Mpfr>(m.c, s);
-  m.I_s = legendre_integrals<Mpfr>(m.c, s);
-  m.P_hat = legendre_values<Mpfr>(m.c_hat, s);
-  m.I_hat = legendre_integrals<Mpfr>(m.c_hat, s);
+  const auto at_nodes = [&](int n, Vector<Mpfr>& c, Vector<Mpfr>& b, Matrix<Mpfr>& P, Matrix<Mpfr>& I,
+                            Matrix<Mpfr>& projection) {
+    const Quadrature<Mpfr> gauss = gauss_legendre<Mpfr>(n);
+    c = gauss.c;
+    b = gauss.b;
+    const Matrix<Mpfr> values = values_at(c, s + 1);
+    P = values.leftCols(s);
+    I = legendre_integrals<Mpfr>(values);
+    projection = projection_of(P, b);
+  };
+  at_nodes(s, m.c, m.b, m.P_s, m.I_s, m.projection);
+  if (k == s) {
+    m.c_hat = m.c;
+    m.b_hat = m.b;
+    m.P_hat = m.P_s;
+    m.I_hat = m.I_s;
+    m.projection_hat = m.projection;
+  } else {
+    at_nodes(k, m.c_hat, m.b_hat, m.P_hat, m.I_hat, m.projection_hat);
+  }
   m.X_s = X_matrix<Mpfr>(s);
-  m.projection = projection_of(m.P_s, m.b);
-  m.projection_hat = projection_of(m.P_hat, m.b_hat);
-  m.A = m.I_s.lazyProduct(m.projection);
+  m.A = butcher_matrix(m.I_s, m.projection);
   m.lagrange_at_1 = Vector<Mpfr>::Zero(s);
+  Mpfr t;
   for (int j = 0; j < s; ++j) {
     const Mpfr P_j_at_1 = sqrt(Mpfr(2 * j + 1));
-    for (int i = 0; i < s; ++i) m.lagrange_at_1[i] += P_j_at_1 * m.projection(j, i);
+    for (int i = 0; i < s; ++i) add_product(m.lagrange_at_1[i], P_j_at_1, m.projection(j, i), t);
   }
   return m;
 }
@@ -55,7 +107,7 @@ Hbvm<S> make_hbvm(int k, int s) {
   Hbvm<S> r;
   r.k = k;
   r.s = s;
-  const Quadrature<S> gauss = gauss_legendre<S>(s), gauss_hat = gauss_legendre<S>(k);
+  const Quadrature<S> gauss = gauss_legendre<S>(s), gauss_hat = k == s ? gauss : gauss_legendre<S>(k);
   r.c = gauss.c;
   r.b = gauss.b;
   r.c_hat = gauss_hat.c;
@@ -78,7 +130,30 @@ Hbvm<S> make_hbvm(int k, int s) {
   return r;
 }
 
-#define HBVM_DEFINE(S) template Hbvm<S> make_hbvm<S>(int, int);
+template <Scalar S>
+Hbvm<double> in_double(const Hbvm<S>& method) {
+  Hbvm<double> r;
+  r.k = method.k;
+  r.s = method.s;
+  r.c = in_double(method.c);
+  r.b = in_double(method.b);
+  r.c_hat = in_double(method.c_hat);
+  r.b_hat = in_double(method.b_hat);
+  r.P_s = in_double(method.P_s);
+  r.I_s = in_double(method.I_s);
+  r.P_hat = in_double(method.P_hat);
+  r.I_hat = in_double(method.I_hat);
+  r.X_s = in_double(method.X_s);
+  r.projection = in_double(method.projection);
+  r.projection_hat = in_double(method.projection_hat);
+  r.A = in_double(method.A);
+  r.lagrange_at_1 = in_double(method.lagrange_at_1);
+  return r;
+}
+
+#define HBVM_DEFINE(S)                     \
+  template Hbvm<S> make_hbvm<S>(int, int); \
+  template Hbvm<double> in_double<S>(const Hbvm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -74,7 +74,7 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method)
   x_ = equations_->make_unknowns();
   if (!fits_double(problem)) return;
   rounded_problem_.emplace(in_double(problem));
-  rounded_method_.emplace(make_hbvm<double>(method.k, method.s));
+  rounded_method_.emplace(in_double(method));
   rounded_.emplace(*rounded_problem_, *rounded_method_, SimplifiedNewton<double>::Wanted::start);
   rounded_q0_.resize(problem.m());
   rounded_p0_.resize(problem.m());

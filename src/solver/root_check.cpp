@@ -9,7 +9,7 @@ namespace hbvm {
 
 template <Scalar S>
 RootCheck<S>::Rounded::Rounded(const Problem<S>& full, const Hbvm<S>& full_method)
-    : problem(in_double(full)), method(make_hbvm<double>(full_method.k, full_method.s)), newton(problem, method) {}
+    : problem(in_double(full)), method(in_double(full_method)), newton(problem, method) {}
 
 template <Scalar S>
 auto RootCheck<S>::judge(const StepStart<S>& start, const Matrix<S>& gamma) -> Verdict {

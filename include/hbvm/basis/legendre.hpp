@@ -14,6 +14,9 @@ Matrix<S> legendre_values(const Vector<S>& c, int count);
 /// integrals(i, j) = int_0^{c_i} P_j(x) dx, j < count, by (IsPs): xi_{j+1} P_{j+1} - xi_j P_{j-1}.
 template <Scalar S>
 Matrix<S> legendre_integrals(const Vector<S>& c, int count);
+/// The same from the values of one function more.
+template <Scalar S>
+Matrix<S> legendre_integrals(const Matrix<S>& values);
 
 /// xi_j = 1 / (2 sqrt|4 j^2 - 1|) of (Xs); xi_0 = 1/2.
 template <Scalar S>
@@ -30,6 +33,7 @@ Matrix<S> legendre_shift(int count);
 #define HBVM_DECLARE(S)                                                   \
   extern template Matrix<S> legendre_values<S>(const Vector<S>&, int);    \
   extern template Matrix<S> legendre_integrals<S>(const Vector<S>&, int); \
+  extern template Matrix<S> legendre_integrals<S>(const Matrix<S>&);      \
   extern template S xi<S>(int);                                           \
   extern template Matrix<S> X_matrix<S>(int);                             \
   extern template Matrix<S> legendre_shift<S>(int);

@@ -26,7 +26,13 @@ struct Hbvm {
 template <Scalar S>
 Hbvm<S> make_hbvm(int k, int s);
 
-#define HBVM_DECLARE(S) extern template Hbvm<S> make_hbvm<S>(int, int);
+/// The method with all coefficients rounded to double, for Jacobians and start values.
+template <Scalar S>
+Hbvm<double> in_double(const Hbvm<S>& method);
+
+#define HBVM_DECLARE(S)                           \
+  extern template Hbvm<S> make_hbvm<S>(int, int); \
+  extern template Hbvm<double> in_double<S>(const Hbvm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
