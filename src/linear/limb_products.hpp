@@ -37,7 +37,7 @@ class LimbProducts {
   }
 
   /// sum, in two's complement with limbs + 2 limbs, = the sum of all over b^(limbs - 1), b = 2^limb_bits, without
-  /// products of limbs of lower order: each misses less than `limbs` units.
+  /// products of limbs of lower order: each misses less than `limbs` units of the sum's second limb.
   void set_upper_sum(mp_limb_t* sum, long limbs);
 
  private:

@@ -1,45 +1,12 @@
 #include "hbvm/linear/lu.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
 #include "hbvm/scalar/in_place.hpp"
+#include "linear/dense_lu.hpp"
 
 namespace hbvm {
-
-/// Eigen's factors, for which entries are the last matrix still. They depend on these alone.
-class BlockedLu {
- public:
-  explicit BlockedLu(Index n) : factors_(n), x_(n) {}
-
-  bool factor(const double* entries) {
-    factors_.compute(Matrix<double>::Map(entries, x_.size(), x_.size()));
-    const auto pivots = factors_.matrixLU().diagonal();
-    return pivots.allFinite() && (pivots.array() != 0).all();
-  }
-
-  void solve(double* x) {
-    auto result = Vector<double>::Map(x, x_.size());
-    x_.noalias() = factors_.permutationP() * result;
-    factors_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(x_);
-    factors_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(x_);
-    result = x_;
-  }
-
- private:
-  Eigen::PartialPivLU<Matrix<double>> factors_;
-  Vector<double> x_;
-};
-
-template <Scalar S>
-Lu<S>::Lu() = default;
-template <Scalar S>
-Lu<S>::~Lu() = default;
-template <Scalar S>
-Lu<S>::Lu(Lu&&) noexcept = default;
-template <Scalar S>
-Lu<S>& Lu<S>::operator=(Lu&&) noexcept = default;
 
 template <Scalar S>
 void Lu<S>::resize(Index n, Index half_bandwidth) {
@@ -53,8 +20,7 @@ void Lu<S>::resize(Index n, Index half_bandwidth) {
   pivots_.resize(static_cast<std::size_t>(n));
   // Smaller ones stay in the first cache, where blocks save nothing.
   constexpr Index large = 64;
-  blocked_.reset();
-  if (std::same_as<S, double> && dense && n >= large) blocked_ = std::make_unique<BlockedLu>(n);
+  blocked_ = std::same_as<S, double> && dense && n >= large;
 }
 
 template <Scalar S>
@@ -71,7 +37,7 @@ void Lu<S>::set(const Matrix<S>& a) {
 template <Scalar S>
 bool Lu<S>::factor() {
   if constexpr (std::same_as<S, double>)
-    if (blocked_) return blocked_->factor(data_.data());
+    if (blocked_) return factor_dense(data_.data(), n_, pivots_);
   S& t = scratch<S>();
   for (Index k = 0; k < n_; ++k) {
     const Index last_row = std::min(n_ - 1, k + b_), last_column = std::min(n_ - 1, k + upper_);
@@ -98,17 +64,18 @@ bool Lu<S>::factor() {
 
 template <Scalar S>
 void Lu<S>::solve(S* x) {
-  if constexpr (std::same_as<S, double>)
-    if (blocked_) return blocked_->solve(x);
   S& t = scratch<S>();
+  const auto exchange = [&](Index k) {
+    using std::swap;
+    if (const Index pivot = pivots_[static_cast<std::size_t>(k)]; pivot != k) swap(x[k], x[pivot]);
+  };
+  // Blocks exchange whole rows, those of L, too.
+  if (blocked_)
+    for (Index k = 0; k < n_; ++k) exchange(k);
   for (Index k = 0; k < n_; ++k) {
-    const Index pivot = pivots_[static_cast<std::size_t>(k)];
-    if (pivot != k) {
-      using std::swap;
-      swap(x[k], x[pivot]);
-    }
+    if (!blocked_) exchange(k);
     const S* const column = &entry(0, k);
-    const Index last_row = std::min(n_ - 1, k + b_);
+    const Index last_row = blocked_ ? n_ - 1 : std::min(n_ - 1, k + b_);
     for (Index i = k + 1; i <= last_row; ++i) subtract_product(x[i], column[i], x[k], t);
   }
   for (Index k = n_ - 1; k >= 0; --k) {
@@ -121,8 +88,6 @@ void Lu<S>::solve(S* x) {
 template <Scalar S>
 void Lu<S>::remember(Archive& archive) {
   archive(data_, pivots_);
-  if constexpr (std::same_as<S, double>)
-    if (blocked_ && archive.reading()) static_cast<void>(blocked_->factor(data_.data()));
 }
 
 template <Scalar S>

@@ -48,6 +48,29 @@ TYPED_TEST(LuTest, SolvesLargeSystems) {
   EXPECT_FALSE(this->factor(a));
 }
 
+/// A band that is nearly as wide as the matrix is stored as a dense one; pivoting mixes its rows.
+TYPED_TEST(LuTest, SolvesLargeSystemsWithWideBands) {
+  for (const Index n : {64, 97, 131})
+    for (const Index b : {n / 3 + 1, n / 2, n - 2}) {
+      Matrix<TypeParam> a = this->random.matrix(n, n);
+      Lu<TypeParam> banded;
+      banded.resize(n, b);
+      banded.set_zero();
+      for (Index j = 0; j < n; ++j)
+        for (Index i = 0; i < n; ++i) {
+          if (std::abs(i - j) > b) a(i, j) = 0;
+          if (i == j) a(i, j) = a(i, j) / 1024;
+          if (std::abs(i - j) <= b) banded.entry(i, j) = a(i, j);
+        }
+      ASSERT_TRUE(banded.factor());
+      const Vector<TypeParam> x = this->random.matrix(n, 1).col(0);
+      Vector<TypeParam> found = a * x;
+      banded.solve(found);
+      for (Index i = 0; i < n; ++i)
+        EXPECT_LE(magnitude(TypeParam(found[i] - x[i])), TypeParam(1 << 24) * epsilon<TypeParam>()) << n << " " << b;
+    }
+}
+
 TYPED_TEST(LuTest, SolvesWhatNeedsPivotingAtEveryStep) {
   for (int n = 2; n <= 12; ++n) {
     // The largest entries stand just below the diagonal, and the diagonal is 0.

@@ -10,11 +10,11 @@ namespace hbvm {
 /// largest: then a product of a row with a vector, brought to one unit as well, is one of whole numbers. They need
 /// neither be shifted nor rounded one by one, which takes as long as to multiply them up to some hundred digits.
 ///
-/// Errors of a sum are those of one rounding, and rounding of every factor to 2^-(bits + guard_bits) of the largest of
-/// the matrix or of the vector.
+/// Errors of a sum are those of one rounding, and for each product of `l` limbs l 2^-(bits + guard_bits) of the largest
+/// of the matrix and of the vector.
 class AlignedMatrix {
  public:
-  static constexpr int guard_bits = 12;
+  static constexpr int guard_bits = 16;
 
   AlignedMatrix() = default;
   /// Of numbers of the working precision, which times() is to be called in.

@@ -10,8 +10,8 @@ namespace hbvm {
 /// they fall, the later ones are shorter numbers, and a convolution multiplies of each pair only what counts beside the
 /// largest: of a series that falls to round-off a sixth to a third of what rounded numbers take.
 ///
-/// Errors are those of rounding every coefficient to 2^-(bits + guard_bits) of the largest so far: what is small beside
-/// the others counts as much as they do where the series is summed.
+/// Errors are those of rounding every coefficient of l limbs to l 2^-(bits + guard_bits) of the largest so far: what is
+/// small beside the others counts as much as they do where the series is summed.
 class AlignedSeries {
  public:
   static constexpr int guard_bits = 24;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "hbvm/linear/matrix.hpp"
@@ -9,19 +8,12 @@
 
 namespace hbvm {
 
-class BlockedLu;
-
 /// P a = L U with partial pivoting in the working precision, of a square matrix with all entries a_ij, |i - j| > b,
 /// zero for a half bandwidth b; b = n - 1 is a dense matrix. It takes O(n b^2) operations, and O(n b) to solve. Storage
-/// is kept from one factorisation to the next. A large dense matrix in double is factored by Eigen, block by block.
+/// is kept from one factorisation to the next. A large dense matrix in double is factored block by block.
 template <Scalar S>
 class Lu {
  public:
-  Lu();
-  ~Lu();
-  Lu(Lu&&) noexcept;
-  Lu& operator=(Lu&&) noexcept;
-
   /// An n x n matrix, to be filled by entry(); half_bandwidth is cut to n - 1.
   void resize(Index n, Index half_bandwidth);
   void set_zero();
@@ -53,7 +45,7 @@ class Lu {
   Index n_ = 0, b_ = 0, upper_ = 0, stride_ = 0, offset_ = 0;
   std::vector<S> data_;
   std::vector<Index> pivots_;
-  std::unique_ptr<BlockedLu> blocked_;
+  bool blocked_ = false;
 };
 
 #define HBVM_DECLARE(S) extern template class Lu<S>;
