@@ -1,0 +1,183 @@
+#include "hbvm/reference/agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hbvm/problem/momenta.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+namespace {
+
+/// floor(log10 |x|), the exponent of the leading digit; x is not 0.
+long decimal_exponent(const Mpfr& x) {
+  const std::string text = to_scientific(x, 25);
+  return std::stol(text.substr(text.find('e') + 1));
+}
+
+/// x to the digit of 10^last.
+std::string to_digit(const Mpfr& x, long last) {
+  if (x == 0) return "0";
+  const long leading = decimal_exponent(x);
+  if (leading < last) {
+    // Half a unit of the last digit and more is one.
+    const std::string text = to_scientific(magnitude(x), 2);
+    if (leading + 1 < last || text < "5") return "0";
+    return fmt::format("{}1e{}", x < 0 ? "-" : "", last);
+  }
+  return rounded_text(to_text(x), static_cast<int>(leading - last + 1));
+}
+
+Vector<Mpfr> single(const Mpfr& x) { return Vector<Mpfr>::Constant(1, x); }
+
+/// max |a - b| over all pairs of the values.
+Mpfr spread(const std::vector<Vector<Mpfr>>& values) {
+  Mpfr result = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t j = i + 1; j < values.size(); ++j) raise_to(result, distance(values[i], values[j]));
+  return result;
+}
+
+}  // namespace
+
+long Agreement::State::agreed() const {
+  long least = vectors.front().agreed;
+  for (const Compared& c : vectors) least = std::min(least, c.agreed);
+  return least;
+}
+
+Agreement::Agreement(const Assembled<Mpfr>& scene, const std::vector<Expression>& times,
+                     const std::vector<NamedRun>& runs, int digits)
+    : digits_(digits) {
+  for (const Expression& t : times) times_.push_back(t.text());
+  const std::vector<MomentumComponent<Mpfr>> momenta = conserved_momenta(scene.problem);
+  for (const MomentumComponent<Mpfr>& component : momenta) momentum_names_.push_back(component.name());
+  Point<Mpfr> point(scene.problem);
+  states_.resize(times.size());
+  for (const NamedRun& run : runs) {
+    routes_.push_back(run.name);
+    if (run.run.points.size() != times.size())
+      throw IntegrationError(
+          fmt::format("route {} found {} of {} times", run.name, run.run.points.size(), times.size()));
+    for (std::size_t n = 0; n < times.size(); ++n) {
+      const RoutePoint& at = run.run.points[n];
+      std::size_t v = 0;
+      const auto add = [&](const std::string& name, const Vector<Mpfr>& value, const Mpfr& natural) {
+        std::vector<Compared>& vectors = states_[n].vectors;
+        if (v == vectors.size()) vectors.push_back({name, {}, Mpfr(0)});
+        Compared& c = vectors[v++];
+        if (!c.values.empty() && c.values.front().size() != value.size())
+          throw IntegrationError(fmt::format("route {} has {} components of {} at t = {}, and route {} has {}",
+                                             run.name, value.size(), name, times_[n], routes_.front(),
+                                             c.values.front().size()));
+        for (Index j = 0; j < value.size(); ++j)
+          if (!is_finite(value[j]))
+            throw IntegrationError(
+                fmt::format("{}_{} is not finite at t = {} by route {}", name, j + 1, times_[n], run.name));
+        c.values.push_back(value);
+        raise_to(c.natural, natural);
+      };
+      add("q", at.q, Mpfr(0));
+      add("p", at.p, Mpfr(0));
+      add("lambda", at.lambda, Mpfr(0));
+      add("H", single(point.energy(at.q, at.p)), point.energy_size(at.q, at.p));
+      for (const MomentumComponent<Mpfr>& component : momenta) {
+        const MomentumValue<Mpfr> here = momentum(scene.problem, component, at.q, at.p);
+        add(component.name(), single(here.value), here.size);
+      }
+    }
+  }
+  count_digits();
+}
+
+void Agreement::count_digits() {
+  const long all = digits10<Mpfr>();
+  for (std::size_t v = 0; v < states_.front().vectors.size(); ++v) {
+    Mpfr greatest = 0;
+    for (const State& state : states_) {
+      raise_to(greatest, max_norm(state.vectors[v].values.front()));
+      raise_to(greatest, state.vectors[v].natural);
+    }
+    const long natural = greatest == 0 ? 0 : decimal_exponent(greatest);
+    for (State& state : states_) {
+      Compared& c = state.vectors[v];
+      const Mpfr size = max_norm(c.values.front()), difference = spread(c.values);
+      c.leading = size == 0 ? natural : decimal_exponent(size);
+      if (c.leading < natural - digits_) c.leading = natural;
+      c.agreed = difference == 0 ? all : std::min(all, c.leading - decimal_exponent(difference) - 1);
+    }
+  }
+}
+
+long Agreement::digits() const {
+  long least = states_.front().agreed();
+  for (const State& state : states_) least = std::min(least, state.agreed());
+  return least;
+}
+
+void Agreement::require() const {
+  for (std::size_t n = 0; n < states_.size(); ++n)
+    for (const Compared& c : states_[n].vectors)
+      if (c.agreed <= digits_) fail(n, c);
+}
+
+void Agreement::fail(std::size_t time, const Compared& c) const {
+  Index worst = 0;
+  Mpfr most = 0;
+  for (Index j = 0; j < c.values.front().size(); ++j)
+    for (const Vector<Mpfr>& a : c.values) {
+      const Mpfr difference = magnitude(Mpfr(a[j] - c.values.front()[j]));
+      if (difference > most) {
+        most = difference;
+        worst = j;
+      }
+    }
+  constexpr long fewest = 6, most_shown = 60;
+  const int shown = static_cast<int>(std::max(fewest, std::min(c.agreed, most_shown) + 5));
+  const std::string what =
+      c.values.front().size() > 1 || c.name == "lambda" ? fmt::format("{}_{}", c.name, worst + 1) : c.name;
+  std::vector<Disagreement::Value> values;
+  std::string list;
+  for (std::size_t r = 0; r < routes_.size(); ++r) {
+    values.push_back({routes_[r], to_scientific(c.values[r][worst], shown)});
+    list += fmt::format("{}{} by {}",
+                        r == 0                    ? ""
+                        : r + 1 == routes_.size() ? " and "
+                                                  : ", ",
+                        values[r].number, routes_[r]);
+  }
+  throw Disagreement(fmt::format("the routes agree in {} digits of {}, not in {}, at t = {}: {} is {}; nothing is "
+                                 "given out",
+                                 std::max(0L, c.agreed), c.name, digits_, times_[time], what, list),
+                     times_[time], what, values);
+}
+
+std::vector<ReferenceState> Agreement::states() const {
+  std::vector<ReferenceState> result;
+  for (std::size_t n = 0; n < states_.size(); ++n) {
+    ReferenceState& out = result.emplace_back();
+    out.t = times_[n];
+    out.agreed = routes_.size() > 1 ? states_[n].agreed() : 0;
+    for (std::size_t v = 0; v < states_[n].vectors.size(); ++v) {
+      const Compared& c = states_[n].vectors[v];
+      std::vector<std::string> texts;
+      for (const Mpfr& x : c.values.front()) texts.push_back(to_digit(x, c.leading - digits_));
+      // In the order in which they were added.
+      if (v == 0)
+        out.q = texts;
+      else if (v == 1)
+        out.p = texts;
+      else if (v == 2)
+        out.lambda = texts;
+      else if (v == 3)
+        out.H = texts.front();
+      else
+        out.momenta.push_back(texts.front());
+    }
+  }
+  return result;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,211 @@
+#include "hbvm/reference/agreement.hpp"
+
+#include <limits>
+
+#include "hbvm/method/perturbation.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/scene.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr unsigned working = 55;
+constexpr int wanted = 35;
+
+const std::vector<Expression>& times() {
+  static const std::vector<Expression> result{Expression::parse("1/2"), Expression::parse("2")};
+  return result;
+}
+
+std::vector<Mpfr> instants() { return {literal<Mpfr>("1/2"), Mpfr(2)}; }
+
+RouteRun by_taylor(const Assembled<Mpfr>& scene) {
+  return taylor_route(scene, instants(), [](double) {});
+}
+
+RouteRun by_hbvm(const Assembled<Mpfr>& scene, const Scene& text) {
+  const MotionNature nature = nature_of(text, times(), [](double) {});
+  return hbvm_route(scene, instants(), working - 3, nature.log2_radius, [](double) {});
+}
+
+/// That the routes differ, at some time and in some component, is said with what each has there.
+void expect_found(const Scene& text, const RouteRun& taylor, const RouteRun& hbvm, long least, long most) {
+  const Agreement agreement(assemble<Mpfr>(text), times(), {{"taylor", taylor}, {"hbvm", hbvm}}, wanted);
+  EXPECT_FALSE(agreement.holds());
+  EXPECT_GE(agreement.digits(), least);
+  EXPECT_LE(agreement.digits(), most);
+  try {
+    agreement.require();
+    FAIL() << "the routes agree";
+  } catch (const Disagreement& found) {
+    const std::string message = found.what();
+    EXPECT_TRUE(found.t == "1/2" || found.t == "2") << found.t;
+    ASSERT_EQ(found.values.size(), 2u);
+    EXPECT_EQ(found.values[0].route, "taylor");
+    EXPECT_EQ(found.values[1].route, "hbvm");
+    EXPECT_NE(found.values[0].number, found.values[1].number) << message;
+    for (const std::string& said : {"t = " + found.t, found.component + " is ", found.values[0].number + " by taylor",
+                                    found.values[1].number + " by hbvm", std::string("nothing is given out")})
+      EXPECT_NE(message.find(said), std::string::npos) << said << " in " << message;
+  }
+}
+
+class RoutesAgreement : public ::testing::Test {
+ protected:
+  PrecisionScope scope_{working};
+  Scene text_ = load_scene("simple_pendulum");
+  Assembled<Mpfr> scene_ = assemble<Mpfr>(text_);
+  RouteRun run_ = by_taylor(scene_);
+};
+
+TEST_F(RoutesAgreement, HoldsForAnyNumberOfRunsThatAreTheSame) {
+  for (std::size_t n = 1; n <= 4; ++n) {
+    const Agreement agreement(scene_, times(), std::vector<NamedRun>(n, {"taylor", run_}), wanted);
+    EXPECT_TRUE(agreement.holds());
+    EXPECT_NO_THROW(agreement.require());
+    EXPECT_EQ(agreement.digits(), digits10<Mpfr>());
+    const std::vector<ReferenceState> states = agreement.states();
+    ASSERT_EQ(states.size(), 2u);
+    EXPECT_EQ(states[0].t, "1/2");
+    // One run confirms nothing.
+    EXPECT_EQ(states[1].agreed, n == 1 ? 0 : digits10<Mpfr>());
+    EXPECT_EQ(states[1].q.size(), 2u);
+    EXPECT_EQ(states[1].p.size(), 2u);
+    EXPECT_EQ(states[1].lambda.size(), 1u);
+    EXPECT_EQ(states[1].momenta.size(), agreement.momentum_names().size());
+  }
+}
+
+/// Whichever run it is of, and whatever component.
+TEST_F(RoutesAgreement, FindsTheNumberThatDiffers) {
+  const Mpfr change = literal<Mpfr>("1e-25");
+  for (std::size_t which = 0; which < 3; ++which) {
+    const auto expect = [&](const char* component, const auto& number) {
+      std::vector<NamedRun> runs{{"taylor", run_}, {"hbvm", run_}, {"closed form", run_}};
+      Mpfr& x = number(runs[which].run.points[1]);
+      x += change;
+      const Agreement agreement(scene_, times(), runs, wanted);
+      EXPECT_FALSE(agreement.holds());
+      EXPECT_GE(agreement.digits(), 23);
+      EXPECT_LE(agreement.digits(), 25);
+      try {
+        agreement.require();
+        FAIL() << component;
+      } catch (const Disagreement& found) {
+        EXPECT_EQ(found.t, "2");
+        EXPECT_EQ(found.component, component);
+        ASSERT_EQ(found.values.size(), 3u);
+        for (std::size_t other = 0; other < 3; ++other)
+          EXPECT_EQ(found.values[other].number == found.values[which].number, other == which);
+      }
+    };
+    expect("q_1", [](RoutePoint& at) -> Mpfr& { return at.q[0]; });
+    expect("q_2", [](RoutePoint& at) -> Mpfr& { return at.q[1]; });
+    expect("p_2", [](RoutePoint& at) -> Mpfr& { return at.p[1]; });
+    expect("lambda_1", [](RoutePoint& at) -> Mpfr& { return at.lambda[0]; });
+  }
+}
+
+TEST_F(RoutesAgreement, RefusesWhatIsNoNumber) {
+  RouteRun other = run_;
+  other.points[0].p[1] = std::numeric_limits<double>::quiet_NaN();
+  const auto compare = [&](const RouteRun& a, const RouteRun& b) {
+    const Agreement agreement(scene_, times(), {{"taylor", a}, {"hbvm", b}}, wanted);
+  };
+  EXPECT_THROW(compare(other, run_), IntegrationError);
+  EXPECT_THROW(compare(run_, other), IntegrationError);
+  other = run_;
+  other.points.pop_back();
+  EXPECT_THROW(compare(run_, other), IntegrationError);
+  other = run_;
+  other.points[1].lambda.resize(0);
+  EXPECT_THROW(compare(run_, other), IntegrationError);
+}
+
+/// What is below the last digit that is printed is rounded there, and not cut off.
+TEST_F(RoutesAgreement, RoundsSmallComponents) {
+  RouteRun run = run_;
+  run.points[0].q << literal<Mpfr>("0.5"), literal<Mpfr>("6e-6");
+  run.points[1].q << literal<Mpfr>("0.5"), literal<Mpfr>("-4e-6");
+  const std::vector<ReferenceState> states = Agreement(scene_, times(), {{"taylor", run}, {"hbvm", run}}, 4).states();
+  const PrecisionScope scope(20);
+  EXPECT_EQ(literal<Mpfr>(states[0].q[0]), literal<Mpfr>("0.5"));
+  EXPECT_EQ(literal<Mpfr>(states[0].q[1]), literal<Mpfr>("1e-5"));
+  EXPECT_EQ(literal<Mpfr>(states[1].q[1]), 0);
+}
+
+/// A law of force that is off by 1e-30 in one of the routes alone.
+TEST(RoutesAgreementTeeth, FindsAForceLawThatIsOff) {
+  const PrecisionScope scope(working);
+  for (const auto& [name, key] : {std::pair("kepler", "strength"), {"simple_pendulum", "acceleration"}}) {
+    const Scene text = load_scene(name);
+    const Assembled<Mpfr> right = assemble<Mpfr>(text);
+    Assembled<Mpfr> wrong = assemble<Mpfr>(text);
+    ASSERT_EQ(wrong.problem.potential.terms.size(), 1u) << key;
+    // The coefficient of the gradient, which the series are made of.
+    wrong.problem.potential.terms[0].gradient_coefficients *= 1 + literal<Mpfr>("1e-30");
+    expect_found(text, by_taylor(wrong), by_hbvm(right, text), 27, 32);
+    expect_found(text, by_taylor(right), by_hbvm(wrong, text), 27, 32);
+    const Agreement agreement(right, times(), {{"taylor", by_taylor(right)}, {"hbvm", by_hbvm(right, text)}}, wanted);
+    EXPECT_TRUE(agreement.holds()) << name;
+  }
+}
+
+/// A sign of a constraint's second derivative. The value is wrong, too, but not at the start.
+TEST(RoutesAgreementTeeth, FindsASignOfASecondDerivative) {
+  const PrecisionScope scope(working);
+  const Scene text = read_scene(
+      "dimension = 2\nbody = [{ name = \"bead\", mass = 1, position = [1, 0], velocity = [0, 1] }]\n"
+      "constraint = [{ kind = \"quadric\", body = \"bead\", A = [[1, \"1/8\"], [\"1/8\", 1]], b = [0, \"-1/4\"], c = "
+      "-1 }]\neffect = [{ kind = \"uniform_gravity\", acceleration = [0, -1] }]\n",
+      "bead");
+  const Assembled<Mpfr> right = assemble<Mpfr>(text);
+  Assembled<Mpfr> wrong = assemble<Mpfr>(text);
+  auto* const form = std::get_if<Quadric<Mpfr>>(&wrong.problem.constraints.at(0).form);
+  ASSERT_NE(form, nullptr);
+  form->A(0, 1) = -form->A(0, 1);
+  form->A(1, 0) = -form->A(1, 0);
+  form->b[1] = -form->b[1];
+  expect_found(text, by_taylor(wrong), by_hbvm(right, text), -3, 3);
+  expect_found(text, by_taylor(right), by_hbvm(wrong, text), -3, 3);
+  EXPECT_TRUE(
+      Agreement(right, times(), {{"taylor", by_taylor(right)}, {"hbvm", by_hbvm(right, text)}}, wanted).holds());
+}
+
+/// One coefficient of the method, any of them, off by 1e-25.
+TEST(RoutesAgreementTeeth, FindsACoefficientThatIsOff) {
+  const PrecisionScope scope(working);
+  const Scene text = load_scene("modified_pendulum");
+  const Assembled<Mpfr> scene = assemble<Mpfr>(text);
+  const RouteRun taylor = by_taylor(scene);
+  Point<Mpfr> point(scene.problem);
+  constexpr int s = 24;
+  const auto by = [&](const Hbvm<Mpfr>& method) {
+    HbvmStepper<Mpfr> stepper(scene.problem, method, SolverKind::automatic);
+    State<Mpfr> state(scene.q0, scene.p0);
+    RouteRun run;
+    Mpfr now = 0;
+    constexpr int pieces = 8;  // of a half
+    for (const Mpfr& t : instants()) {
+      for (; now < t; now += Mpfr(1) / (2 * pieces)) stepper.step(state, Mpfr(Mpfr(1) / (2 * pieces)));
+      const Vector<Mpfr> p = point.tangential(state.q, state.p);
+      run.points.push_back({state.q, p, point.multiplier(state.q, p)});
+    }
+    return run;
+  };
+  const Agreement agreement(scene, times(), {{"taylor", taylor}, {"hbvm", by(make_hbvm<Mpfr>(s, s))}}, wanted);
+  EXPECT_TRUE(agreement.holds()) << agreement.digits();
+  using Part = Perturbation::Part;
+  for (const auto& [part, i, j] :
+       {std::tuple(Part::node, 3, 0), {Part::weight, 11, 0}, {Part::integral, 7, 1}, {Part::X, 1, 0}}) {
+    Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
+    perturb(method, Perturbation{.part = part, .hat = false, .i = i, .j = j, .relative = Expression::parse("1e-25")});
+    expect_found(text, taylor, by(method), 20, wanted);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
