@@ -58,7 +58,12 @@ std::vector<double> rounded(std::vector<double> digits) {
 }
 
 nlohmann::ordered_json json_of(const ErrorEstimate& error) {
-  nlohmann::ordered_json j{{"method", error.method}, {"precision", error.precision}};
+  // A stored reference was not made by a run beside.
+  const auto beside = [](const std::string& text) {
+    return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
+  };
+  nlohmann::ordered_json j{
+      {"reference", error.reference}, {"method", beside(error.method)}, {"precision", beside(error.precision)}};
   if (!error.failure.empty()) {
     j["failure"] = error.failure;
     return j;
@@ -489,7 +494,8 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--account", o->account, "Also show what effects and parts of the solver did and took");
   command->add_flag("--strict", o->strict, "Exit code 3 if a warning says that the run may be worth little");
   command->add_flag("--error", o->error,
-                    "Repeat the run with more stages and 16 more digits, and print the digits that are right");
+                    "Print the digits that are right, by a stored reference of this scene and time, or else by a run "
+                    "with more stages and 16 more digits");
   command->add_flag("--shadow", o->shadow,
                     "Repeat the run with 16 more digits and say how many of each component survived rounding");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");

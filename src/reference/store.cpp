@@ -120,6 +120,25 @@ StoredReference read_reference(const std::string& toml, const std::string& name)
   return stored;
 }
 
+std::optional<FoundReference> find_reference(const Scene& scene, const Expression& t, int digits) {
+  // Expressions are rounded correctly: those of one value give one number.
+  constexpr int bits = 1024;
+  const auto instant = [&](const Expression& time) { return time.evaluate_to_bits(bits, scene.constants); };
+  const BigFloat wanted = instant(t);
+  const std::string hash = scene_hash(scene);
+  std::optional<FoundReference> best;
+  for (const auto& [name, text] : shipped_references()) {
+    if (text.find(hash) == std::string::npos) continue;
+    const Reference reference = read_reference(text, name).reference;
+    if (reference.scene_hash != hash || reference.digits < digits || (best && best->digits >= reference.digits))
+      continue;
+    for (const ReferenceState& state : reference.times)
+      if (mpfr_equal_p(raw(instant(Expression::parse(state.t))), raw(wanted)) != 0)
+        best = FoundReference{name, reference.digits, state};
+  }
+  return best;
+}
+
 std::vector<Difference> differences(const Reference& stored, const Reference& found) {
   std::vector<Difference> result;
   const auto compare = [&](const std::string& t, const std::string& what, const std::vector<std::string>& a,

@@ -38,26 +38,49 @@ TEST(ReferenceCommand, PrintsJson) {
   for (const char* key : {"scene_hash", "version", "command"}) EXPECT_TRUE(j[key].is_string()) << key;
 }
 
+/// A digit of a number of the second time, in the middle or the last, of whatever is stored: it is found, and named
+/// with its time, its component and both values.
 TEST(ReferenceCommand, WritesAFileAndFindsAWrongDigitInIt) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("reference_command_" + std::to_string(getpid()) + ".toml");
-  const Outcome made =
-      hbvm({"reference", "conical_pendulum", "--until", "1", "--digits", "25", "--out", file.string()});
+  const Outcome made = hbvm(
+      {"reference", "conical_pendulum", "--until", "1", "--at", "1/2,1", "--digits", "25", "--out", file.string()});
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_NE(made.out.find("the routes agree in"), std::string::npos);
   const Outcome verified = hbvm({"reference", "--verify", file.string()});
   EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
-  std::string text;
+  EXPECT_NE(verified.out.find("all digits of 2 times"), std::string::npos);
+  std::string right;
   {
     std::ifstream in(file);
-    text.assign(std::istreambuf_iterator<char>(in), {});
+    right.assign(std::istreambuf_iterator<char>(in), {});
   }
-  const std::size_t digit = text.find("q = [\n  \"") + 25;
-  text[digit] = text[digit] == '7' ? '8' : '7';
-  std::ofstream(file) << text;
-  const Outcome wrong = hbvm({"reference", "--verify", file.string(), "--route", "taylor"});
-  EXPECT_EQ(wrong.code, 1);
-  EXPECT_NE(wrong.out.find("t = 1: q_1 is "), std::string::npos) << wrong.out;
+  const std::size_t second = right.find("t = \"1\"");
+  ASSERT_NE(second, std::string::npos);
+  struct Place {
+    const char *key, *name;
+  };
+  for (const Place& place : {Place{"\nq = [\n  \"", "q_1"},
+                             {"\np = [\n  \"", "p_1"},
+                             {"\nlambda = [\n  \"", "lambda_1"},
+                             {"\nH = \"", "H"},
+                             {"\nmomenta = [\n  \"", "momentum_1"}})
+    for (const bool last : {false, true}) {
+      const std::size_t begin = right.find(place.key, second) + std::string(place.key).size(),
+                        end = right.find_first_of("\"e", begin), at = last ? end - 1 : (begin + end) / 2;
+      ASSERT_GT(end - begin, 15u) << place.name;
+      std::string text = right;
+      ASSERT_NE(text[at], '.');
+      text[at] = text[at] == '7' ? '8' : '7';
+      std::ofstream(file) << text;
+      const Outcome wrong = hbvm({"reference", "--verify", file.string(), "--route", last ? "taylor" : "hbvm"});
+      EXPECT_EQ(wrong.code, 1) << place.name;
+      EXPECT_NE(wrong.out.find(std::string("t = 1: ") + place.name + " is " + right.substr(begin, end - begin)),
+                std::string::npos)
+          << wrong.out;
+      EXPECT_NE(wrong.out.find(", not " + text.substr(begin, end - begin)), std::string::npos) << wrong.out;
+      EXPECT_NE(wrong.out.find(": 1 numbers differ"), std::string::npos) << wrong.out;
+    }
   std::filesystem::remove(file);
 }
 

@@ -661,6 +661,17 @@ TEST(RunPlot, RefusesWhatCannotBeDrawn) {
   expect_refused(run + Arguments{folder / "none/a.svg"}, {"--plot", "cannot write"});
 }
 
+TEST(RunError, SaysWhatTheRunWasComparedWith) {
+  const Arguments run{"run", "modified_pendulum", "--method", "hbvm:4,2", "--step", "1/16", "--error", "--until"};
+  const ordered_json stored = json_of(run + Arguments{"10"})["error"],
+                     computed = json_of(run + Arguments{"1"})["error"];
+  EXPECT_EQ(stored["reference"], "stored reference, 50 digits");
+  EXPECT_TRUE(stored["method"].is_null() && stored["precision"].is_null());
+  EXPECT_EQ(computed["reference"], "computed now");
+  EXPECT_EQ(computed["method"], "hbvm:7,5");
+  EXPECT_NE(hbvm(run + Arguments{"1"}).out.find("error, against hbvm:7,5, mpfr:32, computed now\n"), std::string::npos);
+}
+
 TEST(RunError, PrintsRightDigitsAndOneMore) {
   const Arguments run{"run",  "modified_pendulum", "--method", "hbvm:4,2",    "--step",
                       "1/16", "--until",           "20",       "--precision", "mpfr:50"};
@@ -670,7 +681,10 @@ TEST(RunError, PrintsRightDigitsAndOneMore) {
   EXPECT_EQ(with.code, 0) << with.err;
   EXPECT_EQ(with.out.find("not assessed"), std::string::npos);
   const ordered_json j = json_of(run + Arguments{"--error"});
-  EXPECT_EQ(keys_of(j["error"]), (Texts{"method", "precision", "q", "p", "lambda", "digits", "lambda_digits"}));
+  EXPECT_EQ(j["error"]["reference"], "stored reference, 100 digits");
+  EXPECT_NE(with.out.find("error, against the stored reference, 100 digits\n"), std::string::npos);
+  EXPECT_EQ(keys_of(j["error"]),
+            (Texts{"reference", "method", "precision", "q", "p", "lambda", "digits", "lambda_digits"}));
   ASSERT_EQ(j["error"]["digits"].size(), 4u);
   const double digits = j["error"]["digits"][0];
   EXPECT_GT(digits, 3);

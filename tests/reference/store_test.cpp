@@ -64,11 +64,37 @@ TEST(Store, RefusesWhatIsNone) {
     EXPECT_THROW(read_reference(bad, "file"), InputError) << bad;
 }
 
+/// By what the scene says and by the value of the time.
+TEST(Store, FindsAReference) {
+  Scene scene = load_scene("tethered_satellites");
+  const auto digits_at = [&](const char* t, int digits) {
+    const std::optional<FoundReference> found = find_reference(scene, Expression::parse(t), digits);
+    return found ? found->digits : 0;
+  };
+  EXPECT_EQ(digits_at("10", 1), 100);
+  EXPECT_EQ(digits_at("10", 100), 100);
+  EXPECT_EQ(digits_at("10", 101), 0);
+  EXPECT_EQ(digits_at("100", 30), 50);
+  EXPECT_EQ(digits_at("1000", 20), 20);
+  EXPECT_EQ(digits_at("1000", 21), 0);
+  EXPECT_EQ(digits_at("2*5.000 + sqrt(2)*0", 1), 100);
+  EXPECT_EQ(digits_at("10 + 1e-90", 1), 0);
+  EXPECT_EQ(digits_at("11", 1), 0);
+  scene.name = scene.title = "of another name";
+  EXPECT_EQ(digits_at("10", 1), 100);
+  const std::optional<FoundReference> found = find_reference(scene, Expression::parse("1e2"), 1);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->name, "tethered_satellites_t100_50");
+  EXPECT_EQ(found->state.t, "100");
+  scene.bodies.front().mass = Expression::parse("1 + 1e-40");
+  EXPECT_EQ(digits_at("10", 1), 0);
+}
+
 /// Two routes agreed on everything that is shipped.
 TEST(Store, ShipsReferencesThatCanBeRead) {
   for (const auto& [name, text] : shipped_references()) {
     const StoredReference stored = read_reference(text, name);
-    EXPECT_EQ(stored.reference.routes.size(), 2u) << name;
+    EXPECT_GE(stored.reference.routes.size(), 2u) << name;
     EXPECT_EQ(scene_hash(load_scene(stored.reference.scene)), stored.reference.scene_hash) << name;
     for (const ReferenceState& state : stored.reference.times) EXPECT_GT(state.agreed, stored.reference.digits) << name;
   }

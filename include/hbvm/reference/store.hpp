@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,17 @@ StoredReference read_reference(const std::string& toml, const std::string& name)
 
 /// Name and text of each reference compiled in.
 const std::vector<std::pair<std::string, std::string>>& shipped_references();
+
+/// A shipped reference at one time.
+struct FoundReference {
+  std::string name;
+  int digits = 0;
+  ReferenceState state;
+};
+/// That of a scene that says the same, whatever its name, at exactly this time, whatever its text, with so many digits
+/// at least; of several that with the most.
+/// \throws InputError for a time without a value
+std::optional<FoundReference> find_reference(const Scene& scene, const Expression& t, int digits);
 
 /// A number that is not the same in two references.
 struct Difference {

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
+#include "hbvm/reference/store.hpp"
+#include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "run_beside.hpp"
@@ -21,11 +24,12 @@ MethodPtr method_beside(const Method& method) {
 }
 
 /// Errors of one vector, entry by entry. An entry that happens to be met is not trusted with more than two digits
-/// beyond what its group of entries, those of a vector in space, has: the run beside has an error, too.
+/// beyond what its group of entries, those of a vector in space, has: what it is compared with has an error, too.
 class Errors {
  public:
+  /// \param unsure by which the exact values may be off
   template <Scalar S>
-  Errors(const Vector<S>& found, const Vector<Mpfr>& exact, Index group) {
+  Errors(const Vector<S>& found, const Vector<Mpfr>& exact, Index group, const Mpfr& unsure = Mpfr(0)) {
     const double all = significand_bits<S>() * std::log10(double{2});
     constexpr int trusted = 100;
     for (Index i = 0; i < exact.size(); ++i) {
@@ -39,6 +43,7 @@ class Errors {
       Mpfr error = differences_[static_cast<std::size_t>(i)];
       for (Index j = first; j < std::min(first + group, exact.size()); ++j)
         raise_to(error, Mpfr(differences_[static_cast<std::size_t>(j)] / trusted));
+      if (error > 0) raise_to(error, unsure);
       digits.push_back(right_digits(error, sizes_[static_cast<std::size_t>(i)], all));
     }
   }
@@ -57,15 +62,73 @@ class Errors {
   std::vector<Mpfr> sizes_, differences_;
 };
 
+/// The errors of all three, in words.
+void say(ErrorEstimate& estimate, const Errors& q, const Errors& p, const Errors& lambda) {
+  estimate.q = to_scientific(q.greatest, 3);
+  estimate.p = to_scientific(p.greatest, 3);
+  if (!lambda.digits.empty()) estimate.lambda = to_scientific(lambda.greatest, 3);
+  estimate.q_digits = q.digits;
+  estimate.p_digits = p.digits;
+  estimate.lambda_digits = lambda.digits;
+}
+
+/// A vector of a stored reference, and what its texts leave open: a unit of the last digit.
+struct Stored {
+  Vector<Mpfr> value;
+  Mpfr unsure = 0;
+
+  Stored(const std::vector<std::string>& texts, int digits) : value(static_cast<Index>(texts.size())) {
+    for (std::size_t i = 0; i < texts.size(); ++i) value[static_cast<Index>(i)] = literal<Mpfr>(texts[i]);
+    unsure = max_norm(value) / pow(Mpfr(10), digits);
+  }
+};
+
+/// Against a reference that was stored. \return nothing if there is none of the motion from the scene's own start, or
+/// if it has too few digits to tell what is right
+template <Scalar S>
+std::optional<ErrorEstimate> estimate_by_store(const RunRequest& request, const Vector<S>& q, const Vector<S>& output_p,
+                                               const Vector<S>& output_lambda) {
+  if (request.direction == Direction::backward || request.start) return std::nullopt;
+  const std::optional<FoundReference> found = find_reference(request.scene, request.until, 1);
+  if (!found) return std::nullopt;
+  const unsigned digits = std::max(digits_of_a_run_beside<S>(), static_cast<unsigned>(found->digits)) + 10;
+  const PrecisionScope more(digits);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
+  RedundantConstraints<Mpfr> redundant(scene.problem);
+  const Stored exact_q(found->state.q, found->digits), exact_p(found->state.p, found->digits),
+      lambda(found->state.lambda, found->digits);
+  const Vector<Mpfr> exact_lambda = redundant.multipliers(exact_q.value, lambda.value);
+  if (exact_q.value.size() != q.size() || exact_p.value.size() != q.size() ||
+      exact_lambda.size() != output_lambda.size())
+    return std::nullopt;
+  const Index d = scene.problem.dimension;
+  const Errors of_q(q, exact_q.value, d, exact_q.unsure), of_p(output_p, exact_p.value, d, exact_p.unsure),
+      of_lambda(output_lambda, exact_lambda, 1, lambda.unsure);
+  // A hundred times what the reference leaves open is seen; of a run with fewer digits, anything.
+  constexpr int more_than_the_run = 2, seen = 100;
+  const bool has_all = found->digits >= significand_bits<S>() * std::log10(double{2}) + more_than_the_run;
+  const auto tells = [&](const Errors& errors, const Mpfr& unsure) {
+    return has_all || errors.digits.empty() || errors.greatest >= seen * unsure;
+  };
+  if (!tells(of_q, exact_q.unsure) || !tells(of_p, exact_p.unsure) || !tells(of_lambda, lambda.unsure))
+    return std::nullopt;
+  ErrorEstimate estimate;
+  estimate.reference = fmt::format("stored reference, {} digits", found->digits);
+  say(estimate, of_q, of_p, of_lambda);
+  return estimate;
+}
+
 }  // namespace
 
 template <Scalar S>
 ErrorEstimate estimate_error(const RunRequest& request, const Method& method, const std::optional<State<S>>& start,
                              const Vector<S>& q, const Vector<S>& output_p, const Vector<S>& output_lambda) {
+  if (std::optional<ErrorEstimate> estimate = estimate_by_store(request, q, output_p, output_lambda)) return *estimate;
   const MethodPtr beside = method_beside(method);
   const unsigned digits = digits_of_a_run_beside<S>();
   const PrecisionScope more(digits);
   ErrorEstimate estimate;
+  estimate.reference = "computed now";
   estimate.method = beside->text();
   estimate.precision = "mpfr:" + std::to_string(digits);
   try {
@@ -75,14 +138,9 @@ ErrorEstimate estimate_error(const RunRequest& request, const Method& method, co
     Point<Mpfr> point(scene.problem);
     RedundantConstraints<Mpfr> redundant(scene.problem);
     const OutputState<Mpfr> output = output_state(point, end.q, end.p);
-    const Errors of_q(q, end.q, scene.problem.dimension), of_p(output_p, output.p, scene.problem.dimension),
-        of_lambda(output_lambda, redundant.multipliers(end.q, output.lambda), 1);
-    estimate.q = to_scientific(of_q.greatest, 3);
-    estimate.p = to_scientific(of_p.greatest, 3);
-    if (!of_lambda.digits.empty()) estimate.lambda = to_scientific(of_lambda.greatest, 3);
-    estimate.q_digits = of_q.digits;
-    estimate.p_digits = of_p.digits;
-    estimate.lambda_digits = of_lambda.digits;
+    const Index d = scene.problem.dimension;
+    say(estimate, Errors(q, end.q, d), Errors(output_p, output.p, d),
+        Errors(output_lambda, redundant.multipliers(end.q, output.lambda), 1));
   } catch (const Error& error) {
     estimate.failure = error.what();
   }
@@ -96,7 +154,9 @@ std::string to_right_digits(const std::string& number, double right) {
 std::string to_text(const ErrorEstimate& estimate) {
   const std::string beside = estimate.method + ", " + estimate.precision;
   if (!estimate.failure.empty()) return fmt::format("error\n  unknown: {} failed: {}\n", beside, estimate.failure);
-  return fmt::format("error, against {}\n  {:<14} {}\n  {:<14} {}\n{}", beside, "q", estimate.q, "p", estimate.p,
+  const std::string against =
+      estimate.method.empty() ? "the " + estimate.reference : beside + ", " + estimate.reference;
+  return fmt::format("error, against {}\n  {:<14} {}\n  {:<14} {}\n{}", against, "q", estimate.q, "p", estimate.p,
                      estimate.lambda.empty() ? "" : fmt::format("  {:<14} {}\n", "lambda", estimate.lambda));
 }
 

@@ -71,6 +71,54 @@ TEST(ErrorEstimate, PromisesTheDigitsThatAreRight) {
   }
 }
 
+/// The run beside finds the same errors.
+TEST(ErrorEstimate, TakesTheStoredReferenceIfThereIsOne) {
+  const PrecisionScope digits(60);
+  for (const char* scene : {"modified_pendulum", "double_physical_pendulum", "heavy_top", "four_bar_linkage", "kepler"})
+    for (const char* precision : {"double", "mpfr:40"}) {
+      RunRequest request{load_scene(scene),         parse_method("hbvm:4,2"),  SolverKind::automatic,
+                         Expression::parse("1/32"), Expression::parse("20/2"), Precision::parse(precision)};
+      request.error = true;
+      request.scene.name = "another name";
+      const ErrorEstimate stored = *run(request, {}).error;
+      EXPECT_EQ(stored.reference, "stored reference, 50 digits");
+      EXPECT_EQ(stored.method + stored.precision, "");
+      EXPECT_NE(to_text(stored).find("against the stored reference, 50 digits"), std::string::npos);
+      // The same motion by another text of the scene.
+      request.scene.constants.emplace("unused", Expression::parse("1"));
+      const ErrorEstimate computed = *run(request, {}).error;
+      EXPECT_EQ(computed.reference, "computed now");
+      EXPECT_NE(computed.method, "");
+      const auto compare = [&](const std::vector<double>& a, const std::vector<double>& b, const char* what) {
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i)
+          EXPECT_NEAR(a[i], b[i], 0.1) << scene << ' ' << precision << ' ' << what << i;
+      };
+      compare(stored.q_digits, computed.q_digits, "q");
+      compare(stored.p_digits, computed.p_digits, "p");
+      compare(stored.lambda_digits, computed.lambda_digits, "lambda");
+      EXPECT_NEAR(std::stod(stored.q) / std::stod(computed.q), 1, 0.02);
+      EXPECT_EQ(stored.lambda.empty(), computed.lambda.empty());
+    }
+}
+
+/// One of too few digits, another time, another start and another direction.
+TEST(ErrorEstimate, LeavesAStoredReferenceThatDoesNotTell) {
+  const auto against = [](const char* method, const char* step, const char* until, const char* precision,
+                          Direction direction = Direction::forward) {
+    RunRequest request{load_scene("modified_pendulum"), parse_method(method),     SolverKind::automatic,
+                       Expression::parse(step),         Expression::parse(until), Precision::parse(precision)};
+    request.error = true;
+    request.direction = direction;
+    return run(request, {}).error->reference;
+  };
+  EXPECT_EQ(against("hbvm:8,8", "1/16", "10", "mpfr:70"), "stored reference, 50 digits");
+  EXPECT_EQ(against("hbvm:24,24", "1/16", "10", "mpfr:70"), "computed now");
+  EXPECT_EQ(against("hbvm:24,24", "1/16", "20", "mpfr:70"), "stored reference, 100 digits");
+  EXPECT_EQ(against("hbvm:4,4", "1/16", "10", "double", Direction::backward), "computed now");
+  EXPECT_EQ(against("hbvm:4,4", "1/16", "161/16", "double"), "computed now");
+}
+
 TEST(ErrorEstimate, SaysWhyThereIsNone) {
   ErrorEstimate estimate;
   estimate.method = "hbvm:5,5";
