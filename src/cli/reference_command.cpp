@@ -184,6 +184,7 @@ nlohmann::ordered_json json_of(const Against& against) {
     for (const ComponentDigits& c : file.components) entry["right_digits"][c.name] = c.digits;
     entry["log10_H_drift"] = file.H_drift;
     entry["log10_g_drift"] = file.g_drift;
+    entry["reference"] = file.stored ? "stored" : "computed now";
     j["files"].push_back(entry);
   }
   j["by_growth"] = against.by_growth;
@@ -252,12 +253,17 @@ void compare(const ReferenceArguments& o) {
     std::cout << json_of(against).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
     return;
   }
-  fmt::print("right digits beside a reference of {} digits\n", against.digits);
+  const bool stored = std::all_of(against.files.begin(), against.files.end(), [](const auto& f) { return f.stored; });
+  fmt::print("right digits beside a reference of {} digits, {}\n", against.digits, stored ? "stored" : "computed now");
   for (std::size_t f = 0; f < against.files.size(); ++f)
     print(against.files[f], f == 0 ? against.by_growth : std::vector<double>());
-  for (std::size_t f = 0; f < against.orders.size(); ++f)
-    fmt::print("order of convergence from {} to {}: {:.2f}\n", against.files[f].name, against.files[f + 1].name,
-               against.orders[f]);
+  for (std::size_t f = 0; f < against.orders.size(); ++f) {
+    const FileAgainst &a = against.files[f], &b = against.files[f + 1];
+    fmt::print("order of convergence from {} to {}: {}\n", a.name, b.name,
+               std::isfinite(against.orders[f]) ? fmt::format("{:.2f}", against.orders[f])
+                                                : fmt::format("none, with steps of {:.3g} and {:.3g} to t = {} and {}",
+                                                              a.step, b.step, a.times.back(), b.times.back()));
+  }
 }
 
 void reference_command(const ReferenceArguments& o) {
@@ -298,7 +304,7 @@ void add_reference_command(CLI::App& app) {
   auto o = std::make_shared<ReferenceArguments>();
   CLI::App* const command = app.add_subcommand(
       "reference", "A solution with as many digits as asked for, each found by two routes that share only the scene");
-  command->add_option("SCENE", o->scene, "Scene file or built-in scene");
+  command->add_option("SCENE,--scene", o->scene, "Scene file or built-in scene");
   command->add_option("--until", o->until, "Time of the state, as 10 or 2pi");
   command->add_option("--at", o->at, "Times T1,T2,... of the states instead, ascending")->delimiter(',');
   command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")

@@ -84,6 +84,45 @@ TEST(ReferenceCommand, WritesAFileAndFindsAWrongDigitInIt) {
   std::filesystem::remove(file);
 }
 
+/// Trajectories as hbvm run writes them, of RATTLE with four steps: order 2. Of HBVM, whose p is not tangential, the
+/// momenta of the output state are compared.
+TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("reference_against_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  std::string files;
+  for (const char* steps : {"16", "32", "64", "128"}) {
+    const std::string file = (folder / (std::string(steps) + ".csv")).string();
+    ASSERT_EQ(hbvm({"run", "simple_pendulum", "--method", "rattle", "--step", std::string("1/") + steps, "--until", "4",
+                    "--every", "8", "--out", file})
+                  .code,
+              0);
+    files += (files.empty() ? "" : ",") + file;
+  }
+  const Outcome text = hbvm({"reference", "simple_pendulum", "--against", files});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("right digits beside a reference of "), std::string::npos);
+  EXPECT_NE(text.out.find(", computed now\n"), std::string::npos);
+  EXPECT_NE(text.out.find("1 times at the start"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("most is lost between t = "), std::string::npos);
+  const Outcome json = hbvm({"reference", "--scene", "simple_pendulum", "--against", files, "--json"});
+  ASSERT_EQ(json.code, 0) << json.err;
+  const ordered_json j = ordered_json::parse(json.out);
+  ASSERT_EQ(j["files"].size(), 4u);
+  ASSERT_EQ(j["orders"].size(), 3u);
+  for (const auto& order : j["orders"]) EXPECT_NEAR(order.get<double>(), 2, 0.05);
+  const std::string file = (folder / "hbvm.csv").string();
+  ASSERT_EQ(hbvm({"run", "simple_pendulum", "--method", "hbvm:8,8", "--step", "1/8", "--until", "4", "--precision",
+                  "mpfr:40", "--out", file})
+                .code,
+            0);
+  const ordered_json many =
+      ordered_json::parse(hbvm({"reference", "simple_pendulum", "--against", file, "--json"}).out);
+  for (const auto& [name, digits] : many["files"][0]["right_digits"].items())
+    for (const auto& right : digits) EXPECT_GT(right.get<double>(), 12) << name;
+  std::filesystem::remove_all(folder);
+}
+
 TEST(ReferenceCommand, RefusesWhatItCannotDo) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"reference"},
