@@ -9,7 +9,9 @@
 
 #include "hbvm/checksum.hpp"
 #include "hbvm/reference/agreement.hpp"
+#include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/reference/route_run.hpp"
+#include "hbvm/reference/taylor.hpp"
 #include "hbvm/scalar/literal.hpp"
 
 namespace hbvm {
@@ -34,6 +36,18 @@ void check(const ReferenceRequest& request) {
       throw InputError("the times of a reference are positive and ascend: '" + time.text() + "' does not");
     last = t;
   }
+}
+
+/// \throws InputError for a time that nobody can wait for
+void refuse_endless(const ReferenceRequest& request) {
+  const PrecisionScope scope(30);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
+  const TaylorMotion motion(scene.problem, scene.q0, scene.p0);
+  const Mpfr end = evaluate<Mpfr>(request.times.back(), request.scene.constants);
+  constexpr double most = 40;
+  if (log2_of(end) - motion.least_radius() > most)
+    throw InputError("t = " + request.times.back().text() +
+                     " is more than 10^12 steps of a Taylor series away: no reference gets there");
 }
 
 /// The routes' runs at once, each in a thread of its own with its digits.
@@ -107,6 +121,7 @@ std::string scene_hash(const Scene& scene) {
 
 Reference compute_reference(const ReferenceRequest& request) {
   check(request);
+  refuse_endless(request);
   MotionNature nature = nature_of(request.scene, request.times, [&](double part) {
     if (request.progress) request.progress(part);
   });

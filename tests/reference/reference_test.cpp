@@ -77,6 +77,8 @@ TEST(ReferenceSolution, RefusesWhatItCannotGive) {
   EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"0"}, 20)), InputError);
   EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"2", "1"}, 20)), InputError);
   EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1"}, 0)), InputError);
+  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1e400"}, 20)), InputError);
+  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1", "1e30"}, 20)), InputError);
   EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1"}, most_reference_digits + 1)), InputError);
   EXPECT_THROW(parse_route("euler"), InputError);
 }
