@@ -22,14 +22,14 @@ constexpr int wanted_of_each = 30;
 constexpr double most_seconds = 30;
 struct TooLong {};
 
-/// Some radii of convergence of the series at the start: a characteristic time, whatever masses and forces are. As a
-/// power of two, which is an exact text.
+/// Two radii of convergence of the series at the start: a characteristic time, whatever masses and forces are; of a
+/// motion that is a polynomial any. As a power of two, which is an exact text.
 Expression characteristic_time(const Scene& scene) {
   const PrecisionScope digits(30);
   const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
   const TaylorMotion motion(assembled.problem, assembled.q0, assembled.p0);
-  constexpr int radii = 1;
-  return Expression::parse(fmt::format("2^({})", std::lround(motion.least_radius()) + radii));
+  constexpr long any = 10;
+  return Expression::parse(fmt::format("2^({})", std::min(std::lround(motion.least_radius()) + 1, any)));
 }
 
 Vector<Mpfr> numbers(const std::vector<std::string>& texts) {
