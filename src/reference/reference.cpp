@@ -93,7 +93,7 @@ class Attempt {
     if (route == Route::taylor) return taylor_route(scene, times, progress);
     // What errors grow by, and a few for their sum.
     constexpr int few = 3;
-    return hbvm_route(scene, times, static_cast<double>(digits_) - few, nature_.log2_radius, progress);
+    return hbvm_route(scene, times, static_cast<double>(digits_) - few, nature_, progress);
   }
 
   const ReferenceRequest& request_;

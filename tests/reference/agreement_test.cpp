@@ -28,7 +28,7 @@ RouteRun by_taylor(const Assembled<Mpfr>& scene) {
 
 RouteRun by_hbvm(const Assembled<Mpfr>& scene, const Scene& text) {
   const MotionNature nature = nature_of(text, times(), [](double) {});
-  return hbvm_route(scene, instants(), working - 3, nature.log2_radius, [](double) {});
+  return hbvm_route(scene, instants(), working - 3, nature, [](double) {});
 }
 
 /// That the routes differ, at some time and in some component, is said with what each has there.

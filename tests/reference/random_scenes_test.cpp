@@ -62,7 +62,7 @@ void expect_of_the_motion(const Scene& scene, const ReferenceState& state, std::
 /// second or so each; with HBVM_FULL in the environment a hundred are made, and those that take too long are listed.
 TEST(RandomScenes, HaveAgreedDigitsOrAReason) {
   const bool all = std::getenv("HBVM_FULL") != nullptr;
-  std::vector<std::uint64_t> seeds{4, 5, 7, 8, 10, 11, 12, 13, 15, 16, 19, 20};
+  std::vector<std::uint64_t> seeds{2, 4, 5, 7, 8, 9, 10, 11, 12, 13, 16, 19};
   if (all) {
     seeds.clear();
     for (std::uint64_t seed = 1; seed <= 100; ++seed) seeds.push_back(seed);

@@ -20,7 +20,7 @@ TEST(Routes, Agree) {
     double done = 0;
     const RouteProgress progress = [&done](double part) { done = part; };
     const RouteRun a = taylor_route(scene, at, progress);
-    const RouteRun b = hbvm_route(scene, at, digits - 3, nature.log2_radius, progress);
+    const RouteRun b = hbvm_route(scene, at, digits - 3, nature, progress);
     EXPECT_NEAR(done, 1, 1e-12);
     ASSERT_EQ(a.points.size(), 2u);
     const Mpfr tolerance = literal<Mpfr>("1e-34");

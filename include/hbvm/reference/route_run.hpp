@@ -27,16 +27,25 @@ using RouteProgress = std::function<void(double)>;
 /// \throws IntegrationError
 RouteRun taylor_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, const RouteProgress& progress);
 
-/// The same by HBVM(s,s) with so many digits right, if the motion is analytic within 2^log2_radius of the time axis.
-/// \throws IntegrationError
-RouteRun hbvm_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, double digits, double log2_radius,
-                    const RouteProgress& progress);
+/// A part of the time, from the one before, and how many doublings its least radius of convergence is above the least
+/// of all.
+struct Calm {
+  double until = 0;
+  int doublings = 0;
+};
 
 /// What a motion does to errors, and how far from the time axis its nearest singularity lies.
 struct MotionNature {
   double digits_lost = 0;  ///< log10 of the factor by which a change of the start grows until the last time, at least 0
   double log2_radius = 0;  ///< least radius of convergence of the Taylor series
+  std::vector<Calm> calm = {};  ///< parts of the time from 0 on; after the last it is the least
 };
+
+/// The same by HBVM(s,s) with so many digits right, if the motion is analytic within 2^log2_radius of the time axis,
+/// and farther where it is calm: steps are longer there.
+/// \throws IntegrationError
+RouteRun hbvm_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, double digits,
+                    const MotionNature& nature, const RouteProgress& progress);
 
 /// From two motions at low precision, the start of one changed a little. Where the change has grown so far that it
 /// tells no more, its rate until then is taken for that of all the time, and the radius for the least. \param progress
