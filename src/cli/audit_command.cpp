@@ -13,9 +13,12 @@
 #include "hbvm/analysis/audit/claims.hpp"
 #include "hbvm/analysis/audit/report.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/method/method_spec.hpp"
 #include "hbvm/method/read_tableau.hpp"
 #include "hbvm/report/csvw.hpp"
 #include "hbvm/scalar/literal.hpp"
+#include "hbvm/step/registry.hpp"
+#include "hbvm/step/tableau_method.hpp"
 #include "hbvm/version.hpp"
 #include "hbvm/write_file.hpp"
 #include "long_work.hpp"
@@ -52,6 +55,19 @@ std::vector<Claim> filtered(std::vector<Claim> claims, const std::string& filter
   return claims;
 }
 
+/// A file with a tableau, or what parse_method reads.
+std::vector<Claim> claims_about(const std::string& method) {
+  const MethodSpec spec = MethodSpec::parse(method);
+  const auto& families = method_families();
+  const bool known =
+      std::any_of(families.begin(), families.end(), [&](const MethodFamily& f) { return f.name == spec.family; });
+  if (!known || fs::is_regular_file(method)) return tableau_claims(read_tableau(method));
+  const MethodPtr parsed = parse_method(method);
+  const TableauMethod* const tableau = as_tableau(*parsed);
+  if (tableau && tableau->on_constraints() == OnConstraints::drift) return tableau_claims(tableau->tableau());
+  return method_claims(parsed);
+}
+
 std::vector<Claim> claims_of(const AuditArguments& o) {
   std::vector<Claim> claims;
   const bool from_file = o.claims && fs::is_regular_file(*o.claims);
@@ -62,7 +78,7 @@ std::vector<Claim> claims_of(const AuditArguments& o) {
   if (o.claims && (o.claims->ends_with(".toml") || o.claims->find('/') != std::string::npos))
     throw InputError("--claims: there is no file '" + *o.claims + "'");
   if (o.method)
-    claims = tableau_claims(read_tableau(*o.method));
+    claims = claims_about(*o.method);
   else
     claims = paper_claims(o.full ? Extent::full : Extent::quick);
   return o.claims ? filtered(std::move(claims), *o.claims) : claims;
@@ -145,7 +161,10 @@ void add_audit_command(CLI::App& app) {
   auto* const quick = command->add_flag("--quick", o->quick, "s = 1, 2, 3 (default): about a minute");
   command->add_flag("--full", o->full, "s = 1 .. 8, 12 and 20, every problem: a third of an hour, see --out")
       ->excludes(quick);
-  command->add_option("--method", o->method, "Audit the Runge-Kutta tableau in this TOML file: A, b, c as exact text");
+  command->add_option("--method", o->method,
+                      "Audit the Runge-Kutta tableau in this TOML file (A, b, c as exact text), or what a method "
+                      "says of itself: " +
+                          method_usage());
   o->work.add_to(
       *command,
       "Folder for the table (CSV, Markdown, LaTeX) and, of all the paper's claims, a figure; audit-results if absent "

@@ -32,6 +32,12 @@ Kept HbvmMethod::kept() const {
   return {.energy = true, .momenta = name_.k == name_.s, .constraints = true, .hidden = false, .reversal = true};
 }
 
+Orders HbvmMethod::orders() const {
+  const auto [k, s] = name_;
+  const int r = s % 2 == 0 ? s : s + 1;
+  return {.p = r, .lambda = r - 1, .hidden = r, .energy = 2 * k, .angular_momentum = k == s ? 0 : 2 * s};
+}
+
 Constants HbvmMethod::parameters() const {
   Constants letters;
   letters.insert_or_assign("s", Expression::parse(std::to_string(name_.s)));

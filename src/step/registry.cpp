@@ -2,8 +2,10 @@
 
 #include "hbvm/method/method_spec.hpp"
 #include "hbvm/step/composition.hpp"
+#include "hbvm/step/energy_momentum.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/lobatto.hpp"
+#include "hbvm/step/projected_stepper.hpp"
 #include "hbvm/step/rattle.hpp"
 #include "hbvm/step/tableau_method.hpp"
 
@@ -12,6 +14,9 @@ namespace hbvm {
 const std::vector<MethodFamily>& method_families() {
   static const std::vector<MethodFamily> families{
       {"hbvm", "hbvm:K,S with whole numbers K >= S >= 1, e.g. hbvm:5,3, or hbvm:auto,S", hbvm_method},
+      {"projected_hbvm", "projected_hbvm:K,S", projected_hbvm_method},
+      {"restored_hbvm", "restored_hbvm:K,S", restored_hbvm_method},
+      {"energy_momentum", "energy_momentum", energy_momentum_method},
       {"rattle", "rattle", rattle_method},
       {"lobatto", "lobatto:S with S >= 2, e.g. lobatto:3", lobatto_method},
       {"compose", "compose:rattle,P with an even order P", composition_method},

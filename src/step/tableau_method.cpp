@@ -8,10 +8,10 @@ namespace hbvm {
 namespace {
 
 constexpr std::string_view projected = "+project";
-constexpr unsigned digits = 50;
+constexpr unsigned digits_of_conditions = 50;
 
 /// What the sums of its conditions may lose.
-Mpfr tolerance() { return 1 / pow(Mpfr(10), digits - 10); }
+Mpfr tolerance() { return 1 / pow(Mpfr(10), digits_of_conditions - 10); }
 
 }  // namespace
 
@@ -20,14 +20,14 @@ TableauMethod::TableauMethod(Tableau tableau, std::string file, OnConstraints on
 
 int TableauMethod::order() const {
   if (tableau_.order) return *tableau_.order;
-  const PrecisionScope scope(digits);
+  const PrecisionScope scope(digits_of_conditions);
   return hbvm::order(make_runge_kutta<Mpfr>(tableau_), tolerance());
 }
 
 Kept TableauMethod::kept() const {
   if (on_constraints_ == OnConstraints::project)
     return {.energy = false, .momenta = false, .constraints = true, .hidden = true, .reversal = false};
-  const PrecisionScope scope(digits);
+  const PrecisionScope scope(digits_of_conditions);
   const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau_);
   return {.energy = false,
           .momenta = symplecticity_defect(method) <= tolerance(),

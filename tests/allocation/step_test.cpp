@@ -9,6 +9,7 @@
 #include "hbvm/step/hbvm_stepper.hpp"
 #include "hbvm/step/raising_stepper.hpp"
 #include "hbvm/step/rattle.hpp"
+#include "hbvm/step/registry.hpp"
 #include "hbvm/step/runge_kutta_stepper.hpp"
 
 // Counts every allocation of the program: Eigen, MPFR and the standard library come down to malloc.
@@ -142,6 +143,19 @@ TEST(AStep, OfRattleAllocatesNothing) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
   Rattle<double> rattle(scene.problem);
   EXPECT_EQ(allocations_of<double>(rattle, scene), 0);
+}
+
+TEST(AStep, OfEnergyMomentumAndAProjectedOneAllocateNothing) {
+  const PrecisionScope digits(50);
+  for (const char* const name : {"heavy_top", "chain", "kepler", "charged_tetrahedron"})
+    for (const char* const method : {"energy_momentum", "projected_hbvm:2,2"}) {
+      const Assembled<double> scene = assemble<double>(load_scene(name));
+      const auto step = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
+      EXPECT_EQ(allocations_of<double>(*step, scene), 0) << method << ' ' << name;
+      const Assembled<Mpfr> more = assemble<Mpfr>(load_scene(name));
+      const auto step_of_more = parse_method(method)->make_stepper(more.problem, SolverKind::automatic);
+      EXPECT_EQ(allocations_of<Mpfr>(*step_of_more, more), 0) << method << ' ' << name;
+    }
 }
 
 TEST(AStep, OfARungeKuttaMethodAllocatesNothing) {

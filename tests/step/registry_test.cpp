@@ -34,6 +34,7 @@ TEST(Registry, ReadsWhatAMethodSaysOfItself) {
   const File file(midpoint);
   for (const std::string& text :
        {std::string("hbvm:4,2"), std::string("hbvm:auto,3"), std::string("rattle"), std::string("compose:rattle,6"),
+        std::string("energy_momentum"), std::string("projected_hbvm:4,2"), std::string("restored_hbvm:3,3"),
         std::string("compose:hbvm:1,1,4"), "tableau:" + file.path(), "tableau:" + file.path() + "+project"})
     EXPECT_EQ(parse_method(text)->text(), text);
 }
@@ -78,10 +79,29 @@ TEST(Registry, RefusesWhatThereIsNot) {
     }
     return "";
   };
-  for (const char* const text :
-       {"", "gauss", "hbvm", "hbvm:2,3", "hbvm:2", "rattle:2", "compose", "compose:rattle", "compose:rattle,",
-        "compose:rattle,3", "compose:rattle,0", "compose:rattle,14", "compose:rattle,4x", "compose:hbvm:2,2,4",
-        "compose:gauss,4", "tableau", "tableau:", "tableau:+project", "tableau:no such file.toml"})
+  for (const char* const text : {"",
+                                 "gauss",
+                                 "hbvm",
+                                 "hbvm:2,3",
+                                 "hbvm:2",
+                                 "rattle:2",
+                                 "compose",
+                                 "compose:rattle",
+                                 "compose:rattle,",
+                                 "compose:rattle,3",
+                                 "compose:rattle,0",
+                                 "compose:rattle,14",
+                                 "compose:rattle,4x",
+                                 "compose:hbvm:2,2,4",
+                                 "compose:gauss,4",
+                                 "compose:projected_hbvm:1,1,4",
+                                 "energy_momentum:2",
+                                 "projected_hbvm:2,3",
+                                 "restored_hbvm:auto,2",
+                                 "tableau",
+                                 "tableau:",
+                                 "tableau:+project",
+                                 "tableau:no such file.toml"})
     EXPECT_NE(refusal(text), "") << text;
   const std::string unknown = refusal("gauss:2");
   for (const MethodFamily& family : method_families()) EXPECT_NE(unknown.find(family.usage), std::string::npos);
@@ -109,8 +129,9 @@ void expect_equal_steppers(const Method& method) {
 TEST(Registry, MethodsMakeSteppers) {
   const PrecisionScope digits(40);
   const File file(midpoint);
-  for (const std::string& text : {std::string("hbvm:4,2"), std::string("rattle"), std::string("compose:rattle,4"),
-                                  "tableau:" + file.path() + "+project"}) {
+  for (const std::string& text :
+       {std::string("hbvm:4,2"), std::string("rattle"), std::string("compose:rattle,4"), std::string("energy_momentum"),
+        std::string("projected_hbvm:4,2"), std::string("restored_hbvm:4,2"), "tableau:" + file.path() + "+project"}) {
     const MethodPtr method = parse_method(text);
     expect_equal_steppers<double>(*method);
     expect_equal_steppers<Quad>(*method);

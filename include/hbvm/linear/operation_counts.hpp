@@ -7,12 +7,30 @@
 
 namespace hbvm {
 
-/// The operations a formula is made of.
-enum class Op : std::uint8_t { add, subtract, multiply, negate, abs, sign, reciprocal, sqrt, sin, cos, exp, log };
-inline constexpr std::size_t op_count = 12;
+/// The operations a formula is made of; sinc, sinhc and atanhc, which differences of it need, are sin x / x, sinh x / x
+/// and atanh x / x, 1 at 0.
+enum class Op : std::uint8_t {
+  add,
+  subtract,
+  multiply,
+  negate,
+  abs,
+  sign,
+  reciprocal,
+  sqrt,
+  sin,
+  cos,
+  exp,
+  log,
+  sinc,
+  sinhc,
+  atanhc
+};
+inline constexpr std::size_t op_count = 15;
 constexpr const char* name_of(Op op) {
-  constexpr std::array<const char*, op_count> names{"add",    "subtract", "multiply", "negate", "abs", "sign",
-                                                    "divide", "sqrt",     "sin",      "cos",    "exp", "log"};
+  constexpr std::array<const char*, op_count> names{"add",  "subtract", "multiply", "negate", "abs",
+                                                    "sign", "divide",   "sqrt",     "sin",    "cos",
+                                                    "exp",  "log",      "sinc",     "sinhc",  "atanhc"};
   return names[static_cast<std::size_t>(op)];
 }
 /// Whether it takes two operands.

@@ -33,6 +33,8 @@ class Point {
   const Vector<S>& multiplier(const Vector<S>& q, const Vector<S>& p);
   /// -grad g(q) lambda with that multiplier, where `force` is grad U(q), 1 x m.
   const Vector<S>& constraint_force(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force);
+  /// The one that was computed last.
+  const Vector<S>& last_multiplier() const { return multiplier_; }
 
   /// The two parts of p' = grad U(q) - grad g(q) lambda with that multiplier.
   struct Forces {

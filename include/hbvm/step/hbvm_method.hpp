@@ -26,6 +26,8 @@ class HbvmMethod final : public MethodByTemplate<HbvmMethod> {
   int stages() const override { return name_.s; }
   int terms() const override { return name_.k + name_.s; }
   Kept kept() const override;
+  /// Those of the paper: r = s + 1 for odd s, s for even.
+  Orders orders() const override;
   Constants parameters() const override;
 
   template <Scalar S>

@@ -13,10 +13,19 @@ namespace hbvm {
 /// What a method keeps of every motion whatever the step, but for round-off.
 struct Kept {
   bool energy = false;       ///< H, with as many nodes as U needs
-  bool momenta = false;      ///< quadratic invariants, and so angular momentum
+  bool momenta = false;      ///< the linear and angular momenta that every effect and constraint keeps
   bool constraints = false;  ///< g
   bool hidden = false;       ///< grad g^T M^-1 p
   bool reversal = false;     ///< as many steps back lead to where it started
+};
+
+/// The orders over an interval of what a method is known to give in part only; 0 where none is claimed.
+struct Orders {
+  int p = 0;                 ///< momentum as it is propagated
+  int lambda = 0;            ///< the multiplier of the step, as that of its end
+  int hidden = 0;            ///< hidden constraints, where they are not kept
+  int energy = 0;            ///< H, where it is not kept
+  int angular_momentum = 0;  ///< where it is not kept
 };
 
 /// Makes steppers, each of which knows nothing of the others.
@@ -42,6 +51,10 @@ class Method {
   /// How many numbers are summed for a coordinate in a step.
   virtual int terms() const = 0;
   virtual Kept kept() const = 0;
+  virtual Orders orders() const { return {}; }
+  /// Of a method that divides its steps: the digits it is asked for in each. Its order is then the highest it uses, and
+  /// nothing falls at a rate of the steps it is given.
+  virtual std::optional<int> digits() const { return {}; }
   /// The numbers of its name by their letters: k and s.
   virtual Constants parameters() const { return {}; }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <numbers>
 
 #include "exactness.hpp"
 #include "hbvm/clock.hpp"
@@ -64,7 +65,7 @@ Auditor::Kind Auditor::kind_of(const Claim& claim) {
     case Quantity::sweeps:
       return Kind::special;
     default:
-      return claim.form == Form::round_off ? Kind::round_off : Kind::rates;
+      return claim.form == Form::round_off ? Kind::round_off : claim.form == Form::digits ? Kind::digits : Kind::rates;
   }
 }
 
@@ -154,6 +155,8 @@ void Auditor::decide() {
       return check_tableau();
     case Kind::special:
       return measure_special();
+    case Kind::digits:
+      return count_digits();
   }
 }
 
@@ -167,6 +170,7 @@ std::string Auditor::reference() const {
     case Kind::special:
       return subject.quantity == Quantity::hidden_constant ? "the leading term" : "the run itself";
     case Kind::rates:
+    case Kind::digits:
       break;
   }
   if (has_closed_form(subject.problem)) return "closed form";
@@ -348,6 +352,35 @@ void Auditor::check_tableau() {
       else
         fail(f, "it is more than round-off");
     }
+  }
+}
+
+void Auditor::count_digits() {
+  constexpr int more = 20;
+  constexpr long most_steps_of_a_window = 16;
+  double asked = 0;
+  for (const Claim& claim : cell_.claims) asked = std::max(asked, claim.predicted);
+  const Precision precision = Precision::parse("mpfr:" + std::to_string(static_cast<int>(std::ceil(asked)) + more));
+  const Ladders ladders = with_scalar(precision, [&]<Scalar S>() {
+    return interval_ladder<S>(cell_, most_steps_of_a_window, [](const Ladders&) { return false; });
+  });
+  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+    Finding& f = finding(c);
+    f.precision = precision.name();
+    const auto ladder = ladders.find(f.claim.quantity);
+    if (ladder == ladders.end()) {
+      f.verdict = ladders.empty() ? Verdict::not_run : Verdict::undecidable;
+      f.reason = ladders.empty() ? "no step could be made" : "the quantity does not exist on this problem";
+      continue;
+    }
+    f.evidence.push_back({precision.name(), ladder->second});
+    double greatest = -std::numeric_limits<double>::infinity();
+    for (const Rung& rung : ladder->second) greatest = std::max(greatest, rung.error);
+    f.measured = -greatest * std::numbers::ln2 / std::numbers::ln10;
+    if (f.measured >= f.claim.predicted)
+      f.verdict = Verdict::holds;
+    else
+      fail(f, "fewer digits are right");
   }
 }
 

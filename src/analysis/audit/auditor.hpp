@@ -28,7 +28,7 @@ class Motions {
 /// Decides the claims of one unit of work; the findings go to the claims' places.
 class Auditor {
  public:
-  enum class Kind { rates, round_off, tableau, special };
+  enum class Kind { rates, round_off, tableau, special, digits };
   static Kind kind_of(const Claim& claim);
 
   /// Claims of one kind about one method on one problem: what one series of runs decides.
@@ -53,6 +53,8 @@ class Auditor {
   void follow_intervals();
   void conserve();
   void check_tableau();
+  /// In some digits more than are claimed, at steps of half and a quarter of the interval and so on.
+  void count_digits();
   void measure_special();
 
   /// Raises the precision, over at least so many levels, until every claim of those given is decided.

@@ -40,7 +40,9 @@ std::string proof_by_construction(const Claim& claim) {
     case Quantity::reversal:
       return kept.reversal ? "the method is symmetric" : "";
     case Quantity::angular_momentum:
-      return kept.momenta ? "the method is symplectic" : "";
+      return kept.momenta ? "the forces of each step keep it" : "";
+    case Quantity::H:
+      return kept.energy ? "the forces, or a scaling, of each step keep it" : "";
     default:
       return {};
   }

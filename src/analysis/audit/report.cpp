@@ -45,6 +45,7 @@ std::string on_one_line(std::string text) {
 std::string predicted_text(const Claim& claim) {
   if (claim.form == Form::round_off) return "round-off";
   const std::string value = fmt::format("{}", claim.predicted);
+  if (claim.form == Form::digits) return ">= " + value + " digits";
   return claim.form == Form::at_least ? ">= " + value : value;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "hbvm/error.hpp"
 #include "hbvm/problem/effect/kernel.hpp"
 
 namespace hbvm {
@@ -54,6 +55,10 @@ class Printer {
       case Op::exp:
       case Op::log:
         break;
+      case Op::sinc:
+      case Op::sinhc:
+      case Op::atanhc:
+        throw Error(std::string("no kernel is printed of ") + name_of(i.op));
     }
     return fmt::format("std::{}({})", name_of(i.op), a);
   }

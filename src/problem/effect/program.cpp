@@ -8,6 +8,26 @@ namespace hbvm {
 
 namespace {
 
+/// r = f(a)/a, whose limit at 0 is 1.
+template <Scalar S, class F>
+void set_ratio(S& r, const S& a, F f) {
+  if (a == 0)
+    r = 1;
+  else
+    r = f(a) / a;
+}
+template <class F>
+void set_ratio(Mpfr& r, const Mpfr& a, F f) {
+  if (mpfr_zero_p(raw(a)) != 0) {
+    mpfr_set_ui(raw(r), 1, MPFR_RNDN);
+    return;
+  }
+  // r may be a.
+  Mpfr& value = scratch<Mpfr>();
+  f(raw(value), raw(a), MPFR_RNDN);
+  mpfr_div(raw(r), raw(value), raw(a), MPFR_RNDN);
+}
+
 template <Scalar S>
 void apply(Op op, S& r, const S& a) {
   if constexpr (std::same_as<S, Mpfr>) {
@@ -39,11 +59,20 @@ void apply(Op op, S& r, const S& a) {
       case Op::log:
         mpfr_log(raw(r), raw(a), MPFR_RNDN);
         break;
+      case Op::sinc:
+        set_ratio(r, a, mpfr_sin);
+        break;
+      case Op::sinhc:
+        set_ratio(r, a, mpfr_sinh);
+        break;
+      case Op::atanhc:
+        set_ratio(r, a, mpfr_atanh);
+        break;
       default:
         break;
     }
   } else {
-    using std::cos, std::exp, std::log, std::sin, std::sqrt;
+    using std::atanh, std::cos, std::exp, std::log, std::sin, std::sinh, std::sqrt;
     switch (op) {
       case Op::negate:
         r = -a;
@@ -71,6 +100,15 @@ void apply(Op op, S& r, const S& a) {
         break;
       case Op::log:
         r = log(a);
+        break;
+      case Op::sinc:
+        set_ratio(r, a, [](const S& x) { return S(sin(x)); });
+        break;
+      case Op::sinhc:
+        set_ratio(r, a, [](const S& x) { return S(sinh(x)); });
+        break;
+      case Op::atanhc:
+        set_ratio(r, a, [](const S& x) { return S(atanh(x)); });
         break;
       default:
         break;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "hbvm/error.hpp"
+
 namespace hbvm {
 
 template <Scalar S>
@@ -165,6 +167,10 @@ std::vector<typename Trace<S>::Id> Trace<S>::gradient(Id output, std::size_t inp
       case Op::log:
         pass(node.a, multiply(y, apply(Op::reciprocal, node.a)));
         break;
+      case Op::sinc:
+      case Op::sinhc:
+      case Op::atanhc:
+        throw Error(std::string("the derivative of ") + name_of(node.op) + " is not known");
     }
   }
   std::vector<Id> result;

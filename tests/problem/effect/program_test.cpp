@@ -55,6 +55,25 @@ TYPED_TEST(ProgramTest, EveryOperationInEveryLane) {
   this->expect(Op::log, [](const S& a, const S&) { return S(log(a)); });
 }
 
+/// sin x / x and its like, at 0, next to it and far from it.
+TYPED_TEST(ProgramTest, RatiosToTheArgumentHaveTheirLimitAtZero) {
+  using S = TypeParam;
+  using std::atanh, std::sin, std::sinh, std::sqrt;
+  this->x(0, 0) = 0;
+  this->x(1, 0) = -sqrt(epsilon<S>());
+  const S small = this->x(1, 0), far = this->x(2, 0);
+  const std::pair<Op, S> expected[] = {
+      {Op::sinc, S(sin(far) / far)}, {Op::sinhc, S(sinh(far) / far)}, {Op::atanhc, S(atanh(far) / far)}};
+  const long sixths[] = {-1, 1, 2};
+  for (int i = 0; i < 3; ++i) {
+    const auto& [op, value] = expected[i];
+    const Vector<S> result = this->run(op);
+    EXPECT_EQ(result[0], 1) << name_of(op);
+    EXPECT_LE(magnitude(S(result[1] - (1 + sixths[i] * small * small / 6))), epsilon<S>()) << name_of(op);
+    EXPECT_LE(magnitude(S(result[2] - value)), 4 * epsilon<S>() * magnitude(value)) << name_of(op);
+  }
+}
+
 TYPED_TEST(ProgramTest, SignOfZeroIsZero) {
   this->x.col(0).setZero();
   EXPECT_EQ(this->run(Op::sign), (Vector<TypeParam>(Vector<TypeParam>::Zero(this->count))));

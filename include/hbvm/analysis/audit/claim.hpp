@@ -17,7 +17,8 @@ enum class Form {
   at_least,   ///< the error is O(h^rate)
   exactly,    ///< and no smaller
   round_off,  ///< the error is 0 but for round-off, in every precision
-  near        ///< the quantity itself lies within a tolerance of a value
+  near,       ///< the quantity itself lies within a tolerance of a value
+  digits      ///< the error is below 10^-predicted at any step: of a method with a tolerance
 };
 
 /// One statement about one method and problem.

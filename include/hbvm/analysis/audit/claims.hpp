@@ -23,6 +23,10 @@ std::vector<Claim> paper_claims(Extent extent);
 /// symmetry and conservation of angular momentum if its coefficients say so to ten digits.
 std::vector<Claim> tableau_claims(const Tableau& tableau);
 
+/// What a method of the registry says of itself, on scenes with constraints and without: the orders of its components,
+/// what it keeps to round-off, and at which order it loses what it does not keep. \throws InputError for hbvm:auto,S
+std::vector<Claim> method_claims(const MethodPtr& method);
+
 /// Claims written in TOML, an array of tables [[claim]] with
 ///
 ///     quantity = "raw p"          what name_of gives: "q", "H", "g", "hidden" …

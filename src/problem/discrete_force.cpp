@@ -1,0 +1,61 @@
+#include "hbvm/problem/discrete_force.hpp"
+
+#include "hbvm/clock.hpp"
+#include "hbvm/scalar/in_place.hpp"
+
+namespace hbvm {
+
+template <Scalar S>
+DiscreteForce<S>::Work::Work(const EffectTerm<S>& term, Index dimension)
+    : gradient(discrete_gradient(term, dimension)),
+      displacement(Matrix<S>::Zero(static_cast<Index>(term.displacements.size()), 2 * dimension)),
+      execution(gradient.program, gradient.coefficients, displacement, 1) {}
+
+template <Scalar S>
+DiscreteForce<S>::DiscreteForce(const Potential<S>& potential) : potential_(potential) {
+  // A gradient that is the same everywhere is its own discrete gradient.
+  const PotentialEvaluator<S> evaluator(potential, 1);
+  counts_ = evaluator.counts();
+  constant_force_ = evaluator.constant_force();
+  const Index d = potential.dimension;
+  for (std::size_t t = 0; t < potential.terms.size(); ++t) {
+    const EffectTerm<S>& term = potential.terms[t];
+    if (term.constant_force) continue;
+    const Work& work = work_.emplace_back(term, d);
+    OperationCounts& counts = counts_[t].per_evaluation = OperationCounts();
+    for (const Displacement<S>& x : term.displacements) {
+      counts += std::uint64_t{2} * operations(x, d) + work.gradient.program.operations();
+      for (const auto& block : x.blocks) counts += weighted_sum(block.weight, d);
+    }
+  }
+}
+
+template <Scalar S>
+void DiscreteForce<S>::evaluate(const Vector<S>& q0, const Vector<S>& q1, Matrix<S>& force) {
+  for (Index j = 0; j < force.cols(); ++j) set(force(0, j), constant_force_[j]);
+  for (std::size_t t = 0, n = 0; t < potential_.terms.size(); ++t) {
+    if (potential_.terms[t].constant_force) continue;
+    const double before = timed_ ? elapsed_seconds() : 0;
+    ++counts_[t].calls;
+    ++counts_[t].evaluations;
+    const EffectTerm<S>& term = potential_.terms[t];
+    Work& work = work_[n++];
+    const Index d = potential_.dimension, instances = work.displacement.rows();
+    for (Index i = 0; i < instances; ++i) {
+      const Displacement<S>& x = term.displacements[static_cast<std::size_t>(i)];
+      displace(x, d, lanes(q0), work.displacement.data() + i, instances);
+      displace(x, d, lanes(q1), work.displacement.data() + d * instances + i, instances);
+    }
+    work.execution.run();
+    for (Index i = 0; i < instances; ++i)
+      for (const auto& block : term.displacements[static_cast<std::size_t>(i)].blocks)
+        for (Index j = 0; j < d; ++j)
+          add_weighted(&force(0, block.offset + j), block.weight, &work.execution.output(j, i), Index{1}, t_);
+    if (timed_) counts_[t].seconds += elapsed_seconds() - before;
+  }
+}
+
+#define HBVM_DEFINE(S) template class DiscreteForce<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

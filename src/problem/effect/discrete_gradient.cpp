@@ -1,0 +1,182 @@
+#include "hbvm/problem/effect/discrete_gradient.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "hbvm/error.hpp"
+#include "hbvm/problem/effect/trace.hpp"
+
+namespace hbvm {
+namespace {
+
+/// The operations of U, recorded at x0 and at x1.
+template <Scalar S>
+class PairedTrace {
+ public:
+  using Id = typename Trace<S>::Id;
+
+  PairedTrace(const Program<S>& program, std::size_t dimension)
+      : program_(program),
+        dimension_(dimension),
+        parameters_(0),
+        half_(trace_.constant(S(S(1) / 2))),
+        minus_(trace_.constant(S(-1))) {
+    for (std::size_t j = 0; j < dimension; ++j) add_leaf(trace_.input(j), trace_.input(dimension + j), true);
+    std::vector<std::size_t> registers(program.temporaries());
+    for (const Instruction& i : program.instructions()) {
+      const std::size_t a = place_of(i.a, registers), b = is_binary(i.op) ? place_of(i.b, registers) : a;
+      Node node{i.op, a, b, record(i.op, nodes_[a].at0, nodes_[b].at0), 0, nodes_[a].varies || nodes_[b].varies};
+      node.at1 = node.varies ? record(i.op, nodes_[a].at1, nodes_[b].at1) : node.at0;
+      registers[i.result] = nodes_.size();
+      nodes_.push_back(node);
+    }
+    output_ = place_of(program.output_operands().front(), registers);
+  }
+
+  typename Trace<S>::Compiled compile() {
+    std::vector<std::optional<Id>> adjoint(nodes_.size());
+    adjoint[output_] = trace_.constant(S(1));
+    for (std::size_t n = output_ + 1; n-- > 0;) {
+      const Node& node = nodes_[n];
+      if (!adjoint[n] || !node.varies || node.is_leaf) continue;
+      differentiate(node, *adjoint[n], [&](std::size_t operand, Id share) {
+        if (!nodes_[operand].varies) return;
+        adjoint[operand] = adjoint[operand] ? trace_.add(*adjoint[operand], share) : share;
+      });
+    }
+    std::vector<Id> outputs;
+    for (std::size_t j = 0; j < dimension_; ++j) outputs.push_back(adjoint[j] ? *adjoint[j] : trace_.constant(S(0)));
+    return trace_.compile(outputs, 2 * dimension_, parameters_);
+  }
+
+ private:
+  struct Node {
+    Op op;
+    std::size_t a, b;  ///< nodes
+    Id at0, at1;
+    bool varies, is_leaf = false;
+  };
+
+  void add_leaf(Id at0, Id at1, bool varies) { nodes_.push_back({Op::add, 0, 0, at0, at1, varies, true}); }
+
+  std::size_t place_of(const Operand& x, const std::vector<std::size_t>& registers) {
+    if (x.bank == Bank::temporary) return registers[x.index];
+    if (x.bank == Bank::input && x.index < dimension_) return x.index;
+    Id id;
+    if (x.bank == Bank::constant) {
+      id = trace_.constant(program_.constants()[x.index]);
+    } else {
+      const std::size_t parameter = x.index - dimension_;
+      parameters_ = std::max(parameters_, parameter + 1);
+      id = trace_.parameter(parameter);
+    }
+    add_leaf(id, id, false);
+    return nodes_.size() - 1;
+  }
+
+  Id record(Op op, Id a, Id b) {
+    switch (op) {
+      case Op::add:
+        return trace_.add(a, b);
+      case Op::subtract:
+        return trace_.subtract(a, b);
+      case Op::multiply:
+        return trace_.multiply(a, b);
+      case Op::negate:
+        return trace_.multiply(minus_, a);
+      default:
+        return trace_.apply(op, a);
+    }
+  }
+
+  Id negative(Id a) { return trace_.multiply(minus_, a); }
+  Id mean(const Node& x) { return x.varies ? trace_.multiply(half_, trace_.add(x.at0, x.at1)) : x.at0; }
+  Id half_difference(const Node& x) { return trace_.multiply(half_, trace_.subtract(x.at1, x.at0)); }
+
+  /// pass(operand, its share of the quotient y of what the node is).
+  template <class Pass>
+  void differentiate(const Node& node, Id y, Pass pass) {
+    const Node a = nodes_[node.a], b = nodes_[node.b];
+    switch (node.op) {
+      case Op::add:
+        pass(node.a, y);
+        pass(node.b, y);
+        break;
+      case Op::subtract:
+        pass(node.a, y);
+        pass(node.b, negative(y));
+        break;
+      case Op::multiply:
+        if (node.a == node.b) {
+          pass(node.a, trace_.multiply(y, trace_.add(a.at0, a.at1)));
+        } else {
+          pass(node.a, trace_.multiply(y, mean(b)));
+          pass(node.b, trace_.multiply(y, mean(a)));
+        }
+        break;
+      default:
+        pass(node.a, trace_.multiply(y, quotient(node, a)));
+        break;
+    }
+  }
+
+  /// (f(a1) - f(a0)) / (a1 - a0).
+  Id quotient(const Node& f, const Node& a) {
+    switch (f.op) {
+      case Op::negate:
+        return minus_;
+      case Op::abs:
+        return trace_.multiply(trace_.add(a.at0, a.at1), reciprocal(trace_.add(f.at0, f.at1)));
+      case Op::reciprocal:
+        return negative(trace_.multiply(f.at0, f.at1));
+      case Op::sqrt:
+        return reciprocal(trace_.add(f.at0, f.at1));
+      case Op::sin:
+        return trace_.multiply(trace_.apply(Op::cos, mean(a)), trace_.apply(Op::sinc, half_difference(a)));
+      case Op::cos:
+        return negative(trace_.multiply(trace_.apply(Op::sin, mean(a)), trace_.apply(Op::sinc, half_difference(a))));
+      case Op::exp:
+        return trace_.multiply(trace_.apply(Op::exp, mean(a)), trace_.apply(Op::sinhc, half_difference(a)));
+      case Op::log: {
+        const Id over = reciprocal(mean(a));
+        return trace_.multiply(over, trace_.apply(Op::atanhc, trace_.multiply(half_difference(a), over)));
+      }
+      default:
+        throw Error(std::string("the difference quotient of ") + name_of(f.op) + " is not known");
+    }
+  }
+
+  Id reciprocal(Id a) { return trace_.apply(Op::reciprocal, a); }
+
+  const Program<S>& program_;
+  std::size_t dimension_, parameters_, output_ = 0;
+  Trace<S> trace_;
+  Id half_, minus_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace
+
+template <Scalar S>
+DiscreteGradient<S> discrete_gradient(const EffectTerm<S>& term, Index dimension) {
+  auto compiled = PairedTrace<S>(term.value, static_cast<std::size_t>(dimension)).compile();
+  const Program<S>& code = compiled.coefficients;
+  DiscreteGradient<S> result;
+  result.coefficients.resize(term.value_coefficients.rows(), static_cast<Index>(code.outputs()));
+  Matrix<S> registers = code.make_registers(1);
+  for (Index n = 0; n < result.coefficients.rows(); ++n) {
+    std::vector<const S*> inputs;
+    for (Index j = 0; j < term.value_coefficients.cols(); ++j) inputs.push_back(&term.value_coefficients(n, j));
+    code.run(registers, inputs);
+    for (std::size_t i = 0; i < code.outputs(); ++i)
+      result.coefficients(n, static_cast<Index>(i)) = code.output(i, 0, registers, inputs);
+  }
+  result.program = std::move(compiled.program);
+  return result;
+}
+
+#define HBVM_DEFINE(S) template DiscreteGradient<S> discrete_gradient<S>(const EffectTerm<S>&, Index);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm
