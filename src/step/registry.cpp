@@ -5,6 +5,7 @@
 #include "hbvm/step/energy_momentum.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/lobatto.hpp"
+#include "hbvm/step/odeint_methods.hpp"
 #include "hbvm/step/projected_stepper.hpp"
 #include "hbvm/step/rattle.hpp"
 #include "hbvm/step/tableau_method.hpp"
@@ -20,6 +21,8 @@ const std::vector<MethodFamily>& method_families() {
       {"rattle", "rattle", rattle_method},
       {"lobatto", "lobatto:S with S >= 2, e.g. lobatto:3", lobatto_method},
       {"compose", "compose:rattle,P with an even order P", composition_method},
+      {"rkf78", "rkf78", rkf78_method},
+      {"bulirsch_stoer", "bulirsch_stoer:DIGITS, e.g. bulirsch_stoer:12", bulirsch_stoer_method},
       {"tableau", "tableau:FILE, or tableau:FILE+project", tableau_method},
   };
   return families;

@@ -35,7 +35,8 @@ TEST(Registry, ReadsWhatAMethodSaysOfItself) {
   for (const std::string& text :
        {std::string("hbvm:4,2"), std::string("hbvm:auto,3"), std::string("rattle"), std::string("compose:rattle,6"),
         std::string("energy_momentum"), std::string("projected_hbvm:4,2"), std::string("restored_hbvm:3,3"),
-        std::string("compose:hbvm:1,1,4"), "tableau:" + file.path(), "tableau:" + file.path() + "+project"})
+        std::string("rkf78"), std::string("bulirsch_stoer:12"), std::string("compose:hbvm:1,1,4"),
+        "tableau:" + file.path(), "tableau:" + file.path() + "+project"})
     EXPECT_EQ(parse_method(text)->text(), text);
 }
 
@@ -95,9 +96,12 @@ TEST(Registry, RefusesWhatThereIsNot) {
                                  "compose:hbvm:2,2,4",
                                  "compose:gauss,4",
                                  "compose:projected_hbvm:1,1,4",
+                                 "compose:rkf78,4",
                                  "energy_momentum:2",
                                  "projected_hbvm:2,3",
                                  "restored_hbvm:auto,2",
+                                 "rkf78:8",
+                                 "bulirsch_stoer:0",
                                  "tableau",
                                  "tableau:",
                                  "tableau:+project",
@@ -131,7 +135,8 @@ TEST(Registry, MethodsMakeSteppers) {
   const File file(midpoint);
   for (const std::string& text :
        {std::string("hbvm:4,2"), std::string("rattle"), std::string("compose:rattle,4"), std::string("energy_momentum"),
-        std::string("projected_hbvm:4,2"), std::string("restored_hbvm:4,2"), "tableau:" + file.path() + "+project"}) {
+        std::string("projected_hbvm:4,2"), std::string("restored_hbvm:4,2"), std::string("rkf78"),
+        std::string("bulirsch_stoer:8"), "tableau:" + file.path() + "+project"}) {
     const MethodPtr method = parse_method(text);
     expect_equal_steppers<double>(*method);
     expect_equal_steppers<Quad>(*method);

@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/odeint_methods.hpp"
+#include "hbvm/step/registry.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class BulirschStoerTest : public ::testing::Test {
+ protected:
+  PrecisionScope digits{40};
+};
+TYPED_TEST_SUITE(BulirschStoerTest, AllScalars, ScalarNames);
+
+/// As many digits as are asked for, whatever the step; not many more.
+TYPED_TEST(BulirschStoerTest, ReachesItsDigits) {
+  using S = TypeParam;
+  for (const char* const name : {"double_pendulum", "modified_pendulum", "kepler"}) {
+    const Assembled<S> scene = assemble<S>(load_scene(name));
+    const auto hbvm = parse_method("hbvm:12,12")->make_stepper(scene.problem, SolverKind::automatic);
+    State<S> exact(scene.q0, scene.p0);
+    for (int n = 0; n < 16; ++n) hbvm->step(exact, S(S(1) / 16));
+    const std::vector<int> asked = std::same_as<S, double> ? std::vector{4, 8, 12} : std::vector{8, 16, 24};
+    for (const int tolerance : asked)
+      for (const long steps : {1L, 16L}) {
+        const MethodPtr method = parse_method("bulirsch_stoer:" + std::to_string(tolerance));
+        const auto stepper = method->make_stepper(scene.problem, SolverKind::automatic);
+        State<S> state(scene.q0, scene.p0);
+        for (long n = 0; n < steps; ++n) stepper->step(state, S(S(1) / S(steps)));
+        const double found = -std::log10(approximately(distance(state.q, exact.q)));
+        EXPECT_GE(found, tolerance - 1.5) << name << ' ' << tolerance << ' ' << steps;
+        if (steps == 1) {
+          EXPECT_LE(found, tolerance + 6) << name << ' ' << tolerance;
+        }
+      }
+  }
+}
+
+/// Powers of 2 of length and time change nothing but the units.
+TEST(BulirschStoer, DoesTheSameInOtherUnits) {
+  const auto run = [](const char* length, const char* speed, const char* gravity, double h) {
+    const std::string text = std::string(
+                                 "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\nbody = [{ name = "
+                                 "\"a\", mass = 1, position = [\"") +
+                             length + "\", 0], velocity = [0, \"" + speed +
+                             "\"] }]\nconstraint = [{ kind = \"rod\", between = [\"a\", \"o\"], length = \"" + length +
+                             "\" }]\neffect = [{ kind = \"uniform_gravity\", acceleration = [0, \"-" + gravity +
+                             "\"] }]\n";
+    const Assembled<double> scene = assemble<double>(read_scene(text, "a pendulum"));
+    const auto stepper = parse_method("bulirsch_stoer:10")->make_stepper(scene.problem, SolverKind::automatic);
+    State<double> state(scene.q0, scene.p0);
+    long tries = 0;
+    for (int n = 0; n < 3; ++n) tries += stepper->step(state, h);
+    return std::pair(Vector<double>(state.q), tries);
+  };
+  const auto [q, tries] = run("1", "1/2", "1", 1);
+  // 1024 times as long, a time unit of 4.
+  const auto [long_q, long_tries] = run("1024", "128", "64", 4);
+  EXPECT_EQ(long_q, Vector<double>(1024 * q));
+  EXPECT_EQ(long_tries, tries);
+}
+
+TYPED_TEST(BulirschStoerTest, GoesOnFromWhatItRemembers) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("tethered_satellites"));
+  const auto make = parse_method("bulirsch_stoer:10")->prepare(scene.problem, SolverKind::automatic);
+  const auto whole = make(), part = make();
+  const S h = S(1);
+  State<S> state(scene.q0, scene.p0);
+  for (int n = 0; n < 3; ++n) whole->step(state, h);
+  Archive writing;
+  writing(*whole, state);
+  Archive reading(writing.text());
+  State<S> resumed = state;
+  reading(*part, resumed);
+  reading.expect_end();
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(part->step(resumed, h), whole->step(state, h));
+  EXPECT_EQ(resumed.q, state.q);
+  EXPECT_EQ(resumed.p, state.p);
+  EXPECT_EQ(part->multiplier(), whole->multiplier());
+}
+
+TEST(BulirschStoer, RefusesDigitsThatThereAreNot) {
+  for (const char* const text : {"bulirsch_stoer", "bulirsch_stoer:", "bulirsch_stoer:0", "bulirsch_stoer:-3",
+                                 "bulirsch_stoer:1001", "bulirsch_stoer:1e-8", "bulirsch_stoer:8x"})
+    EXPECT_THROW(parse_method(text), InputError) << text;
+  const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
+  const MethodPtr method = parse_method("bulirsch_stoer:20");
+  try {
+    method->make_stepper(scene.problem, SolverKind::automatic);
+    ADD_FAILURE() << "20 digits in double";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--precision"), std::string::npos) << error.what();
+  }
+  const PrecisionScope digits(40);
+  const Assembled<Mpfr> more = assemble<Mpfr>(load_scene("double_pendulum"));
+  EXPECT_TRUE(method->make_stepper(more.problem, SolverKind::automatic));
+}
+
+/// Odeint's norms take what is not a number for no error.
+TEST(BulirschStoer, FailsWhereForcesAreNone) {
+  const Assembled<double> scene = assemble<double>(load_scene("kepler"));
+  const auto stepper = parse_method("bulirsch_stoer:10")->make_stepper(scene.problem, SolverKind::automatic);
+  State<double> centre(Vector<double>::Zero(2), Vector<double>::Zero(2));
+  EXPECT_THROW(stepper->step(centre, 0.1), StageFailure);
+  // A fall into the centre.
+  State<double> falling(scene.q0, Vector<double>::Zero(2));
+  const Vector<double> q0 = falling.q;
+  EXPECT_THROW(stepper->step(falling, 10), StageFailure);
+  EXPECT_EQ(falling.q, q0);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,114 @@
+#include "hbvm/step/reduced_stepper.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+template <class S>
+class Reduced : public ::testing::Test {
+ protected:
+  PrecisionScope digits{40};
+};
+TYPED_TEST_SUITE(Reduced, AllScalars, ScalarNames);
+
+/// The forces of a Point, and its multiplier.
+TYPED_TEST(Reduced, EquationsAreThoseOfAPoint) {
+  using S = TypeParam;
+  for (const char* const name : {"double_pendulum", "heavy_top", "kepler", "tethered_satellites"}) {
+    const Assembled<S> scene = assemble<S>(load_scene(name));
+    ReducedEquations<S> equations(scene.problem);
+    Point<S> point(scene.problem);
+    equations.evaluate(scene.q0, scene.p0);
+    const auto& forces = point.forces(scene.q0, scene.p0);
+    EXPECT_LE(distance(equations.force(), Vector<S>(forces.applied + forces.constraint)),
+              16 * epsilon<S>() * (max_norm(forces.applied) + max_norm(forces.constraint)))
+        << name;
+    EXPECT_EQ(scene.problem.mass.momentum(equations.velocity()).size(), scene.problem.m());
+    if (scene.problem.nu() > 0) {
+      EXPECT_EQ(equations.multiplier(), point.multiplier(scene.q0, scene.p0)) << name;
+    }
+  }
+}
+
+/// Euler's method, and one that fails halfway.
+template <Scalar S>
+class Euler final : public ReducedStepper<S> {
+ public:
+  using ReducedStepper<S>::ReducedStepper;
+  bool fails = false;
+
+ protected:
+  long advance(const S& h) override {
+    for (Index j = 0; j < this->dq_.size(); ++j) {
+      this->dq_[j] = h * this->start_velocity()[j];
+      this->dp_[j] = h * this->start_force()[j];
+    }
+    if (fails) throw StageFailure(FailureCause::precision_exhausted, "it is to fail", "1", 7);
+    return 3;
+  }
+};
+
+TYPED_TEST(Reduced, StepsAddChangesAndEvaluateOnceEach) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  Euler<S> euler(scene.problem);
+  State<S> state(scene.q0, scene.p0);
+  Point<S> point(scene.problem);
+  const S h = S(1) / 64;
+  for (int n = 0; n < 5; ++n) {
+    const auto forces = point.forces(state.q, state.p);
+    const Vector<S> q = state.q, p = state.p;
+    Vector<S> v(q.size());
+    scene.problem.mass.velocity(lanes(p), lanes(v));
+    EXPECT_EQ(euler.step(state, h), 3);
+    EXPECT_LE(distance(state.q, Vector<S>(q + h * v)), 8 * epsilon<S>());
+    EXPECT_LE(distance(state.p, Vector<S>(p + h * (forces.applied + forces.constraint))), 64 * epsilon<S>());
+    EXPECT_EQ(euler.multiplier(), point.multiplier(state.q, state.p));
+  }
+  // One before the first step, and one at the end of each.
+  const auto counts = euler.counts();
+  for (const PartCount& part : counts.parts) EXPECT_EQ(part.calls, 6U) << part.name;
+}
+
+TYPED_TEST(Reduced, AStepThatFailsLeavesTheState) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  Euler<S> euler(scene.problem), other(scene.problem);
+  State<S> state(scene.q0, scene.p0), expected = state;
+  euler.fails = true;
+  try {
+    euler.step(state, S(S(1) / 8));
+    ADD_FAILURE() << "it was made";
+  } catch (const StageFailure& failure) {
+    EXPECT_EQ(failure.cause(), FailureCause::precision_exhausted);
+    EXPECT_EQ(failure.sweeps(), 7);
+  }
+  EXPECT_EQ(state.q, scene.q0);
+  EXPECT_EQ(state.p, scene.p0);
+  euler.fails = false;
+  euler.step(state, S(S(1) / 8));
+  other.step(expected, S(S(1) / 8));
+  EXPECT_EQ(state.q, expected.q);
+  EXPECT_EQ(state.p, expected.p);
+}
+
+TEST(ReducedEquation, SaysWhereGradientsAreDependentAndForcesAreNone) {
+  const Assembled<double> pendulum = assemble<double>(load_scene("double_pendulum")),
+                          kepler = assemble<double>(load_scene("kepler"));
+  ReducedEquations<double> folded(pendulum.problem), fallen(kepler.problem);
+  const Vector<double> origin = Vector<double>::Zero(4), centre = Vector<double>::Zero(2);
+  try {
+    folded.evaluate(origin, origin);
+    ADD_FAILURE() << "there are no directions";
+  } catch (const StageFailure& failure) {
+    EXPECT_EQ(failure.cause(), FailureCause::near_singular_constraints);
+  }
+  EXPECT_THROW(fallen.evaluate(centre, centre), StageFailure);
+}
+
+}  // namespace
+}  // namespace hbvm

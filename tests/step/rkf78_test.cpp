@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/odeint_methods.hpp"
+#include "hbvm/step/registry.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Order 8 in q, p and the multiplier of the end; what is lost of g and of the hidden constraints, too.
+TEST(Rkf78, HasOrder8) {
+  const PrecisionScope digits(60);
+  for (const char* const name : {"double_pendulum", "modified_pendulum", "kepler"}) {
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
+    Point<Mpfr> point(scene.problem);
+    const auto end = [&](const char* method, long steps) {
+      const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
+      State<Mpfr> state(scene.q0, scene.p0);
+      for (long n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / (2 * steps)));
+      return std::pair(state, Vector<Mpfr>(stepper->multiplier()));
+    };
+    const State<Mpfr> exact = end("hbvm:16,16", 8).first;
+    const Vector<Mpfr> p = point.tangential(exact.q, exact.p), lambda = point.multiplier(exact.q, p);
+    const auto rate = [&](const auto& error) {
+      return std::log2(approximately(Mpfr(error(end("rkf78", 32)) / error(end("rkf78", 64)))));
+    };
+    EXPECT_NEAR(rate([&](const auto& x) { return distance(x.first.q, exact.q); }), 8, 0.5) << name;
+    EXPECT_NEAR(rate([&](const auto& x) { return distance(x.first.p, p); }), 8, 0.5) << name;
+    if (scene.problem.nu() == 0) continue;
+    EXPECT_NEAR(rate([&](const auto& x) { return distance(x.second, lambda); }), 8, 0.5) << name;
+    EXPECT_GT(rate([&](const auto& x) { return max_norm(point.constraints(x.first.q)); }), 7.5) << name;
+  }
+}
+
+template <class S>
+class Rkf78Test : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+};
+TYPED_TEST_SUITE(Rkf78Test, AllScalars, ScalarNames);
+
+/// Short steps leave nothing but round-off, in every number type.
+TYPED_TEST(Rkf78Test, IsRightToTheLastDigits) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  const auto rkf = parse_method("rkf78")->make_stepper(scene.problem, SolverKind::automatic),
+             hbvm = parse_method("hbvm:12,12")->make_stepper(scene.problem, SolverKind::automatic);
+  State<S> state(scene.q0, scene.p0), exact = state;
+  const long parts = std::same_as<S, double> ? 64 : std::same_as<S, Quad> ? 8192 : 262144;
+  // As long as that takes: sixteen steps.
+  const S h = S(1) / S(parts);
+  for (int n = 0; n < 16; ++n) {
+    rkf->step(state, h);
+    hbvm->step(exact, h);
+  }
+  EXPECT_LE(distance(state.q, exact.q), 64 * epsilon<S>());
+}
+
+TYPED_TEST(Rkf78Test, GoesOnFromWhatItRemembers) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("tethered_satellites"));
+  const auto make = parse_method("rkf78")->prepare(scene.problem, SolverKind::automatic);
+  const auto whole = make(), part = make();
+  const S h = S(1) / 32;
+  State<S> state(scene.q0, scene.p0);
+  for (int n = 0; n < 5; ++n) whole->step(state, h);
+  Archive writing;
+  writing(*whole, state);
+  Archive reading(writing.text());
+  State<S> resumed = state;
+  reading(*part, resumed);
+  reading.expect_end();
+  for (int n = 0; n < 3; ++n) {
+    whole->step(state, h);
+    part->step(resumed, h);
+  }
+  EXPECT_EQ(resumed.q, state.q);
+  EXPECT_EQ(resumed.p_carry, state.p_carry);
+  EXPECT_EQ(part->multiplier(), whole->multiplier());
+  EXPECT_EQ(part->counts().effects[0].evaluations, whole->counts().effects[0].evaluations);
+}
+
+/// Thirteen a step: what ends a step begins the next.
+TEST(Rkf78, CountsItsEvaluations) {
+  const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
+  const auto rkf = parse_method("rkf78")->make_stepper(scene.problem, SolverKind::automatic);
+  State<double> state(scene.q0, scene.p0);
+  for (int n = 0; n < 10; ++n) EXPECT_EQ(rkf->step(state, 0.05), 1);
+  EXPECT_EQ(rkf->counts().effects[0].evaluations, 131U);
+}
+
+TEST(Rkf78, TakesNoArguments) { EXPECT_THROW(parse_method("rkf78:8"), InputError); }
+
+TEST(Rkf78, LeavesTheStateWhereForcesAreNone) {
+  const Assembled<double> scene = assemble<double>(load_scene("kepler"));
+  const auto rkf = parse_method("rkf78")->make_stepper(scene.problem, SolverKind::automatic);
+  State<double> centre(Vector<double>::Zero(2), Vector<double>::Zero(2));
+  EXPECT_THROW(rkf->step(centre, 0.1), StageFailure);
+  EXPECT_EQ(centre.q, (Vector<double>(Vector<double>::Zero(2))));
+}
+
+}  // namespace
+}  // namespace hbvm
