@@ -134,6 +134,23 @@ TEST(Against, FindsNoOrderWhereThereIsNone) {
   EXPECT_TRUE(std::isnan(against.orders[1]));
 }
 
+/// Of what is 0 nothing that moves is right, however small.
+TEST(Against, FindsNoDigitsOfRest) {
+  AgainstRequest request;
+  request.scene = read_scene(
+      "dimension = 2\npoint = [{ name = \"pivot\", position = [0, 0] }]\nbody = [{ name = \"bob\", mass = 1, position "
+      "= [0, -1], velocity = [0, 0] }]\nconstraint = [{ kind = \"rod\", between = [\"pivot\", \"bob\"], length = 1 "
+      "}]\neffect = [{ kind = "
+      "\"uniform_gravity\", acceleration = [0, -1] }]\n",
+      "at_rest");
+  request.files = {{"theirs.csv", "t,bob.x,bob.y,bob.px,bob.py\n1,0,-1,0,0\n2,0,-1,1e-18,0\n"}};
+  const Against against = compare_with_reference(request);
+  const ComponentDigits& momentum = against.files[0].components[2];
+  EXPECT_EQ(momentum.name, "bob.px");
+  EXPECT_GT(momentum.digits[0], 15);
+  EXPECT_EQ(momentum.digits[1], 0);
+}
+
 TEST(Against, RefusesWhatItCannotRead) {
   for (const auto& [csv, says] :
        {std::pair("", "theirs.csv: no line"),
