@@ -45,8 +45,8 @@ Tics linear_tics(const AxisRange& range, int most) {
   return result;
 }
 
-/// Powers of a base at integers, at most so many of them with a number.
-Tics power_tics(const AxisRange& range, int base, int most) {
+/// Powers of a base at integers, or at their opposites, at most so many of them with a number.
+Tics power_tics(const AxisRange& range, int base, int most, int sign = 1) {
   const auto [first, last] = multiples(range, 1);
   long step = 1;
   for (const long candidate : {1, 2, 3, 4, 5, 10, 20, 50, 100, 200, 500, 1000}) {
@@ -55,7 +55,8 @@ Tics power_tics(const AxisRange& range, int base, int most) {
   }
   Tics result;
   for (long n = first; n <= last; ++n)
-    result.tics.push_back({static_cast<double>(n), n % step == 0 ? fmt::format("{}^{{{}}}", base, n) : std::string()});
+    result.tics.push_back(
+        {static_cast<double>(n), n % step == 0 ? fmt::format("{}^{{{}}}", base, sign * n) : std::string()});
   return result;
 }
 
@@ -122,6 +123,8 @@ Tics tics_of(const AxisRange& range, AxisScale scale, int most) {
       return power_tics(range, 2, most);
     case AxisScale::decimal:
       return decimal_tics(range, most);
+    case AxisScale::falling:
+      return power_tics(range, 10, most, -1);
   }
   return {};
 }

@@ -24,6 +24,18 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+/// The same where lines of the text are lines of the figure.
+std::string in_lines(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  }
+  return result + "\"";
+}
+
 /// How many letters are seen of UTF-8.
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
@@ -77,12 +89,16 @@ class PanelScript {
     for (const Curve& curve : panel.curves) std::for_each(curve.points.begin(), curve.points.end(), gather);
     for (const Polyline& line : panel.lines) std::for_each(line.points.begin(), line.points.end(), gather);
     for (const Mark& mark : panel.marks) gather(mark.at);
+    for (const Bar& bar : panel.bars) {
+      gather({bar.x - double{1} / 2, bar.from});
+      gather({bar.x + double{1} / 2, bar.to});
+    }
     x_ = range_of(x);
     y_ = range_of(y);
     constexpr double room = 0.04;
     if (panel.equal_axes)
       make_equal(room);
-    else
+    else if (panel.bars.empty())
       y_ = widened(y_, room);
     if (panel.x.scale == AxisScale::binary) x_ = widened(x_, room);
   }
@@ -92,7 +108,8 @@ class PanelScript {
     std::size_t longest = 0;
     if (labelled())
       for (const Curve& curve : panel_.curves) longest = std::max(longest, letters(curve.label));
-    return longest > 0 ? 10 + letter_width * static_cast<double>(longest) : 0;
+    const double before = panel_.labels_beside ? 20 : 10;
+    return longest > 0 ? before + letter_width * static_cast<double>(longest) : 0;
   }
 
   /// \param x, y of the lower left corner of its box, in pixels from the figure's; \param size of the figure
@@ -106,6 +123,7 @@ class PanelScript {
     axis("x", panel_.x, x_, 6);
     axis("y", panel_.y, y_, 6);
     for (const Polyline& line : panel_.lines) add(line);
+    for (const Bar& bar : panel_.bars) add(bar);
     for (std::size_t i = 0; i < panel_.curves.size(); ++i) add(panel_.curves[i], i);
     for (const Mark& mark : panel_.marks) add(mark);
     label_marks();
@@ -135,14 +153,20 @@ class PanelScript {
   }
 
   void axis(const std::string& name, const Axis& axis, const AxisRange& range, int most) {
-    const Tics tics = tics_of(range, axis.scale, most);
+    Tics tics = tics_of(range, axis.scale, most);
+    if (!axis.names.empty()) tics = {};
+    for (std::size_t i = 0; i < axis.names.size(); ++i) tics.tics.push_back({static_cast<double>(i), axis.names[i]});
     const std::string label = axis.label + (tics.factor.empty() ? "" : " / " + tics.factor);
     script_ += fmt::format("set {0}range [{1:.12g}:{2:.12g}]\nset {0}label {3}{4}\nset {0}tics (", name, range.from,
-                           range.to, quoted(label), name == "x" ? " offset 0,0.2" : "");
+                           range.to, quoted(label),
+                           name != "x"          ? ""
+                           : axis.names.empty() ? " offset 0,0.2"
+                                                : " offset 0,-1.3");
     std::string list;
     for (const Tic& tic : tics.tics)
-      list += fmt::format("{}{} {:.12g}{}", list.empty() ? "" : ", ", quoted(tic.text), tic.at,
-                          tic.text.empty() ? " 1" : "");
+      list +=
+          fmt::format("{}{} {:.12g}{}", list.empty() ? "" : ", ",
+                      axis.names.empty() ? quoted(tic.text) : in_lines(tic.text), tic.at, tic.text.empty() ? " 1" : "");
     script_ += list + ")\n";
   }
 
@@ -185,8 +209,19 @@ class PanelScript {
     if (!any(line.points)) return;
     const char* const style = line.look == Polyline::Look::solid   ? "with lines lw 1.6 lc rgb '#333333'"
                               : line.look == Polyline::Look::faint ? "with lines lw 0.8 lc rgb '#999999'"
+                              : line.look == Polyline::Look::front ? "with lines lw 6 lc rgb '#d9d9d9'"
                                                                    : "with lines lw 1 dt 2 lc rgb '#777777'";
     parts_.push_back(data(line.points) + style + " notitle");
+  }
+
+  void add(const Bar& bar) {
+    const std::string name = fmt::format("$data{}", ++blocks_);
+    script_ += fmt::format("{} << EOD\n{:.7g} {:.7g} {:.7g} {:.7g}\nEOD\n", name, bar.x - bar_width / 2,
+                           bar.x + bar_width / 2, bar.from, bar.to);
+    parts_.push_back(
+        fmt::format("{} using (($1+$2)/2):(($3+$4)/2):1:2:3:4 with boxxyerror fs solid 1 noborder lc rgb {} "
+                    "notitle",
+                    name, quoted(colour_of(bar.colour))));
   }
 
   void add(const Mark& mark) {
@@ -245,7 +280,7 @@ class PanelScript {
       const Curve& curve = panel_.curves[i];
       if (curve.label.empty() || !any(curve.points)) continue;
       const PlotPoint last = end_of(curve);
-      if (last[0] < x_.to - 0.1 * x_.length()) {
+      if (!panel_.labels_beside && last[0] < x_.to - 0.1 * x_.length()) {
         within.push_back(i);
         continue;
       }
@@ -253,10 +288,16 @@ class PanelScript {
     }
     label_within(within);
     spread(labels);
-    for (const Placed& label : labels)
-      script_ +=
-          fmt::format("set label {} at graph 1.02,{:.5f} left tc rgb {}\n", quoted(panel_.curves[label.curve].label),
-                      label.at / box_height, quoted(colour_of(label.curve)));
+    for (const Placed& label : labels) {
+      const Curve& curve = panel_.curves[label.curve];
+      const std::string colour = quoted(colour_of(label.curve));
+      script_ += fmt::format("set label {} at graph {},{:.5f} left tc rgb {}", quoted(curve.label),
+                             panel_.labels_beside ? "1.03" : "1.02", label.at / box_height, colour);
+      if (panel_.labels_beside && curve.marked)
+        script_ +=
+            fmt::format(" point pt {} ps 0.6 lc rgb {} offset 0.8,0", marks[label.curve % std::size(marks)], colour);
+      script_ += "\n";
+    }
   }
 
   static PlotPoint end_of(const Curve& curve) {

@@ -49,6 +49,10 @@ TEST(Tics, HaveAPowerOfTenInCommon) {
   EXPECT_EQ(tics_of({0, 2e4}, AxisScale::linear, 6).factor, "");
 }
 
+TEST(Tics, OfErrorsThatFallToTheRightAreNegativePowers) {
+  EXPECT_EQ(texts(tics_of({2, 14}, AxisScale::falling, 6)), (Texts{"10^{-3}", "10^{-6}", "10^{-9}", "10^{-12}"}));
+}
+
 TEST(Tics, OfPowersStandAtPowers) {
   EXPECT_EQ(texts(tics_of({-16.3, -8}, AxisScale::decimal, 6)),
             (Texts{"10^{-16}", "10^{-14}", "10^{-12}", "10^{-10}", "10^{-8}"}));

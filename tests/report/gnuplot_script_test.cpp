@@ -44,6 +44,29 @@ TEST(GnuplotScript, NamesCurvesAtTheirEndsAndNotTheOnlyOne) {
   EXPECT_LE(std::max(height("other"), height("it''s")), 1);
 }
 
+TEST(GnuplotScript, NamesAllCurvesBesideThePanelWithTheirMarks) {
+  Panel panel;
+  panel.labels_beside = true;
+  panel.curves = {{"a", {{0, 0}, {1, 1}}, true}, {"b", {{0, 1}, {0.2, 0.5}}, true}};
+  const std::string text = script(panel);
+  EXPECT_TRUE(has(text, "set label 'a' at graph 1.03,"));
+  EXPECT_TRUE(has(text, "set label 'b' at graph 1.03,0.5"));
+  EXPECT_TRUE(has(text, "point pt 7")) << text;
+  EXPECT_TRUE(has(text, "point pt 5")) << text;
+}
+
+TEST(GnuplotScript, StacksBarsUnderTheirNames) {
+  Panel panel;
+  panel.x.names = {"double", "two\nlines \"quoted\""};
+  panel.bars = {{0, 0, 40, 0}, {0, 40, 100, 1}, {1, 0, 100, 0}};
+  const std::string text = script(panel);
+  EXPECT_TRUE(has(text, "set xrange [-0.5:1.5]\n")) << text;
+  EXPECT_TRUE(has(text, "set yrange [0:100]\n")) << text;
+  EXPECT_TRUE(has(text, "set xtics (\"double\" 0, \"two\\nlines \\\"quoted\\\"\" 1)\n")) << text;
+  EXPECT_TRUE(has(text, "-0.35 0.35 40 100\n")) << text;
+  EXPECT_TRUE(has(text, "fs solid 1 noborder lc rgb '#D55E00'")) << text;
+}
+
 TEST(GnuplotScript, NamesACurveThatEndsWithin) {
   Panel panel;
   panel.curves = {{"a", {{0, 0}, {1, 1}}}, {"b", {{1, 1}, {0.2, 0.5}}}};

@@ -11,13 +11,16 @@ namespace hbvm {
 /// How far numbers are apart on an axis.
 enum class AxisScale {
   linear,
-  binary,  ///< a coordinate is log2 of the number that is shown
-  decimal  ///< log10 of it: numbers beyond the range of double have a place, too
+  binary,   ///< a coordinate is log2 of the number that is shown
+  decimal,  ///< log10 of it: numbers beyond the range of double have a place, too
+  falling   ///< -log10 of it: errors that fall to the right
 };
 
 struct Axis {
   std::string label;
   AxisScale scale = AxisScale::linear;
+  /// Instead of numbers: the words at 0, 1, 2 ...
+  std::vector<std::string> names = {};
 };
 
 /// Of curves, one after another: Okabe and Ito's, told apart by all eyes. Black is for what is no curve.
@@ -33,12 +36,20 @@ struct Curve {
   bool marked = false;  ///< a mark at every point
 };
 
-/// A line that is part of the scene: a rod, or a triangle that shows a slope.
+/// A line that is part of the scene: a rod, a triangle that shows a slope, or the front of a cloud of points.
 struct Polyline {
-  enum class Look { solid, faint, dashed };
+  enum class Look { solid, faint, dashed, front };
   std::vector<PlotPoint> points;
   Look look = Look::solid;
 };
+
+/// A part of a bar that stands on the axis of x, in the colour of the curve of this number.
+struct Bar {
+  double x, from, to;
+  std::size_t colour = 0;
+};
+/// Of a unit of x.
+inline constexpr double bar_width = 0.7;
 
 /// A place of the scene.
 struct Mark {
@@ -61,7 +72,9 @@ struct Panel {
   std::vector<Polyline> lines{};
   std::vector<Mark> marks{};
   std::vector<Label> labels{};
-  bool equal_axes = false;  ///< a unit of x is as long as one of y
+  std::vector<Bar> bars{};
+  bool equal_axes = false;     ///< a unit of x is as long as one of y
+  bool labels_beside = false;  ///< names of curves, with their marks, stand beside the panel wherever these end
 };
 
 /// Panels of equal size, two in a row.
