@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "hbvm/analysis/cells.hpp"
+#include "hbvm/analysis/cost/cost_grid.hpp"
+#include "hbvm/analysis/cost/cost_reference.hpp"
+
+namespace hbvm {
+
+struct CostOptions : CellOptions {
+  std::function<void(double)> reference_progress = {};  ///< it may throw to end the work
+};
+
+/// A cell with what it came to.
+struct CostFinding {
+  CostCell cell;
+  CostMeasurement measured;
+};
+
+struct CostOutcome {
+  MotionNature nature;
+  CostReference reference;
+  std::size_t cells = 0;              ///< of the whole study
+  std::vector<CostFinding> findings;  ///< of the shard: by precision, method and steps
+};
+
+/// Measures the cells of the study, each in a process of its own, beside which a calibration loop shows what else the
+/// machine did. To be called while the program has a single thread.
+/// \return the same whatever the number of processes and shards, but for times
+/// \throws InputError, IntegrationError
+CostOutcome run_cost_study(const CostStudy& study, const CostOptions& options);
+
+}  // namespace hbvm

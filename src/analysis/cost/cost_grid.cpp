@@ -1,0 +1,131 @@
+#include "hbvm/analysis/cost/cost_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "hbvm/analysis/cost/calibration.hpp"
+#include "hbvm/analysis/cost/cost_methods.hpp"
+#include "hbvm/analysis/cost/error_model.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Digits of a precision that rounding takes.
+constexpr double rounding_digits = 1.5;
+
+/// Right digits that runs of a precision are to have.
+struct Window {
+  double least, most;
+};
+
+/// Seconds that a step takes about: operations, counted over two steps of a usual size or a quarter of it, at what they
+/// typically cost, so that no clock has a say in what cells there are. NaN where such steps cannot be made.
+double predicted_step_seconds(const CostStudy& study, const MethodPtr& method, const Precision& precision,
+                              double usual_steps) {
+  constexpr long few = 2;
+  constexpr double always = std::numeric_limits<double>::infinity();
+  constexpr double nanoseconds = 1'000'000'000;
+  // To choose k would take longer than all steps.
+  const HbvmMethod* const hbvm = as_hbvm(*method);
+  const MethodPtr counted = hbvm && hbvm->name().is_auto() ? hbvm_of({2 * hbvm->name().s, hbvm->name().s}) : method;
+  for (const double steps : {usual_steps, 4 * usual_steps}) {
+    const CostCell cell{counted, precision, std::max(1L, static_cast<long>(std::ceil(steps)))};
+    const CostSample sample = sample_cost(study.scene, study.until, cell, few, always);
+    if (sample.failure.empty())
+      return (sample.operations * typical_nanoseconds(precision) +
+              sample.operations_in_double * typical_nanoseconds(Precision::parse("double"))) /
+             nanoseconds;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Numbers of steps from one to another, each twice the one before, or the root of 2 times.
+std::vector<long> ladder(double from, double to, bool fine) {
+  std::vector<long> steps;
+  const int first = static_cast<int>(std::floor(2 * std::log2(std::max(from, double{1}))));
+  for (int j = std::max(0, fine ? first : first - first % 2); j <= 2 * 40; j += fine ? 1 : 2) {
+    const long n = std::lround(std::exp2(j / double{2}));
+    if (steps.empty() || n > steps.back()) steps.push_back(n);
+    if (static_cast<double>(n) >= to) break;
+  }
+  return steps;
+}
+
+/// Some of them, so that no more than so many are left, the last among them.
+std::vector<long> thinned(const std::vector<long>& steps, std::size_t most) {
+  if (steps.size() <= most) return steps;
+  std::vector<long> result;
+  for (std::size_t i = 0; i < most; ++i) result.push_back(steps[i * (steps.size() - 1) / (most - 1)]);
+  return result;
+}
+
+}  // namespace
+
+double reachable_digits(const Precision& precision, const MotionNature& nature) {
+  return precision.digits() + double{1} - nature.digits_lost - rounding_digits;
+}
+
+std::vector<Precision> default_precisions(double most_digits, const MotionNature& nature) {
+  std::vector<Precision> result;
+  double reached = 0;
+  for (const char* const name : {"double", "quad"})
+    if (reached < most_digits) {
+      result.push_back(Precision::parse(name));
+      reached = reachable_digits(result.back(), nature);
+    }
+  if (result.size() == 1) return result;
+  for (const double digits : {15., 30., 50., 100., 200., 500., 1'000., 2'000., 5'000.}) {
+    const double wanted = std::min(digits, most_digits);
+    const auto working = std::max(Precision::min_digits,
+                                  static_cast<unsigned>(std::ceil(wanted + nature.digits_lost + 2 * rounding_digits)));
+    result.push_back(Precision::parse("mpfr:" + std::to_string(working)));
+    if (digits >= most_digits) break;
+  }
+  return result;
+}
+
+std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& nature) {
+  const std::vector<Precision> precisions =
+      study.precisions.empty() ? default_precisions(study.most_digits, nature) : study.precisions;
+  const PrecisionScope scope(Precision::min_digits);
+  const double until = approximately(evaluate<Mpfr>(study.until, study.scene.constants));
+  const double usual_steps = until / std::exp2(nature.log2_radius - 2);
+  std::vector<CostCell> cells;
+  for (const Precision& precision : precisions) {
+    const double reach = std::min(reachable_digits(precision, nature), study.most_digits + 1);
+    // Half of the digits are enough to see where the next smaller precision is the better one.
+    const Window window{std::max(study.least_digits, precision == precisions.front() ? 0 : reach / 2), reach};
+    for (const MethodPtr& method : study.methods) {
+      const double order = method->order() > 0 ? method->order() : 4;
+      const ErrorModel model{order, std::log10(typical_reach(*method)) + nature.log2_radius * std::log10(double{2}),
+                             nature.digits_lost};
+      // Hypotheses of the model may be off.
+      constexpr double margin = 1.5;
+      const double from = until / std::pow(10, model.log10_step(std::max(window.least - margin, double{0}))),
+                   to = until / std::pow(10, model.log10_step(window.most + margin));
+      constexpr int fine_from = 8;
+      constexpr std::size_t most_rungs = 8;
+      std::vector<long> steps = ladder(from, to, order >= fine_from);
+      // No step takes less than that; those of few stages would be counted for nothing.
+      constexpr double least_step_seconds = 0.0000003;
+      const auto too_long = [&](double seconds) {
+        return [&study, seconds](long n) { return !(static_cast<double>(n) * seconds <= study.most_seconds); };
+      };
+      std::erase_if(steps, too_long(least_step_seconds * typical_nanoseconds(precision)));
+      if (steps.empty()) continue;
+      std::erase_if(steps, too_long(predicted_step_seconds(study, method, precision, usual_steps)));
+      if (steps.empty()) continue;
+      for (const long n : thinned(steps, most_rungs)) cells.push_back({method, precision, n});
+    }
+  }
+  // The same on every machine, as that of the standard library need not be.
+  std::mt19937_64 random(1);
+  for (std::size_t i = cells.size(); i > 1; --i) std::swap(cells[i - 1], cells[random() % i]);
+  return cells;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,82 @@
+#include "hbvm/analysis/cost/cost_errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scalar/text.hpp"
+
+namespace hbvm {
+namespace {
+
+/// A light and a heavy body on springs far from one another.
+Scene uneven_scene() {
+  return read_scene(
+      "title = \"uneven\"\ndimension = 2\n"
+      "[[body]]\nname = \"light\"\nmass = \"1e-12\"\nposition = [\"1e-6\", 0]\nvelocity = [0, \"1e-3\"]\n"
+      "[[body]]\nname = \"heavy\"\nmass = \"1e20\"\nposition = [\"1e9\", 0]\nvelocity = [0, 5]\n",
+      "uneven");
+}
+
+ReferenceState state_of(const Assembled<Mpfr>& scene) {
+  ReferenceState state;
+  for (Index j = 0; j < scene.q0.size(); ++j) {
+    state.q.push_back(to_text(scene.q0[j]));
+    state.p.push_back(to_text(scene.p0[j]));
+  }
+  return state;
+}
+
+TEST(CostJudge, ComparesEachBodyWithItsOwn) {
+  const Scene scene = uneven_scene();
+  const PrecisionScope scope(40);
+  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
+  const CostJudge judge(scene, state_of(start), 60);
+  EXPECT_FALSE(judge.has_multipliers());
+  const Vector<Mpfr> none(0);
+  Vector<Mpfr> q = start.q0;
+  q[0] += q[0] / 1'000;
+  const CostErrors light = judge.errors<Mpfr>(q, start.p0, none);
+  EXPECT_NEAR(light.q, -3, 1e-9);
+  EXPECT_TRUE(std::isnan(light.lambda));
+  EXPECT_NEAR(light.of(CostQuantity::all), -3, 1e-9);
+  // The other coordinate of the heavy one is 0, and is measured by the first.
+  q = start.q0;
+  q[3] = 10;
+  EXPECT_NEAR(judge.errors<Mpfr>(q, start.p0, none).q, -8, 1e-9);
+  Vector<Mpfr> p = start.p0;
+  p[1] *= 2;
+  EXPECT_NEAR(judge.errors<Mpfr>(start.q0, p, none).of(CostQuantity::p), 0, 1e-9);
+}
+
+TEST(CostJudge, SeesNoFurtherThanTheReference) {
+  const Scene scene = load_scene("simple_pendulum");
+  const PrecisionScope scope(40);
+  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
+  Point<Mpfr> point(start.problem);
+  const Vector<Mpfr> lambda = point.multiplier(start.q0, start.p0);
+  ReferenceState state = state_of(start);
+  state.lambda.push_back(to_text(lambda[0]));
+  const CostJudge judge(scene, state, 20);
+  const CostErrors errors = judge.errors<Mpfr>(start.q0, start.p0, lambda);
+  EXPECT_EQ(errors.q, judge.resolution().q);
+  EXPECT_LE(errors.q, -19);
+  EXPECT_GE(errors.q, -21);
+  EXPECT_EQ(errors.lambda, judge.resolution().lambda);
+  Vector<Mpfr> broken = start.q0;
+  broken[0] = Mpfr("nan");
+  EXPECT_EQ(judge.errors<Mpfr>(broken, start.p0, lambda).q, INFINITY);
+}
+
+TEST(CostJudge, RefusesAnotherScenesReference) {
+  EXPECT_THROW(CostJudge(load_scene("kepler"), ReferenceState{}, 20), InputError);
+}
+
+TEST(CostQuantity, HasFourNames) {
+  for (const char* const name : {"q", "p", "lambda", "all"}) EXPECT_EQ(name_of(parse_cost_quantity(name)), name);
+  EXPECT_THROW(parse_cost_quantity("H"), InputError);
+}
+
+}  // namespace
+}  // namespace hbvm
