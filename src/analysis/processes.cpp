@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <list>
 
-#include "analysis/stability/apart.hpp"
+#include "analysis/apart.hpp"
 #include "hbvm/error.hpp"
 
 namespace hbvm {

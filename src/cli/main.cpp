@@ -38,6 +38,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   hbvm::add_audit_command(app);
   hbvm::add_stability_command(app);
   hbvm::add_reference_command(app);
+  hbvm::add_cost_command(app);
   hbvm::add_completion_command(app);
   hbvm::add_help_command(app);
   try {

@@ -155,7 +155,7 @@ class CostRun {
 };
 
 /// A repetition beside which the calibration loop is slower than this, of the quickest, does not count.
-constexpr double most_disturbed = 1.1;
+constexpr double most_disturbed = double{11} / 10;
 
 /// Repetitions of a run, each between two calibrations.
 class Repetitions {
@@ -235,7 +235,7 @@ CostMeasurement measure_cost(const Scene& scene, const Expression& until, const 
     if (!m.failure.empty()) return m;
     const double once = m.seconds;
     // Clocks and caches need some milliseconds to show the time of a run; but coefficients are made for each.
-    constexpr double long_for_clock = 0.002, long_for_setup = 0.02;
+    constexpr double long_for_clock = double{2} / 1'000, long_for_setup = double{2} / 100;
     const double most_at_once = long_for_setup / (once + m.setup_seconds + 1 / double{1'000'000});
     const long at_once = std::max(1L, std::lround(std::min(std::ceil(long_for_clock / once), most_at_once)));
     Repetitions repetitions(cell.precision, wanted);
@@ -247,7 +247,7 @@ CostMeasurement measure_cost(const Scene& scene, const Expression& until, const 
     repetitions.report(m);
     if (wanted.account) {
       constexpr long few = 8;
-      constexpr double long_enough = 0.25;
+      constexpr double long_enough = double{1} / 4;
       const double possible = once > 0 ? static_cast<double>(cell.steps) * long_enough / once : few;
       run.account(m, std::min(cell.steps, std::max(few, static_cast<long>(possible))));
     }

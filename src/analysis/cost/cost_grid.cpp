@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 
 #include "hbvm/analysis/cost/calibration.hpp"
@@ -15,32 +16,40 @@ namespace hbvm {
 namespace {
 
 /// Digits of a precision that rounding takes.
-constexpr double rounding_digits = 1.5;
+constexpr double rounding_digits = double{3} / 2;
 
 /// Right digits that runs of a precision are to have.
 struct Window {
   double least, most;
 };
 
-/// Seconds that a step takes about: operations, counted over two steps of a usual size or a quarter of it, at what they
-/// typically cost, so that no clock has a say in what cells there are. NaN where such steps cannot be made.
-double predicted_step_seconds(const CostStudy& study, const MethodPtr& method, const Precision& precision,
-                              double usual_steps) {
+/// Operations of a step, NaN where none can be made.
+struct CountedStep {
+  double operations = std::numeric_limits<double>::quiet_NaN(), operations_in_double = 0;
+
+  /// About, at what they typically cost: no clock has a say in what cells there are.
+  double seconds(const Precision& precision) const {
+    constexpr double nanoseconds = 1'000'000'000;
+    return (operations * typical_nanoseconds(precision) +
+            operations_in_double * typical_nanoseconds(Precision::parse("double"))) /
+           nanoseconds;
+  }
+};
+
+/// Counted over two steps of a usual size, or a quarter of it.
+CountedStep count_step(const CostStudy& study, const MethodPtr& method, const Precision& precision,
+                       double usual_steps) {
   constexpr long few = 2;
   constexpr double always = std::numeric_limits<double>::infinity();
-  constexpr double nanoseconds = 1'000'000'000;
   // To choose k would take longer than all steps.
   const HbvmMethod* const hbvm = as_hbvm(*method);
-  const MethodPtr counted = hbvm && hbvm->name().is_auto() ? hbvm_of({2 * hbvm->name().s, hbvm->name().s}) : method;
+  const MethodPtr made = hbvm && hbvm->name().is_auto() ? hbvm_of({2 * hbvm->name().s, hbvm->name().s}) : method;
   for (const double steps : {usual_steps, 4 * usual_steps}) {
-    const CostCell cell{counted, precision, std::max(1L, static_cast<long>(std::ceil(steps)))};
+    const CostCell cell{made, precision, std::max(1L, static_cast<long>(std::ceil(steps)))};
     const CostSample sample = sample_cost(study.scene, study.until, cell, few, always);
-    if (sample.failure.empty())
-      return (sample.operations * typical_nanoseconds(precision) +
-              sample.operations_in_double * typical_nanoseconds(Precision::parse("double"))) /
-             nanoseconds;
+    if (sample.failure.empty()) return {sample.operations, sample.operations_in_double};
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return {};
 }
 
 /// Numbers of steps from one to another, each twice the one before, or the root of 2 times.
@@ -78,8 +87,8 @@ std::vector<Precision> default_precisions(double most_digits, const MotionNature
       reached = reachable_digits(result.back(), nature);
     }
   if (result.size() == 1) return result;
-  for (const double digits : {15., 30., 50., 100., 200., 500., 1'000., 2'000., 5'000.}) {
-    const double wanted = std::min(digits, most_digits);
+  for (const int digits : {15, 30, 50, 100, 200, 500, 1'000, 2'000, 5'000}) {
+    const double wanted = std::min(static_cast<double>(digits), most_digits);
     const auto working = std::max(Precision::min_digits,
                                   static_cast<unsigned>(std::ceil(wanted + nature.digits_lost + 2 * rounding_digits)));
     result.push_back(Precision::parse("mpfr:" + std::to_string(working)));
@@ -94,6 +103,15 @@ std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& natu
   const PrecisionScope scope(Precision::min_digits);
   const double until = approximately(evaluate<Mpfr>(study.until, study.scene.constants));
   const double usual_steps = until / std::exp2(nature.log2_radius - 2);
+  // Where there are more digits than double has the operations of a step hardly depend on their number.
+  std::map<std::pair<std::string, bool>, CountedStep> counts;
+  const auto counted = [&](const MethodPtr& method, const Precision& precision) {
+    const bool in_double = precision.kind() == Precision::Kind::binary64;
+    const auto [place, is_new] = counts.try_emplace({method->key(), in_double});
+    if (is_new)
+      place->second = count_step(study, method, Precision::parse(in_double ? "double" : "mpfr:40"), usual_steps);
+    return place->second;
+  };
   std::vector<CostCell> cells;
   for (const Precision& precision : precisions) {
     const double reach = std::min(reachable_digits(precision, nature), study.most_digits + 1);
@@ -104,20 +122,20 @@ std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& natu
       const ErrorModel model{order, std::log10(typical_reach(*method)) + nature.log2_radius * std::log10(double{2}),
                              nature.digits_lost};
       // Hypotheses of the model may be off.
-      constexpr double margin = 1.5;
+      constexpr double margin = double{3} / 2;
       const double from = until / std::pow(10, model.log10_step(std::max(window.least - margin, double{0}))),
                    to = until / std::pow(10, model.log10_step(window.most + margin));
       constexpr int fine_from = 8;
       constexpr std::size_t most_rungs = 8;
       std::vector<long> steps = ladder(from, to, order >= fine_from);
       // No step takes less than that; those of few stages would be counted for nothing.
-      constexpr double least_step_seconds = 0.0000003;
+      constexpr double least_step_seconds = double{3} / 10'000'000;
       const auto too_long = [&](double seconds) {
         return [&study, seconds](long n) { return !(static_cast<double>(n) * seconds <= study.most_seconds); };
       };
       std::erase_if(steps, too_long(least_step_seconds * typical_nanoseconds(precision)));
       if (steps.empty()) continue;
-      std::erase_if(steps, too_long(predicted_step_seconds(study, method, precision, usual_steps)));
+      std::erase_if(steps, too_long(counted(method, precision).seconds(precision)));
       if (steps.empty()) continue;
       for (const long n : thinned(steps, most_rungs)) cells.push_back({method, precision, n});
     }

@@ -19,7 +19,7 @@ std::string power_text(double log10) {
   if (!std::isfinite(log10)) return "---";
   double exponent = std::floor(log10);
   double leading = std::pow(10, log10 - exponent);
-  constexpr double rounds_up = 9.995;
+  constexpr double rounds_up = double{9'995} / 1'000;
   if (leading >= rounds_up) {
     leading = 1;
     exponent += 1;
@@ -61,7 +61,7 @@ std::vector<double> slowdowns(const std::vector<CostFinding>& findings) {
 
 std::vector<double> corrected_seconds(const std::vector<CostFinding>& findings) {
   // Below that the loop's own time is no more certain than the run's.
-  constexpr double certain = 0.1;
+  constexpr double certain = double{1} / 10;
   const std::vector<double> slower = slowdowns(findings);
   std::vector<double> result;
   for (std::size_t i = 0; i < findings.size(); ++i)

@@ -27,8 +27,8 @@ std::string step_text(const Expression& until, long steps);
 /// How often a run is made.
 struct CostRepetitions {
   int least = 3, most = 15;
-  double seconds = 0.1;  ///< more than the least only as long as all took less
-  bool account = true;   ///< one more, of some steps, to see where the time goes
+  double seconds = double{1} / 10;  ///< more than the least only as long as all took less
+  bool account = true;              ///< one more, of some steps, to see where the time goes
 };
 
 /// What a cell came to. Times are of the processor.

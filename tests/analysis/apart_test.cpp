@@ -1,4 +1,4 @@
-#include "analysis/stability/apart.hpp"
+#include "analysis/apart.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
