@@ -251,7 +251,7 @@ std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
     // In fewer digits than the coordinate nearest to its solution has already, the residual would spoil it.
     left = std::min(left, std::max(rule_.least_left(), -bits_));
     set_scaled(t_, 1, -least_bits);
-    slow = sweeps > 1 && exceeds(rule_.rate(), t_) ? slow + 1 : 0;
+    slow = rule_.shows_rate() && exceeds(rule_.rate(), t_) ? slow + 1 : 0;
     if (slow >= 3) return {sweeps, false};
   }
 }

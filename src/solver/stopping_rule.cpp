@@ -135,6 +135,7 @@ void StoppingRule<S>::find_rate() {
       set_product(t_, now, x.last);
       if (exceeds(x.change, t_)) set_quotient(now, x.change, x.last);
     }
+  rate_shown_ = known;
   if (!known) {
     if (sweeps_ == 1) set(last_rate_, rate_);
     return;

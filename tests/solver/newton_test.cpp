@@ -2,6 +2,7 @@
 
 #include "hbvm/integrate/drift.hpp"
 #include "hbvm/integrate/integrate.hpp"
+#include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
@@ -48,6 +49,22 @@ TYPED_TEST(NewtonTest, EndsWithATypedErrorWhereNoSolutionIsFound) {
     HbvmStepper<S> stepper(scene.problem, method, kind);
     State<S> state(scene.q0, scene.p0);
     EXPECT_THROW(integrate<S>(stepper, state, grid, {}), StepError);
+  }
+}
+
+/// Where a start in double leaves no more than rounding, there is no rate to be seen, and none that is too slow.
+TEST(Newton, StaysInDoubleWhereItsStartIsGood) {
+  for (const unsigned digits : {18U, 20U, 22U, 26U}) {
+    const PrecisionScope scope(digits);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("double_pendulum"));
+    const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 4);
+    for (const char* step : {"1/10", "10/256", "10/362", "1/100", "1/1000"}) {
+      Newton<Mpfr> newton(scene.problem, method);
+      const Mpfr h = literal<Mpfr>(step);
+      newton.solve({scene.q0, scene.p0, h});
+      for (const PartCount& part : newton.counts().parts)
+        EXPECT_TRUE(part.in_double || part.name != "factors of the Jacobian") << digits << " " << step;
+    }
   }
 }
 

@@ -24,7 +24,7 @@ namespace hbvm {
 /// whose matrix is factored once a step; for n = 0 that is (Theorem lamex). Order and step after Jorba and Zou
 /// (Experimental Mathematics 14, 2005): the step is so long that the last two terms are round-off of every body's
 /// position and momentum. As h is that long, coefficients fall to round-off, and so do the numbers of which
-/// convolutions consist (AlignedSeries). After each step the state is moved to the constraints and their tangent space,
+/// convolutions consist, AlignedSeries. After each step the state is moved to the constraints and their tangent space,
 /// by round-off.
 class TaylorMotion {
  public:

@@ -61,6 +61,8 @@ class StoppingRule {
   Verdict judge();
 
   const S& rate() const { return rate_; }
+  /// Whether the last sweep showed it: of changes that may be rounding there is none to be seen.
+  bool shows_rate() const { return rate_shown_; }
   /// The error that is left of the coordinate that is nearest to its solution, over its scale, as log2.
   long least_left() const;
   const S& scale(Index j) const { return coordinates_[static_cast<std::size_t>(j)].scale; }
@@ -96,7 +98,7 @@ class StoppingRule {
   void set_bounds(Coordinate& x);
 
   long sweeps_ = 0, max_sweeps_;
-  bool coarse_ = true, terms_shown_ = false, finite_ = true;
+  bool coarse_ = true, terms_shown_ = false, finite_ = true, rate_shown_ = false;
   S bound_, negligible_, tiny_, least_rate_;  // C epsilon, 2^-12 epsilon, C times the least number
   S coarse_bound_, kappa_ = 1, rate_ = 1, last_rate_ = 1;
   S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16;
