@@ -7,6 +7,7 @@
 #include "hbvm/error.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/nearest.hpp"
+#include "hbvm/reference/taylor_method.hpp"
 #include "hbvm/version.hpp"
 #include "words.hpp"
 
@@ -27,6 +28,7 @@ int report(int code, std::string what) {
 // Commands whose options clash would end the program here.
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   CLI::App app{"Energy-conserving integration of constrained mechanics, HBVM(k,s), at any precision."};
+  hbvm::add_taylor_method();
   app.require_subcommand(1);
   app.set_version_flag("--version", hbvm::version());
   app.footer("Example: hbvm run modified_pendulum --method hbvm:4,2 --step 1/16 --until 20 --precision mpfr:50 --json");

@@ -12,8 +12,10 @@
 
 namespace hbvm {
 
-const std::vector<MethodFamily>& method_families() {
-  static const std::vector<MethodFamily> families{
+namespace {
+
+std::vector<MethodFamily>& all_families() {
+  static std::vector<MethodFamily> families{
       {"hbvm", "hbvm:K,S with whole numbers K >= S >= 1, e.g. hbvm:5,3, or hbvm:auto,S", hbvm_method},
       {"projected_hbvm", "projected_hbvm:K,S", projected_hbvm_method},
       {"restored_hbvm", "restored_hbvm:K,S", restored_hbvm_method},
@@ -26,6 +28,16 @@ const std::vector<MethodFamily>& method_families() {
       {"tableau", "tableau:FILE, or tableau:FILE+project", tableau_method},
   };
   return families;
+}
+
+}  // namespace
+
+const std::vector<MethodFamily>& method_families() { return all_families(); }
+
+void add_method_family(const MethodFamily& family) {
+  for (const MethodFamily& known : method_families())
+    if (known.name == family.name) return;
+  all_families().push_back(family);
 }
 
 MethodPtr parse_method(std::string_view text) {

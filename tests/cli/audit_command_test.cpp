@@ -209,6 +209,17 @@ TEST(AuditCommand, RefusesBadInput) {
   expect_refused({"audit", "--json", "--claims", folder.write("claims.toml", polynomials)}, {"rattle", "polynomials"});
 }
 
+/// By its name a method is held to what it says of itself.
+TEST(AuditCommand, DecidesWhatAMethodSaysOfItself) {
+  const Json json = json_of({"--method", "energy_momentum", "--claims", "kepler"}, 0);
+  ASSERT_EQ(json.at("claims").size(), 5U);
+  for (const Json& claim : json.at("claims")) EXPECT_EQ(claim.at("verdict"), "holds") << claim.dump();
+  const Json tolerance = json_of({"--method", "bulirsch_stoer:9", "--claims", "kepler"}, 0);
+  EXPECT_GE(tolerance.at("claims").at(0).at("measured"), 7.0) << tolerance.dump();
+  expect_refused({"audit", "--json", "--method", "hbvm:auto,2"}, {"hbvm:auto,2"});
+  expect_refused({"audit", "--json", "--method", "lobatto:1"}, {"lobatto:1"});
+}
+
 TEST(AuditCommand, DecidesClaimsAboutEveryMethod) {
   const Folder folder;
   folder.write("gauss.toml", gauss_tableau);

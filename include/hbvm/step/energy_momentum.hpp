@@ -17,7 +17,7 @@ namespace hbvm {
 ///     q_1 = q_0 + h M^-1 (p_0 + p_1)/2,                                            g(q_1) = 0,
 ///     p_1 = p_0 + h (DU(q_0, q_1) - grad g((q_0 + q_1)/2) lambda),
 ///
-/// DU the discrete gradient of U (DiscreteForce). That of g, which is quadratic, is its gradient in the middle: so the
+/// DU the discrete gradient of U, a DiscreteForce. That of g, which is quadratic, is its gradient in the middle: so the
 /// step keeps H whatever U is, and the linear and angular momenta that effects and constraints keep. g(q_1) = g(q_0) is
 /// the hidden constraint of (p_0 + p_1)/2 in the middle, which is solved for: of g(q_1) = 0 itself the round-off over h
 /// would be in the momenta. p_1 alone leaves the hidden constraints by O(h^2).

@@ -15,6 +15,9 @@ struct MethodFamily {
 
 /// All there are.
 const std::vector<MethodFamily>& method_families();
+/// One more, unless one of its name is there: of a method that needs what this folder must not know, as `taylor`, or of
+/// a program of one's own. Before threads are started.
+void add_method_family(const MethodFamily& family);
 
 /// \throws InputError for a family or arguments that do not exist, with what there is
 MethodPtr parse_method(std::string_view text);

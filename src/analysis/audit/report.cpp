@@ -17,7 +17,7 @@ namespace {
 using Json = OrderedJson;
 
 std::string_view name_of(Form form) {
-  constexpr std::string_view names[] = {"at least", "exactly", "round-off", "near"};
+  constexpr std::string_view names[] = {"at least", "exactly", "round-off", "near", "digits"};
   return names[static_cast<int>(form)];
 }
 std::string_view name_of(Span span) { return span == Span::step ? "step" : "interval"; }

@@ -1,0 +1,95 @@
+#include "hbvm/reference/taylor_method.hpp"
+
+#include "hbvm/error.hpp"
+#include "hbvm/linear/arrays.hpp"
+#include "hbvm/reference/taylor.hpp"
+#include "hbvm/scalar/in_place.hpp"
+#include "hbvm/step/registry.hpp"
+
+namespace hbvm {
+namespace {
+
+class TaylorStepper final : public Stepper<Mpfr> {
+ public:
+  explicit TaylorStepper(const Problem<Mpfr>& problem)
+      : problem_(problem), multiplier_(Vector<Mpfr>::Zero(problem.nu())), effects_(problem.potential.terms.size()) {}
+
+  const Problem<Mpfr>& problem() const override { return problem_; }
+
+  /// \return steps of the series
+  long step(State<Mpfr>& state, const Mpfr& h) override {
+    const PartCall counted(series_, timed_);
+    try {
+      TaylorMotion motion(problem_, state.q, state.p);
+      motion.advance_to(h);
+      const auto steps = static_cast<std::uint64_t>(motion.steps() + 1);
+      for (std::size_t t = 0; t < effects_.size(); ++t) {
+        effects_[t].calls += steps;
+        effects_[t].evaluations += steps * static_cast<std::uint64_t>(motion.order());
+      }
+      set(state.q, motion.q());
+      set(state.p, motion.p());
+      set_zero(state.q_carry);
+      set_zero(state.p_carry);
+      if (problem_.nu() > 0) set(multiplier_, motion.lambda());
+      return static_cast<long>(steps);
+    } catch (const IntegrationError& error) {
+      throw StageFailure(FailureCause::stage_equations_diverge,
+                         std::string("from the start of the step, ") + error.what(), "inf", 0);
+    }
+  }
+
+  const Vector<Mpfr>& multiplier() const override { return multiplier_; }
+  /// The evaluations of an effect are coefficients of the series of its force.
+  SolverCounts counts() const override { return sum_of(earlier_, SolverCounts{effects_, {series_}}, problem_); }
+  void measure_time() override { timed_ = true; }
+  void remember(Archive& archive) override {
+    archive(multiplier_);
+    remember_counts(archive, earlier_);
+  }
+
+ private:
+  const Problem<Mpfr>& problem_;
+  Vector<Mpfr> multiplier_;
+  std::vector<EffectCount> effects_;
+  PartCount series_{"Taylor series"};
+  bool timed_ = false;
+  SolverCounts earlier_;  ///< those of a run that this one continues
+};
+
+class TaylorMethod final : public MethodByTemplate<TaylorMethod> {
+ public:
+  std::string text() const override { return "taylor"; }
+  std::string title() const override { return "Taylor series"; }
+  /// Of a method it is compared with: its own is some 0.6 of the bits.
+  int order() const override { return 30; }
+  int stages() const override { return 15; }
+  int terms() const override { return 30; }
+  /// To round-off, as it finds everything.
+  Kept kept() const override {
+    return {.energy = true, .momenta = true, .constraints = true, .hidden = true, .reversal = true};
+  }
+  /// As many as there are; claims are decided with so many, and some more.
+  std::optional<int> digits() const override { return 40; }
+
+  template <Scalar S>
+  StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind) const {
+    if constexpr (std::same_as<S, Mpfr>)
+      return [&problem] { return std::make_unique<TaylorStepper>(problem); };
+    else
+      throw InputError("method taylor computes its series with MPFR: say --precision mpfr:DIGITS");
+  }
+};
+
+}  // namespace
+
+MethodPtr taylor_method(std::string_view arguments) {
+  if (!arguments.empty())
+    throw InputError("method taylor takes no arguments, its order follows from the digits; it has '" +
+                     std::string(arguments) + "'");
+  return std::make_shared<const TaylorMethod>();
+}
+
+void add_taylor_method() { add_method_family({"taylor", "taylor", taylor_method}); }
+
+}  // namespace hbvm
