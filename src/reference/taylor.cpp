@@ -198,6 +198,9 @@ void TaylorMotion::project() {
   problem_.mass.velocity(lanes(std::as_const(shift)), lanes(weighted_));
   for (Index j = 0; j < m; ++j) set_difference(q_series(j)[0], q_series(j)[0], weighted_[j]);
   set_forms(0);
+  // By the matrix from before the multiplier would be wrong by what the shift was right by, and errors grow from step
+  // to step by the square of the angle that a body turns through.
+  factor_gram();
   // Of the momenta, by G_0 there.
   for (Index a = 0; a < nu; ++a) set_zero(rhs_[a]);
   for (std::size_t l = 0; l < forms_.size(); ++l)
