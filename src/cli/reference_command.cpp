@@ -101,7 +101,7 @@ void print(const Scene& scene, const Reference& r) {
   }
   fmt::print("\n");
   for (const RouteReport& route : r.routes)
-    fmt::print("{:<8}{}, {:.3g} s of processor time\n", route.name, route.settings, route.cpu_seconds);
+    fmt::print("{:<13}{}, {:.3g} s of processor time\n", route.name, route.settings, route.cpu_seconds);
   fmt::print("the motion magnifies an error of the start by 10^{:.1f}\n", r.digits_lost);
 }
 
@@ -302,14 +302,16 @@ void reference_command(const ReferenceArguments& o) {
 
 void add_reference_command(CLI::App& app) {
   auto o = std::make_shared<ReferenceArguments>();
-  CLI::App* const command = app.add_subcommand(
-      "reference", "A solution with as many digits as asked for, each found by two routes that share only the scene");
+  CLI::App* const command = app.add_subcommand("reference",
+                                               "A solution with as many digits as asked for, each found by two routes "
+                                               "that share only the scene, and by the closed "
+                                               "form where there is one");
   command->add_option("SCENE,--scene", o->scene, "Scene file or built-in scene");
   command->add_option("--until", o->until, "Time of the state, as 10 or 2pi");
   command->add_option("--at", o->at, "Times T1,T2,... of the states instead, ascending")->delimiter(',');
   command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")
       ->capture_default_str();
-  command->add_option("--route", o->route, "taylor or hbvm alone, which confirms nothing");
+  command->add_option("--route", o->route, "taylor, hbvm or closed_form alone, which confirms nothing");
   command->add_option("--out", o->out, "Write it to this file, in TOML");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->add_flag("--list", o->list, "List the references that are shipped");

@@ -62,7 +62,7 @@ Agreement::Agreement(const Assembled<Mpfr>& scene, const std::vector<Expression>
       throw IntegrationError(
           fmt::format("route {} found {} of {} times", run.name, run.run.points.size(), times.size()));
     for (std::size_t n = 0; n < times.size(); ++n) {
-      const RoutePoint& at = run.run.points[n];
+      const ExactPoint& at = run.run.points[n];
       std::size_t v = 0;
       const auto add = [&](const std::string& name, const Vector<Mpfr>& value, const Mpfr& natural) {
         std::vector<Compared>& vectors = states_[n].vectors;

@@ -56,41 +56,51 @@ class Attempt {
   Attempt(const ReferenceRequest& request, const MotionNature& nature, int guard)
       : request_(request),
         nature_(nature),
-        digits_(static_cast<unsigned>(request.digits + std::ceil(nature.digits_lost) + guard)) {}
+        digits_(static_cast<unsigned>(request.digits + std::ceil(nature.digits_lost) + guard)),
+        without_hbvm_(!request.only && closed_form_serves()) {}
 
   unsigned digits() const { return digits_; }
 
+  /// \throws InputError if there is no such route for this scene
   std::vector<NamedRun> run() {
-    std::vector<std::future<NamedRun>> futures;
-    for (const Route route : {Route::taylor, Route::hbvm})
-      if (!request_.only || *request_.only == route)
-        futures.push_back(std::async(std::launch::async, [this, route] {
-          return NamedRun{name_of(route), run(route)};
-        }));
+    std::vector<std::pair<Route, std::future<std::optional<RouteRun>>>> futures;
+    for (const Route route : all_routes)
+      if (request_.only ? *request_.only == route : route != Route::hbvm || !without_hbvm_)
+        futures.emplace_back(route, std::async(std::launch::async, [this, route] { return run(route); }));
     std::vector<NamedRun> runs;
     std::exception_ptr failure;
-    for (auto& future : futures) try {
-        runs.push_back(future.get());
+    for (auto& [route, future] : futures) try {
+        if (auto run = future.get()) runs.push_back({name_of(route), std::move(*run)});
       } catch (...) {
         if (!failure) failure = std::current_exception();
       }
     if (failure) std::rethrow_exception(failure);
+    if (runs.empty()) throw InputError("no closed form of the motion of '" + request_.scene.name + "' is known");
     return runs;
   }
 
  private:
-  RouteRun run(Route route) {
+  /// Where HBVM has not stages enough for so many digits it would take ten times as long as Taylor series and more; a
+  /// closed form confirms them as well.
+  bool closed_form_serves() const {
+    if (static_cast<int>(digits_) <= most_digits_of_hbvm) return false;
+    const PrecisionScope scope(digits_);
+    return closed_form_of(assemble<Mpfr>(request_.scene)) != nullptr;
+  }
+
+  std::optional<RouteRun> run(Route route) {
     const PrecisionScope scope(digits_);
     const Assembled<Mpfr> scene = assemble<Mpfr>(request_.scene);
     const std::vector<Mpfr> times = evaluated(request_.times, request_.scene.constants);
-    double& own = route == Route::taylor ? taylor_done_ : hbvm_done_;
     const RouteProgress progress = [&](double part) {
       if (!request_.progress) return;
       const std::lock_guard lock(reporting_);
-      own = part;
-      request_.progress(request_.only ? part : std::min(taylor_done_, hbvm_done_));
+      if (route == Route::taylor) taylor_done_ = part;
+      if (route == Route::hbvm) hbvm_done_ = part;
+      request_.progress(request_.only || without_hbvm_ ? part : std::min(taylor_done_, hbvm_done_));
     };
     if (route == Route::taylor) return taylor_route(scene, times, progress);
+    if (route == Route::closed_form) return closed_form_route(scene, times, progress);
     // What errors grow by, and a few for their sum.
     constexpr int few = 3;
     return hbvm_route(scene, times, static_cast<double>(digits_) - few, nature_, progress);
@@ -99,18 +109,21 @@ class Attempt {
   const ReferenceRequest& request_;
   const MotionNature& nature_;
   unsigned digits_;
+  bool without_hbvm_;
   double taylor_done_ = 0, hbvm_done_ = 0;
   std::mutex reporting_;
 };
 
 }  // namespace
 
-const char* name_of(Route route) { return route == Route::taylor ? "taylor" : "hbvm"; }
+const char* name_of(Route route) {
+  return route == Route::taylor ? "taylor" : route == Route::hbvm ? "hbvm" : "closed_form";
+}
 
 Route parse_route(std::string_view name) {
-  for (const Route route : {Route::taylor, Route::hbvm})
+  for (const Route route : all_routes)
     if (name == name_of(route)) return route;
-  throw InputError("unknown route '" + std::string(name) + "': there are taylor and hbvm");
+  throw InputError("unknown route '" + std::string(name) + "': there are taylor, hbvm and closed_form");
 }
 
 std::string scene_hash(const Scene& scene) {

@@ -139,6 +139,21 @@ RouteRun hbvm_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times
   }
 }
 
+std::optional<RouteRun> closed_form_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times,
+                                          const RouteProgress& progress) {
+  const double before = thread_seconds();
+  const std::unique_ptr<ClosedForm> motion = closed_form_of(scene);
+  if (!motion) return std::nullopt;
+  RouteRun run;
+  for (const Mpfr& t : times) {
+    run.points.push_back(motion->at(t));
+    progress(approximately(Mpfr(t / times.back())));
+  }
+  run.settings = fmt::format("closed form: {}, {} digits", motion->name(), motion->working_digits());
+  run.cpu_seconds = thread_seconds() - before;
+  return run;
+}
+
 MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times, const RouteProgress& progress) {
   // A change that grows to a thousandth of what it changes tells its rate: from there on it is taken to grow like that.
   constexpr double lost = -3;

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "hbvm/error.hpp"
-#include "hbvm/reference/closed_form.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/rattle.hpp"
 #include "printing.hpp"
+#include "reference/known_motion.hpp"
 
 namespace hbvm {
 namespace {
@@ -27,11 +27,11 @@ std::string pendulum(int digit, const std::string& names = "t,bob.x,bob.y,bob.px
   const PrecisionScope scope(80);
   std::string csv = names + "\n";
   for (const char* t : {"1", "2", "4"}) {
-    const auto exact = closed_form("simple_pendulum", literal<Mpfr>(t));
-    Mpfr x = exact->q[0];
+    const ExactPoint exact = known_motion("simple_pendulum", literal<Mpfr>(t));
+    Mpfr x = exact.q[0];
     if (std::string(t) != "1") x += literal<Mpfr>("1e-" + std::to_string(digit));
-    csv += fmt::format("{},{},{},{},{}\n", t, to_scientific(x, 55), to_scientific(exact->q[1], 55),
-                       to_scientific(exact->p[0], 55), to_scientific(exact->p[1], 55));
+    csv += fmt::format("{},{},{},{},{}\n", t, to_scientific(x, 55), to_scientific(exact.q[1], 55),
+                       to_scientific(exact.p[0], 55), to_scientific(exact.p[1], 55));
   }
   return csv;
 }
@@ -60,9 +60,8 @@ TEST(Against, ReadsAngles) {
   const PrecisionScope scope(60);
   std::string csv = "# by another program\nseconds, theta\n";
   for (const char* t : {"0", "1/2", "3"}) {
-    const auto exact = closed_form("simple_pendulum", literal<Mpfr>(t));
-    csv +=
-        fmt::format("{}, {}\n", to_text(literal<Mpfr>(t)), to_scientific(Mpfr(atan2(exact->q[0], -exact->q[1])), 30));
+    const ExactPoint exact = known_motion("simple_pendulum", literal<Mpfr>(t));
+    csv += fmt::format("{}, {}\n", to_text(literal<Mpfr>(t)), to_scientific(Mpfr(atan2(exact.q[0], -exact.q[1])), 30));
   }
   AgainstRequest request = request_of(csv);
   request.map = {{"seconds", "t"}, {"sin(theta)", "bob.x"}, {"-cos(theta)", "bob.y"}};

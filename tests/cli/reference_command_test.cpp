@@ -30,12 +30,24 @@ TEST(ReferenceCommand, PrintsJson) {
   }
   // q_1 = -sin(theta) of Jacobi's functions, t = 10.
   EXPECT_EQ(j["times"][1]["q"][0].get<std::string>().substr(0, 32), "0.114003850418645211312316725708");
-  ASSERT_EQ(j["routes"].size(), 2u);
+  ASSERT_EQ(j["routes"].size(), 3u);
+  EXPECT_EQ(j["routes"][2]["name"], "closed_form");
   for (const auto& route : j["routes"]) {
     EXPECT_TRUE(route["settings"].is_string());
     EXPECT_GT(route["cpu_seconds"], 0);
   }
   for (const char* key : {"scene_hash", "version", "command"}) EXPECT_TRUE(j[key].is_string()) << key;
+}
+
+TEST(ReferenceCommand, GivesTheClosedFormAloneIfThereIsOne) {
+  const Outcome known =
+      hbvm({"reference", "spherical_pendulum", "--until", "3", "--digits", "20", "--route", "closed_form"});
+  EXPECT_EQ(known.code, 0) << known.err;
+  EXPECT_NE(known.out.find("by one route"), std::string::npos) << known.out;
+  EXPECT_NE(known.out.find("closed form: spherical pendulum (elliptic integrals)"), std::string::npos) << known.out;
+  const Outcome unknown = hbvm({"reference", "heavy_top", "--until", "1", "--digits", "20", "--route", "closed_form"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("no closed form of the motion of 'heavy_top' is known"), std::string::npos) << unknown.err;
 }
 
 /// A digit of a number of the second time, in the middle or the last, of whatever is stored: it is found, and named

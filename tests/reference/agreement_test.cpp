@@ -102,10 +102,10 @@ TEST_F(RoutesAgreement, FindsTheNumberThatDiffers) {
           EXPECT_EQ(found.values[other].number == found.values[which].number, other == which);
       }
     };
-    expect("q_1", [](RoutePoint& at) -> Mpfr& { return at.q[0]; });
-    expect("q_2", [](RoutePoint& at) -> Mpfr& { return at.q[1]; });
-    expect("p_2", [](RoutePoint& at) -> Mpfr& { return at.p[1]; });
-    expect("lambda_1", [](RoutePoint& at) -> Mpfr& { return at.lambda[0]; });
+    expect("q_1", [](ExactPoint& at) -> Mpfr& { return at.q[0]; });
+    expect("q_2", [](ExactPoint& at) -> Mpfr& { return at.q[1]; });
+    expect("p_2", [](ExactPoint& at) -> Mpfr& { return at.p[1]; });
+    expect("lambda_1", [](ExactPoint& at) -> Mpfr& { return at.lambda[0]; });
   }
 }
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include "hbvm/reference/closed_form.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
+#include "reference/known_motion.hpp"
 
 namespace hbvm {
 namespace {
@@ -27,7 +27,7 @@ class ReferenceMotionTest : public ::testing::Test {
   }
   /// log2 of the error of q, p and lambda.
   double true_error(const ReferenceMotion& m) const {
-    const ExactPoint exact = *closed_form("simple_pendulum", duration);
+    const ExactPoint exact = known_motion("simple_pendulum", duration);
     Point<Mpfr> point(pendulum.problem);
     Mpfr error = max_norm(Vector<Mpfr>(m.q() - exact.q));
     raise_to(error, max_norm(Vector<Mpfr>(m.p() - exact.p)));
@@ -51,7 +51,7 @@ TEST_F(ReferenceMotionTest, ErrorIsAtLeastTheTrueOneAndNotFarAbove) {
 
 /// The estimates are the errors of the run before, of two stages less, which a run of one's own shows.
 TEST_F(ReferenceMotionTest, ErrorsAreThoseOfTheRunBefore) {
-  const ExactPoint exact = *closed_form("simple_pendulum", duration);
+  const ExactPoint exact = known_motion("simple_pendulum", duration);
   Point<Mpfr> point(pendulum.problem);
   const Vector<Mpfr> exact_lambda = point.multiplier(exact.q, exact.p);
   for (const auto& [steps, stages] : {std::pair(1, 2), {2, 3}, {4, 4}}) {
@@ -90,7 +90,7 @@ TEST_F(ReferenceMotionTest, MoreDigitsGoDeeper) {
   ReferenceMotion m(scene.problem, scene.q0, scene.p0, literal<Mpfr>("1/2"), 2, 10);
   for (int n = 0; n < 40 && m.refine(); ++n) {
   }
-  const ExactPoint exact = *closed_form("simple_pendulum", literal<Mpfr>("1/2"));
+  const ExactPoint exact = known_motion("simple_pendulum", literal<Mpfr>("1/2"));
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(m.q() - exact.q))), round_off());
 }
 
@@ -122,7 +122,7 @@ TEST_F(ReferenceMotionTest, PolynomialsAreOfTheLastStep) {
   EXPECT_EQ(m.polynomials().h, Mpfr(duration / 4));
   Vector<Mpfr> u(2), v(2);
   m.polynomials().at(pendulum.problem, Mpfr(0), u, v);
-  const ExactPoint before = *closed_form("simple_pendulum", Mpfr(duration * 3 / 4));
+  const ExactPoint before = known_motion("simple_pendulum", Mpfr(duration * 3 / 4));
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(u - before.q))), greatest_error(m));
   Point<Mpfr> point(pendulum.problem);
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(point.tangential(u, v) - before.p))), greatest_error(m));
@@ -139,7 +139,7 @@ TEST_F(ReferenceMotionTest, PolynomialsFollowTheMotion) {
     for (int n = 1; n < 8; ++n) {
       const Mpfr tau = Mpfr(n) / 8;
       m.polynomials().at(pendulum.problem, tau, u, v);
-      const ExactPoint exact = *closed_form("simple_pendulum", Mpfr(tau * time));
+      const ExactPoint exact = known_motion("simple_pendulum", Mpfr(tau * time));
       raise_to(error, max_norm(Vector<Mpfr>(u - exact.q)));
       raise_to(error, max_norm(Vector<Mpfr>(v - exact.p)));
     }

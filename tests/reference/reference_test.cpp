@@ -1,9 +1,9 @@
 #include "hbvm/reference/reference.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/reference/closed_form.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "reference/known_motion.hpp"
 
 namespace hbvm {
 namespace {
@@ -23,11 +23,11 @@ TEST(ReferenceSolution, HasTheDigitsOfClosedForms) {
     for (const char* name : {"simple_pendulum", "conical_pendulum"}) {
       const Reference reference = compute_reference(request_of(name, {"1/2", "3"}, digits));
       ASSERT_EQ(reference.times.size(), 2u);
-      EXPECT_EQ(reference.routes.size(), 2u);
+      EXPECT_EQ(reference.routes.size(), 3u);
       const PrecisionScope scope(200);
       for (const ReferenceState& state : reference.times) {
         EXPECT_GT(state.agreed, digits);
-        const auto exact = closed_form(name, literal<Mpfr>(state.t));
+        const ExactPoint exact = known_motion(name, literal<Mpfr>(state.t));
         const auto compare = [&](const std::vector<std::string>& texts, const Vector<Mpfr>& values) {
           const Mpfr size = max_norm(values);
           // 10^(leading - digits), with the leading exponent of the greatest component.
@@ -43,8 +43,8 @@ TEST(ReferenceSolution, HasTheDigitsOfClosedForms) {
             EXPECT_LE(count, static_cast<std::size_t>(digits) + 3) << texts[j];
           }
         };
-        compare(state.q, exact->q);
-        compare(state.p, exact->p);
+        compare(state.q, exact.q);
+        compare(state.p, exact.p);
       }
     }
 }
@@ -61,7 +61,7 @@ TEST(ReferenceSolution, OfAChaoticMotionHasItsDigitsToo) {
 TEST(ReferenceSolution, ByOneRouteConfirmsNothing) {
   ReferenceRequest request = request_of("simple_pendulum", {"1"}, 20);
   const Reference both = compute_reference(request);
-  for (const Route route : {Route::taylor, Route::hbvm}) {
+  for (const Route route : all_routes) {
     request.only = route;
     const Reference one = compute_reference(request);
     ASSERT_EQ(one.routes.size(), 1u);
@@ -70,6 +70,19 @@ TEST(ReferenceSolution, ByOneRouteConfirmsNothing) {
     EXPECT_EQ(one.times[0].q, both.times[0].q);
     EXPECT_EQ(one.times[0].lambda, both.times[0].lambda);
   }
+}
+
+/// The closed form is one of the routes where there is one, and is refused where there is none.
+TEST(ReferenceSolution, TakesClosedFormsWhereTheyAreKnown) {
+  const Reference kepler = compute_reference(request_of("kepler", {"3"}, 20)),
+                  chaotic = compute_reference(request_of("double_pendulum", {"1/2"}, 10));
+  ASSERT_EQ(kepler.routes.size(), 3u);
+  EXPECT_EQ(kepler.routes[2].name, "closed_form");
+  EXPECT_EQ(kepler.routes[2].settings.substr(0, 29), "closed form: Kepler's problem");
+  EXPECT_EQ(chaotic.routes.size(), 2u);
+  ReferenceRequest request = request_of("double_pendulum", {"1/2"}, 10);
+  request.only = Route::closed_form;
+  EXPECT_THROW(compute_reference(request), InputError);
 }
 
 TEST(ReferenceSolution, RefusesWhatItCannotGive) {

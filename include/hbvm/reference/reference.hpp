@@ -10,9 +10,10 @@
 
 namespace hbvm {
 
-/// The ways to a reference solution that share nothing but the scene: the Taylor series of TaylorMotion, and Gauss
-/// methods of high order, HBVM(s,s), with their output state.
-enum class Route { taylor, hbvm };
+/// The ways to a reference solution that share nothing but the scene: the Taylor series of TaylorMotion, Gauss methods
+/// of high order, HBVM(s,s), with their output state, and the closed form of the motion where one is known.
+enum class Route { taylor, hbvm, closed_form };
+inline constexpr Route all_routes[] = {Route::taylor, Route::hbvm, Route::closed_form};
 const char* name_of(Route route);
 /// \throws InputError
 Route parse_route(std::string_view name);
@@ -32,7 +33,7 @@ struct ReferenceState {
   std::vector<std::string> q, p, lambda;  ///< p tangential, lambda of (Theorem lamex)
   std::string H;
   std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
-  long agreed = 0;  ///< digits after the leading one on which the routes agree, the least of all vectors
+  long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors
 };
 
 struct RouteReport {
@@ -49,10 +50,11 @@ struct Reference {
   double digits_lost = 0;  ///< by which the motion magnifies an error of the start, in decimal digits
 };
 
-/// The state at the times, each digit found by both routes; order, step, precision and guard digits are chosen here:
-/// from the growth of a small change of the start and the radius of convergence of the series, at low precision. Where
-/// the routes agree in fewer digits, both are made again with more.
-/// \throws InputError for digits or times out of range; IntegrationError where the motion ends, or the routes never
+/// The state at the times, each digit found by two routes, and by the closed form, too, of a motion that has one;
+/// order, step, precision and guard digits are chosen here: from the growth of a small change of the start and the
+/// radius of convergence of the series, at low precision. Where the routes agree in fewer digits, both are made again
+/// with more. \throws InputError for digits or times out of range, or if `only` is a closed form and none is known;
+/// IntegrationError where the motion ends, or the routes never
 /// agree, with both values
 Reference compute_reference(const ReferenceRequest& request);
 

@@ -1,23 +1,19 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "hbvm/scene/assemble.hpp"
+#include "hbvm/reference/closed_form/closed_form.hpp"
 
 namespace hbvm {
 
-/// A state of the exact motion as one route found it, in the digits of its scope.
-struct RoutePoint {
-  Vector<Mpfr> q, p, lambda;
-};
-
-/// What one route found, and how.
+/// What one route found, and how, in the digits of its scope.
 struct RouteRun {
   std::string settings;
   double cpu_seconds = 0;
-  std::vector<RoutePoint> points;
+  std::vector<ExactPoint> points;
 };
 
 /// Called with the part of the time that is done.
@@ -34,6 +30,11 @@ struct Calm {
   int doublings = 0;
 };
 
+/// The states by the scene's closed form, or nothing if none is known.
+/// \throws IntegrationError
+std::optional<RouteRun> closed_form_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times,
+                                          const RouteProgress& progress);
+
 /// What a motion does to errors, and how far from the time axis its nearest singularity lies.
 struct MotionNature {
   double digits_lost = 0;  ///< log10 of the factor by which a change of the start grows until the last time, at least 0
@@ -41,7 +42,10 @@ struct MotionNature {
   std::vector<Calm> calm = {};  ///< parts of the time from 0 on; after the last it is the least
 };
 
-/// The same by HBVM(s,s) with so many digits right, if the motion is analytic within 2^log2_radius of the time axis,
+/// With so many digits HBVM has not the stages that it would need.
+inline constexpr int most_digits_of_hbvm = 20 * max_s / 9;
+
+/// The states by HBVM(s,s) with so many digits right, if the motion is analytic within 2^log2_radius of the time axis,
 /// and farther where it is calm: steps are longer there.
 /// \throws IntegrationError
 RouteRun hbvm_route(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, double digits,

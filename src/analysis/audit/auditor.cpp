@@ -9,7 +9,6 @@
 #include "exactness.hpp"
 #include "hbvm/clock.hpp"
 #include "hbvm/interruption.hpp"
-#include "hbvm/reference/closed_form.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/step/hbvm_method.hpp"
@@ -118,8 +117,9 @@ void Auditor::prepare() {
   cell_.starts.lead += options_.first_start * cell_.starts.stride;
   if (unit_.kind == Kind::tableau || unit_.kind == Kind::special) return;
   const std::string& problem = cell_.subject().problem;
-  const bool closed = has_closed_form(problem);
   motion_ = motions_.of(problem);
+  if (motion_.has_closed_form && unit_.kind == Kind::rates)
+    for (std::size_t c = 0; c < cell_.claims.size(); ++c) finding(c).reference = "closed form";
   cell_.log2_scale = motion_.log2_scale;
   cell_.log2_interval = options_.log2_interval;
   const double eighth = std::exp2(cell_.log2_scale - 3), window = std::exp2(cell_.log2_scale + cell_.log2_interval);
@@ -127,13 +127,12 @@ void Auditor::prepare() {
     // The starts share the time between them, and each goes on to the next.
     const PrecisionScope scope(30);
     const double until = approximately(evaluate<Mpfr>(*options_.until));
-    if (closed) cell_.starts.count = 1;
     const double share = until / cell_.starts.count;
     cell_.windows = std::max(1L, std::lround(std::ceil(share / window)));
     cell_.starts.lead = 0;
     cell_.starts.stride = std::max(1L, std::lround(share / eighth));
   }
-  const auto at = [&](long n) { return closed ? 0 : static_cast<double>(n) * eighth; };
+  const auto at = [&](long n) { return static_cast<double>(n) * eighth; };
   const double last = at(cell_.starts.lead + (cell_.starts.count - 1) * cell_.starts.stride);
   for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
     const bool one_step = is_rate(finding(c).claim) && finding(c).claim.span == Span::step;
@@ -173,7 +172,6 @@ std::string Auditor::reference() const {
     case Kind::digits:
       break;
   }
-  if (has_closed_form(subject.problem)) return "closed form";
   return "Gauss methods of " + std::to_string(cell_.stages() + 4) + " stages or more";
 }
 

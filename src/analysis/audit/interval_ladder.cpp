@@ -2,7 +2,6 @@
 #include <deque>
 
 #include "hbvm/problem/momenta.hpp"
-#include "hbvm/reference/closed_form.hpp"
 #include "measurements.hpp"
 #include "sensitivity.hpp"
 #include "sizes.hpp"
@@ -24,7 +23,7 @@ class Destination {
         until_(until),
         steps_(16 * cell.windows),
         most_steps_(8'192 * cell.windows),
-        known_(closed_form(cell.subject().problem, until)) {}
+        known_(laboratory.known(start, until)) {}
 
   /// At least so exact if that can be had: log2 of the errors wanted. More stages are tried first, then shorter steps.
   /// \throws StageFailure

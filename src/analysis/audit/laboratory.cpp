@@ -1,18 +1,20 @@
 #include "laboratory.hpp"
 
-#include <algorithm>
-
-#include "hbvm/reference/closed_form.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
 
 Laboratory::Laboratory(const Cell& cell) : assembled_(assemble<Mpfr>(load_scene(cell.subject().problem))) {
   point_.emplace(assembled_.problem);
-  if (has_closed_form(cell.subject().problem))
-    starts_.push_back({assembled_.q0, assembled_.p0});
-  else
-    walk(cell);
+  walk(cell);
+}
+
+std::optional<ExactPoint> Laboratory::known(const Start& start, const Mpfr& t) const {
+  Assembled<Mpfr> from = assembled_;
+  from.q0 = start.q;
+  from.p0 = start.p;
+  const std::unique_ptr<ClosedForm> motion = closed_form_of(from);
+  return motion ? std::optional(motion->at(t)) : std::nullopt;
 }
 
 void Laboratory::walk(const Cell& cell) {

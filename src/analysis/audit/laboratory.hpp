@@ -5,6 +5,7 @@
 
 #include "cell.hpp"
 #include "hbvm/problem/point.hpp"
+#include "hbvm/reference/closed_form/closed_form.hpp"
 #include "hbvm/scene/assemble.hpp"
 
 namespace hbvm {
@@ -19,13 +20,15 @@ class Laboratory {
     Vector<Mpfr> q, p;
   };
 
-  /// With the starts of a cell; of a scene with a closed form it is the scene's own start alone.
+  /// With the starts of a cell.
   /// \throws InputError, IntegrationError, StageFailure
   explicit Laboratory(const Cell& cell);
 
   const Problem<Mpfr>& problem() const { return assembled_.problem; }
   const std::vector<Start>& starts() const { return starts_; }
   Point<Mpfr>& point() { return *point_; }
+  /// The motion from a start after the time t, if it is known in closed form.
+  std::optional<ExactPoint> known(const Start& start, const Mpfr& t) const;
 
  private:
   void walk(const Cell& cell);

@@ -8,6 +8,7 @@
 #include "hbvm/integrate/coefficient_decay.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/problem/point.hpp"
+#include "hbvm/reference/closed_form/closed_form.hpp"
 #include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
 
@@ -192,6 +193,7 @@ Motion motion_of(const std::string& scene_name) {
   const PrecisionScope scope(30);
   const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
   const Problem<Mpfr>& problem = assembled.problem;
+  motion.has_closed_form = closed_form_of(assembled) != nullptr;
   motion.log2_scale = log2_time_scale(assembled, radius);
   constexpr int s = 6, steps = 8;
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);

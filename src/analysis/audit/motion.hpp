@@ -16,6 +16,7 @@ struct Motion {
   std::string degenerate = {};
   /// Every body moves on a straight line: no angular momentum is tried.
   bool straight = false;
+  bool has_closed_form = false;
 };
 
 /// \throws InputError, IntegrationError, StageFailure

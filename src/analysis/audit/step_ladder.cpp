@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "hbvm/reference/closed_form.hpp"
 #include "measurements.hpp"
 #include "sensitivity.hpp"
 #include "sizes.hpp"
@@ -44,10 +43,10 @@ class StepMeasurement {
       raise(sizes, quantity, log2_of(error), floor);
     };
     Vector<Mpfr> exact_q = exact.q(), exact_p = exact.p(), exact_lambda = exact.lambda();
-    if (const auto point_there = closed_form(cell_.subject().problem, h)) {
-      exact_q = point_there->q;
-      exact_p = point_there->p;
-      exact_lambda = point.multiplier(exact_q, exact_p);
+    if (const auto known = laboratory_.known(start, h)) {
+      exact_q = known->q;
+      exact_p = known->p;
+      exact_lambda = known->lambda;
     }
     add(Quantity::q, distance(q, exact_q), std::max(q_unit, margin.q));
     add(Quantity::p, distance(p, exact_p), std::max(p_unit, margin.p));

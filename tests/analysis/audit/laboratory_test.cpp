@@ -13,14 +13,25 @@ class LaboratoryTest : public ::testing::Test {
   const Mpfr small = 1'000'000 * epsilon<Mpfr>();
 };
 
-TEST_F(LaboratoryTest, StartsWhereTheClosedFormDoes) {
+/// From each start on, one way there and back; no motion is known that has no closed form.
+TEST_F(LaboratoryTest, KnowsMotionsInClosedForm) {
   Cell cell = cell_of("simple_pendulum", {2, 2}, {Quantity::q});
+  cell.log2_scale = -1;
   cell.starts.count = 3;
   const Laboratory laboratory(cell);
-  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("simple_pendulum"));
-  ASSERT_EQ(laboratory.starts().size(), 1u);
-  EXPECT_EQ(laboratory.starts()[0].q, scene.q0);
-  EXPECT_EQ(laboratory.starts()[0].p, scene.p0);
+  ASSERT_EQ(laboratory.starts().size(), 3u);
+  for (const Laboratory::Start& start : laboratory.starts()) {
+    const auto known = laboratory.known(start, Mpfr(2));
+    ASSERT_TRUE(known);
+    EXPECT_GT(distance(known->q, start.q), Mpfr(1) / 10);
+    const auto back = laboratory.known({known->q, known->p}, Mpfr(-2));
+    ASSERT_TRUE(back);
+    EXPECT_LE(distance(back->q, start.q), small);
+    EXPECT_LE(distance(back->p, start.p), small);
+  }
+  cell = cell_of("double_pendulum", {2, 2}, {Quantity::q});
+  const Laboratory other(cell);
+  EXPECT_FALSE(other.known(other.starts()[0], Mpfr(1)));
 }
 
 /// On the motion one after the other: consistent, of the scene's energy, and where the stride says.

@@ -1,0 +1,32 @@
+#include "reference/closed_form/symmetric_eigen.hpp"
+
+namespace hbvm {
+
+SymmetricEigen::SymmetricEigen(Matrix<Mpfr> a) : values(a.rows()), vectors(Matrix<Mpfr>::Identity(a.rows(), a.rows())) {
+  const Index n = a.rows();
+  const Mpfr negligible = epsilon<Mpfr>() * max_norm(a) / 16;
+  bool rotated = true;
+  while (rotated) {
+    rotated = false;
+    for (Index i = 0; i < n; ++i)
+      for (Index j = i + 1; j < n; ++j) {
+        if (magnitude(a(i, j)) <= negligible) continue;
+        rotated = true;
+        const Mpfr half = (a(j, j) - a(i, i)) / (2 * a(i, j)), root = sqrt(Mpfr(1 + half * half)),
+                   t = half >= 0 ? Mpfr(1 / (half + root)) : Mpfr(-1 / (root - half)), c = 1 / sqrt(Mpfr(1 + t * t)),
+                   s = t * c;
+        const auto rotate = [&](Mpfr& x, Mpfr& y) {
+          const Mpfr old = x;
+          x = c * old - s * y;
+          y = s * old + c * y;
+        };
+        for (Index l = 0; l < n; ++l) rotate(a(l, i), a(l, j));
+        for (Index l = 0; l < n; ++l) rotate(a(i, l), a(j, l));
+        for (Index l = 0; l < n; ++l) rotate(vectors(l, i), vectors(l, j));
+        a(i, j) = a(j, i) = 0;
+      }
+  }
+  for (Index i = 0; i < n; ++i) values[i] = a(i, i);
+}
+
+}  // namespace hbvm

@@ -1,0 +1,95 @@
+#include "reference/closed_form/rigid_scenes.hpp"
+
+namespace hbvm {
+namespace {
+
+constexpr const char* body_name = "free rigid body";
+
+/// About any axis: on either side of the separatrix, and in either sense.
+TEST(FreeRigidBody, TumblesAsTaylorSeriesDo) {
+  for (const char* omega : {"[\"1/3\", -2, 1]", "[2, 1, \"1/2\"]", "[\"-1/10\", \"-1/5\", \"3/2\"]", "[0, 1, 0]",
+                            "[-2, \"1/9\", \"-7/5\"]", "[\"8/9\", \"-1/9\", \"4/9\"]"}) {
+    RigidScene scene;
+    scene.omega = omega;
+    expect_follows_taylor(scene.text(), body_name, {"1/3", "20"}, 40, 10);
+  }
+}
+
+/// Directors 4/9 4/9 7/9, ... are the principal axes: about each of them, exactly and nearly.
+TEST(FreeRigidBody, TurnsAboutItsPrincipalAxes) {
+  RigidScene scene;
+  for (const char* omega : {"[\"4/3\", \"4/3\", \"7/3\"]", "[\"1/9\", \"-8/9\", \"4/9\"]",
+                            "[\"8/9\", \"-1/9\", \"-4/9\"]", "[\"-8/9\", \"1/9\", \"4/9\"]"}) {
+    scene.omega = omega;
+    expect_follows_taylor(scene.text(), body_name, {"1/3", "10"}, 50, 16);
+  }
+  // Beside them the motion about the middle axis is unstable.
+  for (const char* off : {"1e-25", "1e-12", "1e-4"})
+    for (const std::string axis : {"\"8/9 + x\", \"-1/9\", \"-4/9\"", "\"1/9 + x\", \"-8/9\", \"4/9 - x\"",
+                                   "\"4/9 + x\", \"4/9 + x\", \"7/9\""}) {
+      scene.omega = "[" + axis + "]";
+      std::string text = scene.text();
+      text.insert(text.find('\n') + 1, "[constants]\nx = \"" + std::string(off) + "\"\n");
+      expect_follows_taylor(text, body_name, {"1/3", "10"}, 50, 16);
+    }
+}
+
+/// Two moments equal, of the greater or the less; turning across the axis of symmetry and obliquely; and all three.
+TEST(FreeRigidBody, OfSymmetricBodies) {
+  for (const char* moments :
+       {"[[\"1/2\", 0, 0], [0, \"1/2\", 0], [0, 0, \"1/4\"]]", "[[\"1/2\", 0, 0], [0, \"1/4\", 0], [0, 0, \"1/4\"]]",
+        "[[\"1/5\", 0, 0], [0, \"1/5\", 0], [0, 0, \"1/5\"]]"})
+    for (const char* omega : {"[\"1/3\", -2, 1]", "[\"4/9\", \"4/9\", \"7/9\"]", "[\"1/9\", \"-8/9\", \"4/9\"]",
+                              "[\"8/9\", \"-1/9\", \"-4/9\"]", "[\"5/9\", \"-4/9\", \"11/9\"]"}) {
+      RigidScene scene;
+      scene.second_moment = moments;
+      scene.omega = omega;
+      const bool sphere = std::string(moments).find("1/5") != std::string::npos;
+      expect_follows_taylor(scene.text(), sphere ? "uniform rotation" : body_name, {"1/3", "10"}, 40, 10);
+    }
+}
+
+TEST(FreeRigidBody, OfPointsAndRods) {
+  expect_follows_taylor(cluster(triangle, "1/7"), body_name, {"1/3", "20"}, 40, 10);
+  expect_follows_taylor(cluster(tetrahedron, "1/7"), body_name, {"1/3", "20"}, 40, 10);
+  // Held at a point, and falling.
+  expect_follows_taylor(cluster(triangle, "0", "o"), body_name, {"1/3", "20"}, 40, 10);
+  expect_follows_taylor(cluster(tetrahedron, "1/7", "", field("[1, -3, \"1/2\"]")), body_name, {"1/3", "20"}, 40, 10);
+}
+
+TEST(FreeRigidBody, AwayFromItsCentreAndFallingAndHeld) {
+  RigidScene scene;
+  scene.center = "[\"1/5\", \"-1/10\", \"1/10\"]";
+  scene.second_moment =
+      "[[\"29/50\", \"-1/25\", \"1/25\"], [\"-1/25\", \"53/150\", \"-1/50\"], [\"1/25\", \"-1/50\", \"27/100\"]]";
+  expect_follows_taylor(scene.text(), body_name, {"1/3", "20"}, 40, 10);
+  scene.more = field("[1, -3, \"1/2\"]");
+  expect_follows_taylor(scene.text(), body_name, {"1/3", "20"}, 40, 10);
+  scene.more = "";
+  scene.fixed = "[1, 2, 3]";
+  expect_follows_taylor(scene.text(), body_name, {"1/3", "20"}, 40, 10);
+}
+
+TEST(FreeRigidBody, NothingElseMayAct) {
+  RigidScene scene;
+  scene.fixed = "[1, 2, 3]";
+  scene.center = "[\"1/5\", \"-1/10\", \"1/10\"]";
+  scene.second_moment =
+      "[[\"29/50\", \"-1/25\", \"1/25\"], [\"-1/25\", \"53/150\", \"-1/50\"], [\"1/25\", \"-1/50\", \"27/100\"]]";
+  scene.more = field("[1, -3, \"1/2\"]");
+  expect_unknown(scene.text());
+  expect_unknown(cluster(tetrahedron, "1/7", "",
+                         "[[effect]]\nkind = \"spring\"\nbetween = [[\"b0\", \"o\"]]\nstiffness = \"1e-12\"\n"));
+  // A field on one of them, and one body more.
+  expect_unknown(cluster(triangle, "1/7", "", field("[1, -3, \"1/2\"]\non = [\"b1\"]")));
+  expect_unknown(cluster(triangle, "1/7", "",
+                         "[[body]]\nname = \"other\"\nmass = 1\nposition = [9, 9, 9]\nvelocity = [0, 0, 0]\n"));
+}
+
+TEST(FreeRigidBody, HasAThousandDigits) {
+  const RigidScene scene;
+  expect_solves_equations(scene.text(), {"10"}, 1000);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,84 @@
+#include "reference/closed_form/recognition.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hbvm/scalar/literal.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+const char* const scene_text =
+    "dimension = 3\n[[point]]\nname = \"o\"\nposition = [1, 2, 3]\n[[body]]\nname = \"a\"\nmass = [[2, 0, 0], [0, 2, "
+    "0], "
+    "[0, 0, 2]]\nposition = [1, 2, 1]\nvelocity = [1, 0, 0]\n[[body]]\nname = \"b\"\nmass = [[2, 0, 0], [0, 2, 0], [0, "
+    "0, 3]]\nposition = [0, 0, 0]\nvelocity = [0, 0, 0]\n[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, 1, "
+    "-3]\n[[effect]]\nkind = \"trap\"\nexponent = 2\ncenter = \"o\"\non = [\"a\"]\nstiffness = ";
+
+TEST(Recognition, KnowsWhatActs) {
+  const PrecisionScope scope(40);
+  const Assembled<Mpfr> idle = assemble<Mpfr>(read_scene(std::string(scene_text) + "0\n", "idle")),
+                        busy = assemble<Mpfr>(read_scene(std::string(scene_text) + "5\n", "busy"));
+  const Recognition one(idle, epsilon<Mpfr>()), other(busy, epsilon<Mpfr>());
+  EXPECT_EQ(one.acting.size(), 2u);
+  EXPECT_EQ(other.acting.size(), 3u);
+  ASSERT_TRUE(one.is_constant_force());
+  EXPECT_FALSE(other.is_constant_force());
+  const Vector<Mpfr> force = one.constant_force();
+  const int expected[] = {0, 2, -6, 0, 2, -9};
+  for (Index j = 0; j < 6; ++j) EXPECT_EQ(force[j], expected[j]);
+  const Matrix<Mpfr> hessian = other.acting.back().hessian(Vector<Mpfr>::Zero(3));
+  for (Index i = 0; i < 3; ++i)
+    for (Index j = 0; j < 3; ++j) EXPECT_EQ(hessian(i, j), i == j ? -5 : 0);
+  const Vector<Mpfr> gradient = other.acting.back().gradient(Vector<Mpfr>::Unit(3, 1));
+  for (Index j = 0; j < 3; ++j) EXPECT_EQ(gradient[j], j == 1 ? -5 : 0);
+}
+
+TEST(Recognition, KnowsMassesThatAreOneNumber) {
+  const PrecisionScope scope(40);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(std::string(scene_text) + "0\n", "masses"));
+  const Recognition content(scene, epsilon<Mpfr>());
+  ASSERT_TRUE(content.mass_at(0));
+  EXPECT_EQ(*content.mass_at(0), 2);
+  EXPECT_FALSE(content.mass_at(3));
+  EXPECT_FALSE(content.mass_at(6));
+}
+
+TEST(Recognition, KnowsSpheres) {
+  const PrecisionScope scope(40);
+  const std::string body =
+      "dimension = 3\n[[point]]\nname = \"o\"\nposition = [1, 2, 3]\n[[body]]\nname = \"a\"\nmass = 2\nposition = [1, "
+      "2, "
+      "1]\nvelocity = [1, 0, 0]\n[[constraint]]\n";
+  for (const char* constraint :
+       {"kind = \"rod\"\nbetween = [\"a\", \"o\"]\nlength = 2\n",
+        "kind = \"rod\"\nbetween = [\"o\", \"a\"]\nlength = 2\n",
+        "kind = \"quadric\"\nbody = \"a\"\nA = [[-3, 0, 0], [0, -3, 0], [0, 0, -3]]\nb = [6, 12, "
+        "18]\nc = -30\n"}) {
+    const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(body + constraint, "sphere"));
+    const auto sphere = Recognition(scene, epsilon<Mpfr>()).on_sphere();
+    ASSERT_TRUE(sphere) << constraint;
+    EXPECT_EQ(sphere->radius, 2);
+    EXPECT_EQ(sphere->mass, 2);
+    for (Index j = 0; j < 3; ++j) EXPECT_EQ(sphere->pivot[j], j + 1);
+  }
+  const Assembled<Mpfr> plane =
+      assemble<Mpfr>(read_scene(body + "kind = \"plane\"\nbody = \"a\"\nnormal = [0, 0, 1]\noffset = 1\n", "plane"));
+  EXPECT_FALSE(Recognition(plane, epsilon<Mpfr>()).on_sphere());
+}
+
+TEST(Recognition, Vectors) {
+  const PrecisionScope scope(30);
+  Vector<Mpfr> a(3), b(3);
+  a << 1, 2, 2;
+  b << 0, 3, -1;
+  EXPECT_EQ(norm(a), 3);
+  EXPECT_EQ(inner(a, b), 4);
+  const Vector<Mpfr> c = cross(a, b);
+  EXPECT_EQ(c[0], -8);
+  EXPECT_EQ(c[1], 1);
+  EXPECT_EQ(c[2], 3);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "reference/closed_form/against_taylor.hpp"
+
+namespace hbvm {
+
+/// A rigid body with moments of inertia J about its centre of mass in the body frame, as directors that stand
+/// obliquely.
+struct RigidScene {
+  std::string fixed = "", position = "[1, \"-1/3\", 2]", velocity = "[\"1/2\", \"1/4\", -1]", mass = "2",
+              center = "[0, 0, 0]", second_moment = "[[\"1/2\", 0, 0], [0, \"1/3\", 0], [0, 0, \"1/4\"]]",
+              omega = "[\"1/3\", -2, 1]", more = "";
+
+  std::string text() const {
+    return "dimension = 3\n[[rigid_body]]\nname = \"body\"\n" +
+           (fixed.empty() ? "position = " + position + "\nvelocity = " + velocity : "fixed_at = " + fixed) +
+           "\nmass = " + mass + "\ncenter = " + center + "\nsecond_moment = " + second_moment +
+           "\ndirectors = [[\"4/9\", \"4/9\", \"7/9\"], [\"1/9\", \"-8/9\", \"4/9\"], [\"8/9\", \"-1/9\", "
+           "\"-4/9\"]]\n" +
+           "angular_velocity = " + omega + "\n" + more;
+  }
+};
+
+inline std::string field(const std::string& acceleration) {
+  return "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = " + acceleration + "\n";
+}
+
+/// Points that turn with the angular velocity (u, v, w) about (1, 2, 3), all of whose distances are fixed.
+inline std::string cluster(const std::vector<std::array<std::string, 3>>& points, const std::string& drift,
+                           const std::string& pin = "", const std::string& more = "") {
+  std::string text = "dimension = 3\n[constants]\nu = \"1/2\"\nv = \"-4/3\"\nw = \"3/4\"\nd = \"" + drift +
+                     "\"\n[[point]]\nname = \"o\"\nposition = [1, 2, 3]\n";
+  const auto place = [](const std::string& x, const char* origin) { return "\"" + x + " + " + origin + "\""; };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& [x, y, z] = points[i];
+    text += "[[body]]\nname = \"b" + std::to_string(i) + "\"\nmass = \"" + std::to_string(2 * i + 1) +
+            "/3\"\nposition = [" + place(x, "1") + ", " + place(y, "2") + ", " + place(z, "3") +
+            "]\nvelocity = [\"v*(" + z + ") - w*(" + y + ") + d\", \"w*(" + x + ") - u*(" + z + ") - d\", \"u*(" + y +
+            ") - v*(" + x + ")\"]\n";
+  }
+  const auto rod = [&](const std::string& a, const std::string& b, const std::array<std::string, 3>& p,
+                       const std::array<std::string, 3>& q) {
+    text += "[[constraint]]\nkind = \"rod\"\nbetween = [\"" + a + "\", \"" + b + "\"]\nlength = \"sqrt((" + p[0] +
+            "-(" + q[0] + "))^2+(" + p[1] + "-(" + q[1] + "))^2+(" + p[2] + "-(" + q[2] + "))^2)\"\n";
+  };
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) rod("b" + std::to_string(i), "b" + std::to_string(j), points[i], points[j]);
+  if (!pin.empty())
+    for (std::size_t i = 0; i < points.size(); ++i) rod("b" + std::to_string(i), pin, points[i], {"0", "0", "0"});
+  return text + more;
+}
+
+inline const std::vector<std::array<std::string, 3>> triangle{
+    {"1", "0", "1/3"}, {"-2/3", "1/2", "0"}, {"0", "-1", "1/7"}},
+    tetrahedron{{"1", "0", "0"}, {"-2/3", "1/2", "0"}, {"0", "-1", "1/7"}, {"1/5", "1/3", "1"}};
+
+}  // namespace hbvm
