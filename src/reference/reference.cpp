@@ -9,6 +9,7 @@
 
 #include "hbvm/checksum.hpp"
 #include "hbvm/reference/agreement.hpp"
+#include "hbvm/reference/closed_form/closed_form.hpp"
 #include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/reference/route_run.hpp"
 #include "hbvm/reference/taylor.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/method/hbvm_name.hpp"
 #include "hbvm/reference/closed_form/closed_form.hpp"
 
 namespace hbvm {
