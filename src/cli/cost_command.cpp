@@ -182,7 +182,7 @@ void add_cost_command(CLI::App& app) {
   for (const std::string& name : cost_families()) families += (families.empty() ? "" : ", ") + name;
   command->add_option("SCENE", o->scene, "Scene file or built-in scene")->required();
   command->add_option("--methods", o->methods,
-                      "Methods, or families of them: " + families + " (default: all of these families)");
+                      "Methods, or families of them: " + families + " (default: all of these families, but taylor)");
   command->add_option("--precisions", o->precisions, "Some of double, quad, mpfr:N (default: what the digits ask for)");
   command->add_option("--digits-range", o->range, "A:B, the right digits that runs are to have")->capture_default_str();
   command->add_option("--until", o->until, "Time at which the state is compared")->capture_default_str();

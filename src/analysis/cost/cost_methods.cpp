@@ -107,7 +107,9 @@ std::vector<MethodPtr> cost_methods(const std::vector<std::string>& list, double
     if (family == known.end())
       add(parse_method(name));
     else
-      for (const MethodPtr& method : family->members(most_digits, choice)) add(method);
+      for (const MethodPtr& method : family->members(most_digits, choice))
+        // What divides its steps has no error that a step decides: it is looked at where it is asked for.
+        if (!list.empty() || !method->digits()) add(method);
   }
   return methods;
 }

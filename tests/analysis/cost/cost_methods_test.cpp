@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hbvm/error.hpp"
+#include "hbvm/reference/taylor_method.hpp"
 
 namespace hbvm {
 namespace {
@@ -37,6 +38,14 @@ TEST(CostMethods, AreAllFamiliesWithoutAList) {
   const std::vector<MethodPtr> all = cost_methods({}, 20);
   for (const char* const name : {"hbvm:1,1", "hbvm:auto,3", "rattle", "compose:rattle,4", "lobatto:3"})
     EXPECT_TRUE(holds(all, name)) << name;
+}
+
+/// Its errors do not follow from the step, and its number types may be fewer.
+TEST(CostMethods, LeaveOutWhatDividesItsStepsUnlessItIsAskedFor) {
+  add_taylor_method();
+  EXPECT_FALSE(holds(cost_methods({}, 20), "taylor"));
+  EXPECT_TRUE(holds(cost_methods({"taylor"}, 20), "taylor"));
+  EXPECT_TRUE(holds(cost_methods({"bulirsch_stoer:12"}, 20), "bulirsch_stoer:12"));
 }
 
 TEST(CostMethods, RefuseWhatIsNone) {
