@@ -31,6 +31,8 @@ class Column {
 
 /// Up to here numbers of each length have a loop of their own.
 constexpr std::size_t most_unrolled = 8;
+/// From here on the library's whole products of parts are faster than columns.
+constexpr long least_by_parts = 16;
 
 }  // namespace
 
@@ -62,13 +64,21 @@ void LimbProducts::set_columns(mp_limb_t* sum, long limbs, Products products) {
   sum[limbs + 1] = column.take();
 }
 
+/// The upper parts of both factors wholly; of either's lower m limbs only the m highest of the other reach so far up
+/// (Mulders, Appl. Algebra Eng. Commun. Comput. 11, 2000).
 void LimbProducts::set_by_parts(mp_limb_t* sum, long limbs, Products products) {
+  const long lower = 3 * limbs / 8, upper = limbs - lower, skipped = upper - lower - 1;
+  scratch_.resize(static_cast<std::size_t>(2 * upper));
+  crossed_.clear();
   std::fill_n(sum, limbs + 2, mp_limb_t{0});
-  std::vector<mp_limb_t> whole(static_cast<std::size_t>(2 * limbs));
   for (const Product& product : products) {
-    mpn_mul_n(whole.data(), product.x, product.y, limbs);
-    mpn_add(sum, sum, limbs + 2, whole.data() + limbs - 1, limbs + 1);
+    mpn_mul_n(scratch_.data(), product.x + lower, product.y + lower, upper);
+    mpn_add(sum, sum, limbs + 2, scratch_.data() + skipped, limbs + 1);
+    crossed_.push_back({product.x, product.y + upper});
+    crossed_.push_back({product.x + upper, product.y});
   }
+  set_columns(scratch_.data(), lower, crossed_);
+  mpn_add(sum, sum, limbs + 2, scratch_.data(), lower + 2);
 }
 
 void LimbProducts::set_one_sign(mp_limb_t* sum, long limbs, Products products) {
@@ -77,7 +87,7 @@ void LimbProducts::set_one_sign(mp_limb_t* sum, long limbs, Products products) {
   }
   (std::make_index_sequence<most_unrolled>());
   if (unrolled) return;
-  if (limbs < max_limbs)
+  if (limbs < least_by_parts)
     set_columns(sum, limbs, products);
   else
     set_by_parts(sum, limbs, products);

@@ -48,12 +48,13 @@ class LimbProducts {
   template <std::size_t limbs>
   static void set_columns(mp_limb_t* sum, Products products);
   static void set_columns(mp_limb_t* sum, long limbs, Products products);
-  static void set_by_parts(mp_limb_t* sum, long limbs, Products products);
-  static void set_one_sign(mp_limb_t* sum, long limbs, Products products);
+  void set_by_parts(mp_limb_t* sum, long limbs, Products products);
+  void set_one_sign(mp_limb_t* sum, long limbs, Products products);
 
   std::vector<Product> positive_, negative_;
   std::size_t positives_ = 0, negatives_ = 0;
-  std::vector<mp_limb_t> taken_;
+  std::vector<Product> crossed_;
+  std::vector<mp_limb_t> taken_, scratch_;
 };
 
 }  // namespace hbvm

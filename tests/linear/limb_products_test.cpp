@@ -12,7 +12,7 @@ namespace {
 /// Sums of whole products, by GMP: a product may miss `limbs` units of the second limb.
 TEST(LimbProducts, AreTheUpperHalfOfTheirSum) {
   std::mt19937_64 random(20261123);
-  for (const long limbs : {1L, 2L, 3L, 5L, 8L, 9L, 14L, max_limbs - 1, max_limbs, max_limbs + 3})
+  for (const long limbs : {1L, 2L, 3L, 5L, 8L, 9L, 14L, 15L, 16L, 17L, 23L, 24L, 53L})
     for (const std::size_t count : {0U, 1U, 2U, 40U}) {
       const auto length = static_cast<std::size_t>(limbs);
       std::vector<mp_limb_t> x(count * length), y(count * length);
