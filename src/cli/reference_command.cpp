@@ -6,11 +6,13 @@
 #include <ctime>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands.hpp"
 #include "hbvm/analysis/against.hpp"
+#include "hbvm/analysis/cells.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/reference/reference.hpp"
@@ -25,7 +27,7 @@ namespace hbvm {
 namespace {
 
 struct ReferenceArguments {
-  std::optional<std::string> scene, until, route, out, verify, show, plot;
+  std::optional<std::string> scene, until, route, out, verify, show, plot, checkpoint;
   std::vector<std::string> at, against, map;
   int digits = 30;
   bool json = false, list = false;
@@ -46,14 +48,30 @@ std::string today() {
   return fmt::format("{:04}-{:02}-{:02}", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
 }
 
-Reference compute(ReferenceRequest request) {
+/// What `file`, if any, keeps of the way.
+Reference compute(ReferenceRequest request, const std::optional<std::string>& file = {}) {
   ProgressBar bar("reference");
+  std::optional<CellStore> store;
+  std::mutex using_store;
+  if (file) {
+    store.emplace(*file);
+    request.keeper.find = [&](const std::string& key) -> std::optional<std::string> {
+      const std::lock_guard lock(using_store);
+      const std::string* const found = store->find(key);
+      return found ? std::optional(*found) : std::nullopt;
+    };
+    request.keeper.keep = [&](const std::string& key, const std::string& json) {
+      const std::lock_guard lock(using_store);
+      store->add(key, json);
+    };
+  }
   end_runs_on_signals();
-  request.progress = [&bar](double part) {
+  request.progress = [&](double part) {
     constexpr long parts = 10'000;
     bar.update(static_cast<long>(part * parts), parts);
     if (const int signal = interruption)
-      throw Interrupted(signal, "the reference was not finished: nothing is given out");
+      throw Interrupted(signal, file ? "the reference was not finished; the same command goes on from '" + *file + "'"
+                                     : "the reference was not finished: nothing is given out");
   };
   return compute_reference(request);
 }
@@ -285,7 +303,7 @@ void reference_command(const ReferenceArguments& o) {
   for (std::size_t i = 0; i < o.at.size(); ++i) command += (i == 0 ? " --at " : ",") + o.at[i];
   command += fmt::format(" --digits {}", o.digits);
   if (o.route) command += " --route " + *o.route;
-  const Reference reference = compute(request);
+  const Reference reference = compute(request, o.checkpoint);
   if (o.out) {
     if (o.route) throw InputError("--out: what one route found alone is no reference");
     write_and_say(*o.out, to_toml({reference, version(), today()}));
@@ -313,6 +331,8 @@ void add_reference_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--route", o->route, "taylor, hbvm or closed_form alone, which confirms nothing");
   command->add_option("--out", o->out, "Write it to this file, in TOML");
+  command->add_option("--checkpoint", o->checkpoint,
+                      "Keep what is done in this file, some hundred steps at a time: the same command goes on from it");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->add_flag("--list", o->list, "List the references that are shipped");
   command->add_option("--show", o->show, "Print those of a scene, and how to load them elsewhere");

@@ -100,11 +100,22 @@ class Attempt {
       if (route == Route::hbvm) hbvm_done_ = part;
       request_.progress(request_.only || without_hbvm_ ? part : std::min(taylor_done_, hbvm_done_));
     };
-    if (route == Route::taylor) return taylor_route(scene, times, progress);
-    if (route == Route::closed_form) return closed_form_route(scene, times, progress);
+    const RouteWork work{scene, times, progress, nature_.legs, keeper(route)};
+    if (route == Route::taylor) return taylor_route(work);
+    if (route == Route::closed_form) return closed_form_route(work);
     // What errors grow by, and a few for their sum.
     constexpr int few = 3;
-    return hbvm_route(scene, times, static_cast<double>(digits_) - few, nature_, progress);
+    return hbvm_route(work, static_cast<double>(digits_) - few, nature_);
+  }
+
+  /// Under keys that say what a leg depends on.
+  LegKeeper keeper(Route route) const {
+    if (!request_.keeper.find) return {};
+    std::string work = fmt::format("{} {} {} digits", scene_hash(request_.scene), name_of(route), digits_);
+    for (const Expression& time : request_.times) work += " " + time.text();
+    const LegKeeper& all = request_.keeper;
+    return {[work, &all](const std::string& key) { return all.find(work + " " + key); },
+            [work, &all](const std::string& key, const std::string& json) { all.keep(work + " " + key, json); }};
   }
 
   const ReferenceRequest& request_;

@@ -52,6 +52,32 @@ TEST(ReferenceCommand, GivesTheClosedFormAloneIfThereIsOne) {
 
 /// A digit of a number of the second time, in the middle or the last, of whatever is stored: it is found, and named
 /// with its time, its component and both values.
+/// What is kept is found again, and a file that cannot be one is refused before any work.
+TEST(ReferenceCommand, GoesOnFromACheckpoint) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "hbvm_reference_checkpoint";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "way.jsonl").string();
+  const std::vector<std::string> command{"reference", "double_pendulum", "--until",      "3", "--digits",
+                                         "20",        "--json",          "--checkpoint", file};
+  const Outcome first = hbvm(command);
+  ASSERT_EQ(first.code, 0) << first.err;
+  const auto legs = [&file] {
+    std::ifstream kept(file);
+    std::string line;
+    long count = 0;
+    while (std::getline(kept, line)) count += line.empty() ? 0 : 1;
+    return count;
+  };
+  EXPECT_EQ(legs(), 2) << "one of either route";
+  const Outcome second = hbvm(command);
+  EXPECT_EQ(second.out, first.out) << "to the processor times, which are those of the first";
+  EXPECT_EQ(legs(), 2);
+  const Outcome refused = hbvm({"reference", "double_pendulum", "--until", "3", "--checkpoint", folder.string()});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find(folder.string()), std::string::npos) << refused.err;
+}
+
 TEST(ReferenceCommand, WritesAFileAndFindsAWrongDigitInIt) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("reference_command_" + std::to_string(getpid()) + ".toml");

@@ -23,12 +23,12 @@ const std::vector<Expression>& times() {
 std::vector<Mpfr> instants() { return {literal<Mpfr>("1/2"), Mpfr(2)}; }
 
 RouteRun by_taylor(const Assembled<Mpfr>& scene) {
-  return taylor_route(scene, instants(), [](double) {});
+  return taylor_route({scene, instants(), [](double) {}});
 }
 
 RouteRun by_hbvm(const Assembled<Mpfr>& scene, const Scene& text) {
   const MotionNature nature = nature_of(text, times(), [](double) {});
-  return hbvm_route(scene, instants(), working - 3, nature, [](double) {});
+  return hbvm_route({scene, instants(), [](double) {}}, working - 3, nature);
 }
 
 /// That the routes differ, at some time and in some component, is said with what each has there.

@@ -19,8 +19,8 @@ TEST(Routes, Agree) {
     const std::vector<Mpfr> at{literal<Mpfr>("1/3"), Mpfr(2)};
     double done = 0;
     const RouteProgress progress = [&done](double part) { done = part; };
-    const RouteRun a = taylor_route(scene, at, progress);
-    const RouteRun b = hbvm_route(scene, at, digits - 3, nature, progress);
+    const RouteRun a = taylor_route({scene, at, progress});
+    const RouteRun b = hbvm_route({scene, at, progress}, digits - 3, nature);
     EXPECT_NEAR(done, 1, 1e-12);
     ASSERT_EQ(a.points.size(), 2u);
     const Mpfr tolerance = literal<Mpfr>("1e-34");

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hbvm/reference/route_legs.hpp"
 #include "hbvm/scene/scene.hpp"
 
 namespace hbvm {
@@ -25,6 +26,7 @@ struct ReferenceRequest {
   std::optional<Route> only;  ///< one route alone: nothing is confirmed then
   /// Called now and then with the part that is done, from any thread; it may throw to end the work.
   std::function<void(double)> progress = {};
+  LegKeeper keeper = {};  ///< where legs of the routes are found and kept
 };
 
 /// A decimal text for each number, to `digits` digits after the leading one of its vector's greatest component.
