@@ -8,7 +8,7 @@ namespace hbvm {
 template <Scalar S>
 Curvature<S>::Term::Term(const EffectTerm<S>& term, Index dimension, Index nodes)
     : effect(&term),
-      displacement(Matrix<S>::Zero(static_cast<Index>(term.displacements.size()) * nodes, dimension)),
+      displacement(Matrix<S>::Zero(term.instances() * nodes, term.arguments * dimension)),
       hessian(term.hessian, term.hessian_coefficients, displacement, nodes) {}
 
 template <Scalar S>
@@ -36,17 +36,16 @@ Curvature<S>::Curvature(const Problem<S>& problem, Index nodes) : dimension_(pro
   for (const EffectTerm<S>& effect : problem.potential.terms) {
     if (effect.constant_force) continue;
     Term& term = terms_.emplace_back(effect, d, nodes);
-    for (std::size_t n = 0; n < effect.displacements.size(); ++n) {
-      const auto& blocks = effect.displacements[n].blocks;
-      for (const auto& a : blocks)
-        for (const auto& b : blocks)
-          for (Index i = 0; i < d; ++i)
-            for (Index j = 0; j < d; ++j) {
-              const Index high = std::max(i, j), low = std::min(i, j);
-              term.targets.push_back({pair(a.offset + i, b.offset + j), high * (high + 1) / 2 + low,
-                                      static_cast<Index>(n), S(a.weight * b.weight)});
-            }
-    }
+    const Index inputs = effect.arguments * d;
+    for (Index n = 0; n < effect.instances(); ++n)
+      for (Index i = 0; i < inputs; ++i)
+        for (Index j = 0; j < inputs; ++j) {
+          const Index high = std::max(i, j), low = std::min(i, j);
+          for (const auto& a : effect.displacement(n, i / d).blocks)
+            for (const auto& b : effect.displacement(n, j / d).blocks)
+              term.targets.push_back(
+                  {pair(a.offset + i % d, b.offset + j % d), high * (high + 1) / 2 + low, n, S(a.weight * b.weight)});
+        }
   }
   for (Index c = 0; c < problem.nu(); ++c) {
     const auto add_entry = [&](Index row, Index column, const S& value) { add(c, row, column, value); };
@@ -60,11 +59,7 @@ template <Scalar S>
 const Matrix<S>& Curvature<S>::potential(Lanes<const S> q) {
   set_zero(values_);
   for (Term& term : terms_) {
-    S* out = term.displacement.data();
-    for (const auto& x : term.effect->displacements) {
-      displace(x, dimension_, q, out, term.displacement.rows());
-      out += nodes_;
-    }
+    displace(*term.effect, dimension_, q, term.displacement.data(), term.displacement.rows());
     term.hessian.run();
     for (const auto& target : term.targets)
       for (Index i = 0; i < nodes_; ++i)

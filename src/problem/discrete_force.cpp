@@ -7,8 +7,8 @@ namespace hbvm {
 
 template <Scalar S>
 DiscreteForce<S>::Work::Work(const EffectTerm<S>& term, Index dimension)
-    : gradient(discrete_gradient(term, dimension)),
-      displacement(Matrix<S>::Zero(static_cast<Index>(term.displacements.size()), 2 * dimension)),
+    : gradient(discrete_gradient(term, term.arguments * dimension)),
+      displacement(Matrix<S>::Zero(term.instances(), 2 * term.arguments * dimension)),
       execution(gradient.program, gradient.coefficients, displacement, 1) {}
 
 template <Scalar S>
@@ -24,9 +24,10 @@ DiscreteForce<S>::DiscreteForce(const Potential<S>& potential) : potential_(pote
     const Work& work = work_.emplace_back(term, d);
     OperationCounts& counts = counts_[t].per_evaluation = OperationCounts();
     for (const Displacement<S>& x : term.displacements) {
-      counts += std::uint64_t{2} * operations(x, d) + work.gradient.program.operations();
+      counts += std::uint64_t{2} * operations(x, d);
       for (const auto& block : x.blocks) counts += weighted_sum(block.weight, d);
     }
+    counts += static_cast<std::uint64_t>(term.instances()) * work.gradient.program.operations();
   }
 }
 
@@ -40,17 +41,14 @@ void DiscreteForce<S>::evaluate(const Vector<S>& q0, const Vector<S>& q1, Matrix
     ++counts_[t].evaluations;
     const EffectTerm<S>& term = potential_.terms[t];
     Work& work = work_[n++];
-    const Index d = potential_.dimension, instances = work.displacement.rows();
-    for (Index i = 0; i < instances; ++i) {
-      const Displacement<S>& x = term.displacements[static_cast<std::size_t>(i)];
-      displace(x, d, lanes(q0), work.displacement.data() + i, instances);
-      displace(x, d, lanes(q1), work.displacement.data() + d * instances + i, instances);
-    }
+    const Index d = potential_.dimension, instances = work.displacement.rows(), inputs = term.arguments * d;
+    displace(term, d, lanes(q0), work.displacement.data(), instances);
+    displace(term, d, lanes(q1), work.displacement.data() + inputs * instances, instances);
     work.execution.run();
     for (Index i = 0; i < instances; ++i)
-      for (const auto& block : term.displacements[static_cast<std::size_t>(i)].blocks)
-        for (Index j = 0; j < d; ++j)
-          add_weighted(&force(0, block.offset + j), block.weight, &work.execution.output(j, i), Index{1}, t_);
+      for (Index j = 0; j < inputs; ++j)
+        for (const auto& block : term.displacement(i, j / d).blocks)
+          add_weighted(&force(0, block.offset + j % d), block.weight, &work.execution.output(j, i), Index{1}, t_);
     if (timed_) counts_[t].seconds += elapsed_seconds() - before;
   }
 }

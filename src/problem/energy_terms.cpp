@@ -19,7 +19,7 @@ void add_magnitude(S& sum, const S& a) {
 template <Scalar S>
 EnergyTerms<S>::Work::Work(const EffectTerm<S>& effect, Index dimension)
     : term(effect),
-      displacement(Matrix<S>::Zero(static_cast<Index>(effect.displacements.size()), dimension)),
+      displacement(Matrix<S>::Zero(effect.instances(), effect.arguments * dimension)),
       value(effect.value, effect.value_coefficients, displacement, 1),
       gradient(effect.gradient, effect.gradient_coefficients, displacement, 1) {}
 
@@ -28,7 +28,7 @@ EnergyTerms<S>::EnergyTerms(const Problem<S>& problem)
     : problem_(problem), v_(problem.m()), count_(problem.m()), half_(S(1) / 2) {
   for (const EffectTerm<S>& term : problem.potential.terms) {
     work_.emplace_back(term, problem.dimension);
-    count_ += static_cast<long>(term.displacements.size());
+    count_ += static_cast<long>(term.instances());
   }
 }
 
@@ -36,9 +36,7 @@ template <Scalar S>
 void EnergyTerms<S>::evaluate_potential(const Vector<S>& q) {
   set_zero(U_);
   for (Work& work : work_) {
-    S* out = work.displacement.data();
-    for (const Displacement<S>& x : work.term.displacements)
-      displace(x, problem_.dimension, lanes(q), out++, work.displacement.rows());
+    displace(work.term, problem_.dimension, lanes(q), work.displacement.data(), work.displacement.rows());
     work.value.run();
     for (Index n = 0; n < work.displacement.rows(); ++n) set_sum(U_, U_, work.value.output(0, n));
   }
@@ -67,11 +65,11 @@ void EnergyTerms<S>::evaluate(const Vector<S>& q, const Vector<S>& p) {
     work.gradient.run();
     for (Index n = 0; n < work.displacement.rows(); ++n) {
       add_magnitude(size_, work.value.output(0, n));
-      for (Index j = 0; j < problem_.dimension; ++j) {
+      for (Index j = 0; j < work.displacement.cols(); ++j) {
         set_zero(sum_);
         add_magnitude(sum_, work.displacement(n, j));
-        for (const auto& block : work.term.displacements[static_cast<std::size_t>(n)].blocks) {
-          set_product(t_, block.weight, q[block.offset + j]);
+        for (const auto& block : work.term.displacement(n, j / problem_.dimension).blocks) {
+          set_product(t_, block.weight, q[block.offset + j % problem_.dimension]);
           add_magnitude(sum_, t_);
         }
         set_product(t_, work.gradient.output(j, n), sum_);

@@ -17,7 +17,7 @@ Program<double> rounded(const Program<S>& program) {
 template <Scalar S>
 EffectSymmetry<double> rounded(const EffectSymmetry<S>& symmetry) {
   EffectSymmetry<double> result{symmetry.kind, symmetry.acts, in_double(symmetry.axes),
-                                in_double(symmetry.axis_round_off)};
+                                in_double(symmetry.axis_round_off), in_double(symmetry.conditions)};
   for (Index i = 0; i < result.axes.size(); ++i)
     result.axis_round_off.data()[i] += epsilon<double>() * magnitude(result.axes.data()[i]);
   return result;
@@ -31,6 +31,7 @@ EffectTerm<double> rounded(const EffectTerm<S>& term) {
                             rounded(term.gradient),
                             rounded(term.hessian),
                             term.constant_force,
+                            term.arguments,
                             {},
                             in_double(term.value_coefficients),
                             in_double(term.gradient_coefficients),
@@ -57,6 +58,8 @@ Problem<double> in_double(const Problem<S>& problem) {
   result.potential.dimension = problem.potential.dimension;
   result.potential.m = problem.potential.m;
   for (const auto& term : problem.potential.terms) result.potential.terms.push_back(rounded(term));
+  for (const auto& constraint : problem.general)
+    result.general.push_back({constraint.place, constraint.name, rounded(constraint.g)});
   return result;
 }
 

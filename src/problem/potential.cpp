@@ -8,11 +8,11 @@ namespace hbvm {
 
 template <Scalar S>
 PotentialEvaluator<S>::Work::Work(const EffectTerm<S>& term, Index dimension, Index lanes)
-    : displacement(Matrix<S>::Zero(static_cast<Index>(term.displacements.size()) * lanes, dimension)),
+    : displacement(Matrix<S>::Zero(term.instances() * lanes, term.arguments * dimension)),
       value(term.value, term.value_coefficients, displacement, lanes),
       gradient(term.gradient, term.gradient_coefficients, displacement, lanes) {
   if constexpr (std::same_as<S, double>) {
-    kernel = find_kernel(term.gradient, dimension);
+    if (term.arguments == 1) kernel = find_kernel(term.gradient, dimension);
     for (std::size_t n = 0; kernel != nullptr && n < term.displacements.size(); ++n) {
       if (const auto site = kernel_site(term.displacements[n]))
         sites.push_back(*site);
@@ -37,9 +37,10 @@ template <Scalar S>
 OperationCounts operations_of(const EffectTerm<S>& term, Index dimension) {
   OperationCounts counts;
   for (const Displacement<S>& x : term.displacements) {
-    counts += operations(x, dimension) + term.gradient.operations();
+    counts += operations(x, dimension);
     for (const auto& block : x.blocks) counts += weighted_sum(block.weight, dimension);
   }
+  counts += static_cast<std::uint64_t>(term.instances()) * term.gradient.operations();
   return counts;
 }
 
@@ -60,25 +61,26 @@ PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index l
     // The same everywhere: evaluated once, here.
     work.gradient.run();
     counts_[t].calls = counts_[t].evaluations = 1;
-    for (std::size_t n = 0; n < term.displacements.size(); ++n) {
-      for (const auto& block : term.displacements[n].blocks) {
-        for (Index j = 0; j < potential.dimension; ++j) {
-          add_weighted(&constant_force_[block.offset + j], block.weight,
-                       &work.gradient.output(j, static_cast<Index>(n) * lanes), 1, t_);
-        }
-      }
-    }
+    for_each_force(term, [&](Index output, Index instance, Index coordinate, const S& weight) {
+      add_weighted(&constant_force_[coordinate], weight, &work.gradient.output(output, instance * lanes), 1, t_);
+    });
   }
+}
+
+template <Scalar S>
+template <class F>
+void PotentialEvaluator<S>::for_each_force(const EffectTerm<S>& term, F f) const {
+  const Index d = potential_.dimension;
+  for (Index n = 0; n < term.instances(); ++n)
+    for (Index a = 0; a < term.arguments; ++a)
+      for (const auto& block : term.displacement(n, a).blocks)
+        for (Index j = 0; j < d; ++j) f(a * d + j, n, block.offset + j, block.weight);
 }
 
 template <Scalar S>
 void PotentialEvaluator<S>::displace_all(std::size_t t, Lanes<const S> q) {
   Matrix<S>& x = work_[t].displacement;
-  S* out = x.data();
-  for (const Displacement<S>& instance : potential_.terms[t].displacements) {
-    displace(instance, potential_.dimension, q, out, x.rows());
-    out += lanes_;
-  }
+  displace(potential_.terms[t], potential_.dimension, q, x.data(), x.rows());
 }
 
 template <Scalar S>
@@ -128,19 +130,14 @@ void PotentialEvaluator<S>::add_force(std::size_t t, Lanes<const S> q, Matrix<S>
   }
   displace_all(t, q);
   work.gradient.run();
-  for (std::size_t n = 0; n < term.displacements.size(); ++n) {
-    const Index first_lane = static_cast<Index>(n) * lanes_;
-    for (const auto& block : term.displacements[n].blocks) {
-      for (Index j = 0; j < potential_.dimension; ++j) {
-        S* const f = force.data() + (block.offset + j) * lanes_;
-        const S& g = work.gradient.output(j, first_lane);
-        if (!term.gradient.is_constant(static_cast<std::size_t>(j)))
-          add_weighted(f, block.weight, &g, lanes_, t_);
-        else
-          for (Index i = 0; i < lanes_; ++i) add_weighted(f + i, block.weight, &g, 1, t_);
-      }
-    }
-  }
+  for_each_force(term, [&](Index output, Index instance, Index coordinate, const S& weight) {
+    S* const f = force.data() + coordinate * lanes_;
+    const S& g = work.gradient.output(output, instance * lanes_);
+    if (!term.gradient.is_constant(static_cast<std::size_t>(output)))
+      add_weighted(f, weight, &g, lanes_, t_);
+    else
+      for (Index i = 0; i < lanes_; ++i) add_weighted(f + i, weight, &g, 1, t_);
+  });
 }
 
 #define HBVM_DEFINE(S) template class PotentialEvaluator<S>;

@@ -28,7 +28,7 @@ class Conditions {
 
   std::vector<UncertainRow> rows() {
     for (const auto& block : problem_.mass.blocks())
-      if (block.full) kinetic_energy(block.M);
+      if (block.full) blocks_stay(block.M);
     for (const EffectTerm<S>& term : problem_.potential.terms) effect(term);
     for (const Constraint<S>& constraint : problem_.constraints)
       std::visit([&](const auto& form) { form.stays(*this); }, constraint.form);
@@ -69,21 +69,30 @@ class Conditions {
     add(std::move(r));
   }
 
-  /// q^T A q + b.q changes by q^T (A w - w A) q + q.(2 A t + b x w) + b.t.
-  void quadratic_stays(Index block, const Matrix<S>& A, const Vector<S>& linear) {
-    matrix_stays(A);
-    const UncertainVector b = vector(linear);
-    const bool moves = translates(block);
-    for (std::size_t i = 0; i < d_; ++i) {
-      UncertainRow r = row();
-      for (std::size_t j = 0; moves && j < d_; ++j)
-        t(r, j) = 2 * number(A(static_cast<Index>(i), static_cast<Index>(j)));
-      for (std::size_t k = 0; k < rotations_; ++k) w(r, k) = -turned(k, b)[i];
-      add(std::move(r));
+  /// The sum over blocks of q_a^T A_ab q_b and b_a.q_a changes by that of q_a^T (A_ab w - w A_ab) q_b,
+  /// q_a.(2 A_ab t + b_a x w) and b_a.t, with t for what translates.
+  void quadratic_stays(const std::vector<Index>& blocks, const Matrix<S>& A, const Vector<S>& linear) {
+    blocks_stay(A);
+    const Index d = problem_.dimension;
+    UncertainRow all = row();
+    for (std::size_t a = 0; a < blocks.size(); ++a) {
+      const Index first = static_cast<Index>(a) * d;
+      const UncertainVector b = vector(linear.segment(first, d));
+      for (Index i = 0; i < d; ++i) {
+        UncertainRow r = row();
+        for (std::size_t other = 0; other < blocks.size(); ++other) {
+          if (!translates(blocks[other])) continue;
+          for (Index j = 0; j < d; ++j) {
+            Uncertain& c = t(r, static_cast<std::size_t>(j));
+            c = c + 2 * number(A(first + i, static_cast<Index>(other) * d + j));
+          }
+        }
+        for (std::size_t k = 0; k < rotations_; ++k) w(r, k) = -turned(k, b)[static_cast<std::size_t>(i)];
+        add(std::move(r));
+      }
+      for (std::size_t i = 0; translates(blocks[a]) && i < d_; ++i) t(all, i) = t(all, i) + b[i];
     }
-    UncertainRow r = row();
-    for (std::size_t i = 0; moves && i < d_; ++i) t(r, i) = b[i];
-    add(std::move(r));
+    add(std::move(all));
   }
 
  private:
@@ -194,14 +203,20 @@ class Conditions {
       }
   }
 
-  /// The blocks of M act alike in all directions that the motion joins.
-  void kinetic_energy(const Matrix<S>& M) {
+  /// The blocks of M, or of another quadratic form, act alike in all directions that the motion joins.
+  void blocks_stay(const Matrix<S>& M) {
     const Index d = problem_.dimension;
     for (Index a = 0; a < M.rows(); a += d)
       for (Index b = a; b < M.cols(); b += d) matrix_stays(M.block(a, b, d, d));
   }
 
   void effect(const EffectTerm<S>& term) {
+    for (Index i = 0; i < term.symmetry.conditions.rows(); ++i) {
+      UncertainRow r = row();
+      for (std::size_t j = 0; j < r.size(); ++j) r[j] = number(term.symmetry.conditions(i, static_cast<Index>(j)));
+      add(std::move(r));
+    }
+    if (term.symmetry.kind == Symmetry::computed) return;
     for (std::size_t n = 0; n < term.displacements.size(); ++n) {
       if (!term.symmetry.acts[n]) continue;
       const Place x = place(term.displacements[n]);

@@ -1,6 +1,7 @@
 #include "hbvm/reference/program_series.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "hbvm/error.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -10,6 +11,22 @@ namespace {
 
 [[noreturn]] void refuse(const char* what) {
   throw IntegrationError(std::string("the forces have no Taylor series here: ") + what);
+}
+
+/// The function whose series comes with that of this one, for sin, cos, sinh and cosh.
+std::optional<Op> partner_of(Op op) {
+  switch (op) {
+    case Op::sin:
+      return Op::cos;
+    case Op::cos:
+      return Op::sin;
+    case Op::sinh:
+      return Op::cosh;
+    case Op::cosh:
+      return Op::sinh;
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -36,10 +53,13 @@ ProgramSeries::ProgramSeries(const Program<Mpfr>& program, Index inputs, std::ve
     Node node{.op = instruction.op, .a = value_of(instruction.a), .b = {}, .z = count++};
     if (is_binary(node.op)) node.b = value_of(instruction.b);
     if (node.op == Op::exp || node.op == Op::log) node.aux = count++;
-    if (node.op == Op::sin || node.op == Op::cos) {
-      const Op partner = node.op == Op::sin ? Op::cos : Op::sin;
+    if (node.op == Op::tanh || node.op == Op::atan) {
+      node.aux = count++;
+      node.other = count++;
+    }
+    if (const std::optional<Op> partner = partner_of(node.op)) {
       const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& x) {
-        return x.op == partner && x.a.series == node.a.series && x.a.number == node.a.number && !x.computed;
+        return x.op == *partner && x.a.series == node.a.series && x.a.number == node.a.number && !x.computed;
       });
       if (found != nodes_.end()) {
         node.z = found->other;
@@ -58,11 +78,11 @@ ProgramSeries::ProgramSeries(const Program<Mpfr>& program, Index inputs, std::ve
   for (const Node& node : nodes_) {
     if (node.computed) continue;
     const bool both = node.op == Op::multiply && node.a.series >= 0 && node.b.series >= 0;
-    if (both || node.op == Op::reciprocal || node.op == Op::log) align(node.a.series);
+    if (both || node.op == Op::reciprocal || node.op == Op::log || node.op == Op::atan) align(node.a.series);
     if (both) align(node.b.series);
     if (node.op == Op::reciprocal || node.op == Op::sqrt || node.op == Op::exp) align(node.z);
     for (const Index i : {node.aux, node.other}) align(i);
-    if (node.other >= 0) align(node.z);
+    if (node.other >= 0 && node.op != Op::atan) align(node.z);
   }
 }
 
@@ -172,6 +192,23 @@ void ProgramSeries::start(const Node& node) {
     case Op::sin:
       mpfr_sin_cos(raw(z), raw(series(node.other)[0]), raw(a), MPFR_RNDN);
       break;
+    case Op::sinh:
+      mpfr_sinh_cosh(raw(z), raw(series(node.other)[0]), raw(a), MPFR_RNDN);
+      break;
+    case Op::cosh:
+      mpfr_sinh_cosh(raw(series(node.other)[0]), raw(z), raw(a), MPFR_RNDN);
+      break;
+    case Op::tanh:
+      mpfr_tanh(raw(z), raw(a), MPFR_RNDN);
+      set_product(series(node.other)[0], z, z);
+      break;
+    case Op::atan: {
+      mpfr_atan(raw(z), raw(a), MPFR_RNDN);
+      Mpfr& w = series(node.other)[0];
+      set_product(w, a, a);
+      mpfr_add_ui(raw(w), raw(w), 1, MPFR_RNDN);
+      break;
+    }
     default:
       mpfr_sin_cos(raw(series(node.other)[0]), raw(z), raw(a), MPFR_RNDN);
       break;
@@ -214,14 +251,38 @@ void ProgramSeries::go_on(const Node& node, Index n) {
       mpfr_div_ui(raw(z[n]), raw(t_), whole, MPFR_RNDN);
       break;
     }
+    case Op::tanh: {
+      Mpfr* const square = series(node.other);
+      mpfr_mul_ui(raw(series(node.aux)[n]), raw(a_n), whole, MPFR_RNDN);
+      keep(node.aux, n);
+      set_convolution(t_, node.aux, node.other, n, 1, n);
+      mpfr_div_ui(raw(t_), raw(t_), whole, MPFR_RNDN);
+      set_difference(z[n], a_n, t_);
+      keep(node.z, n);
+      set_square(square[n], node.z, n, 0, t_);
+      break;
+    }
+    case Op::atan: {
+      Mpfr* const weighted = series(node.aux);
+      Mpfr* const w = series(node.other);
+      set_convolution(t_, node.aux, node.other, n, 1, n - 1);
+      mpfr_div_ui(raw(t_), raw(t_), whole, MPFR_RNDN);
+      set_difference(t_, a_n, t_);
+      set_quotient(z[n], t_, w[0]);
+      mpfr_mul_ui(raw(weighted[n]), raw(z[n]), whole, MPFR_RNDN);
+      keep(node.aux, n);
+      set_square(w[n], node.a.series, n, 0, t_);
+      break;
+    }
     default: {
       mpfr_mul_ui(raw(series(node.aux)[n]), raw(a_n), whole, MPFR_RNDN);
       keep(node.aux, n);
-      const Index sine = node.op == Op::sin ? node.z : node.other, cosine = node.op == Op::sin ? node.other : node.z;
+      const bool is_sine = node.op == Op::sin || node.op == Op::sinh;
+      const Index sine = is_sine ? node.z : node.other, cosine = is_sine ? node.other : node.z;
       set_convolution(t_, node.aux, cosine, n, 1, n);
       mpfr_div_ui(raw(series(sine)[n]), raw(t_), whole, MPFR_RNDN);
       set_convolution(t_, node.aux, sine, n, 1, n);
-      set_negative(t_, t_);
+      if (node.op == Op::sin || node.op == Op::cos) set_negative(t_, t_);
       mpfr_div_ui(raw(series(cosine)[n]), raw(t_), whole, MPFR_RNDN);
       break;
     }

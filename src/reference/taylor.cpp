@@ -49,12 +49,12 @@ TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
   form_values_ = storage(static_cast<Index>(forms_.size()));
   form_velocities_ = storage(static_cast<Index>(forms_.size()));
   for (const EffectTerm<Mpfr>& term : problem.potential.terms)
-    for (std::size_t n = 0; n < term.displacements.size(); ++n) {
+    for (Index n = 0; n < term.instances(); ++n) {
       std::vector<const Mpfr*> coefficients;
       for (Index c = 0; c < term.gradient_coefficients.cols(); ++c)
-        coefficients.push_back(&term.gradient_coefficients(static_cast<Index>(n), c));
-      forces_.push_back({term, term.displacements[n],
-                         ProgramSeries(term.gradient, problem.potential.dimension, coefficients, order_)});
+        coefficients.push_back(&term.gradient_coefficients(n, c));
+      forces_.push_back(
+          {term, n, ProgramSeries(term.gradient, term.arguments * problem.dimension, coefficients, order_)});
     }
   aligned_lambda_.assign(static_cast<std::size_t>(problem.nu()), AlignedSeries(order_ + 1));
   find_unit();
@@ -219,22 +219,24 @@ void TaylorMotion::project() {
 }
 
 void TaylorMotion::set_force(Index n) {
-  const Index d = problem_.potential.dimension;
+  const Index d = problem_.dimension;
   for (Index j = 0; j < F_.size(); ++j) set_zero(F_[j]);
   for (Force& force : forces_) {
-    for (Index i = 0; i < d; ++i) {
+    const Index inputs = force.term.arguments * d;
+    for (Index i = 0; i < inputs; ++i) {
+      const Displacement<Mpfr>& from = force.term.displacement(force.instance, i / d);
       Mpfr& x = force.series.input(i, n);
-      if (n == 0 && force.displacement.shift.size() > 0)
-        set(x, force.displacement.shift[i]);
+      if (n == 0 && from.shift.size() > 0)
+        set(x, from.shift[i % d]);
       else
         set_zero(x);
-      for (const auto& block : force.displacement.blocks)
-        add_weighted(&x, block.weight, q_series(block.offset + i) + n, Index{1}, t_);
+      for (const auto& block : from.blocks)
+        add_weighted(&x, block.weight, q_series(block.offset + i % d) + n, Index{1}, t_);
     }
     force.series.advance(n);
-    for (const auto& block : force.displacement.blocks)
-      for (Index i = 0; i < d; ++i)
-        add_weighted(&F_[block.offset + i], block.weight, &force.series.output(static_cast<std::size_t>(i), n),
+    for (Index i = 0; i < inputs; ++i)
+      for (const auto& block : force.term.displacement(force.instance, i / d).blocks)
+        add_weighted(&F_[block.offset + i % d], block.weight, &force.series.output(static_cast<std::size_t>(i), n),
                      Index{1}, t_);
   }
 }

@@ -73,7 +73,13 @@ class Encloser {
       case Kind::cos:
       case Kind::exp:
       case Kind::log:
+      case Kind::sinh:
+      case Kind::cosh:
+      case Kind::tanh:
+      case Kind::atan:
         return 16;
+      case Kind::tan:
+        return 32;
       case Kind::power:
         return 64;
       case Kind::multiply:
@@ -149,6 +155,31 @@ class Encloser {
         return lipschitz(value(*node.left), mpfr_sin);
       case Kind::cos:
         return lipschitz(value(*node.left), mpfr_cos);
+      case Kind::tan: {
+        const Interval a = value(*node.left), c = lipschitz(a, mpfr_cos);
+        if (holds_zero(c)) no_value(c, "tangent of a right angle");
+        return corners(lipschitz(a, mpfr_sin), c, mpfr_div);
+      }
+      case Kind::sinh:
+        return monotone(value(*node.left), mpfr_sinh);
+      case Kind::cosh: {
+        Interval a = value(*node.left);
+        if (mpfr_sgn(raw(a.low)) < 0) {  // cosh a = cosh |a|
+          mpfr_neg(raw(a.low), raw(a.low), MPFR_RNDN);
+          if (mpfr_sgn(raw(a.high)) > 0) {
+            mpfr_max(raw(a.high), raw(a.low), raw(a.high), MPFR_RNDN);
+            mpfr_set_zero(raw(a.low), 1);
+          } else {
+            mpfr_neg(raw(a.high), raw(a.high), MPFR_RNDN);
+            std::swap(a.low, a.high);
+          }
+        }
+        return monotone(a, mpfr_cosh);
+      }
+      case Kind::tanh:
+        return monotone(value(*node.left), mpfr_tanh);
+      case Kind::atan:
+        return monotone(value(*node.left), mpfr_atan);
     }
     throw ExpressionError("unknown operation");
   }
@@ -326,7 +357,7 @@ BigFloat Expression::evaluate_to_bits(int bits, const Constants& constants) cons
       }
     }
   } catch (const ExpressionError& error) {
-    throw ExpressionError("'" + text_ + "': " + error.what());
+    throw ExpressionError(text_, error.reason());
   }
 }
 

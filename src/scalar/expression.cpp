@@ -22,8 +22,16 @@ std::string quoted(std::string_view text) {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-constexpr std::array<std::pair<std::string_view, Kind>, 5> functions{
-    {{"sqrt", Kind::sqrt}, {"sin", Kind::sin}, {"cos", Kind::cos}, {"exp", Kind::exp}, {"log", Kind::log}}};
+constexpr std::array<std::pair<std::string_view, Kind>, 10> functions{{{"sqrt", Kind::sqrt},
+                                                                       {"sin", Kind::sin},
+                                                                       {"cos", Kind::cos},
+                                                                       {"tan", Kind::tan},
+                                                                       {"exp", Kind::exp},
+                                                                       {"log", Kind::log},
+                                                                       {"sinh", Kind::sinh},
+                                                                       {"cosh", Kind::cosh},
+                                                                       {"tanh", Kind::tanh},
+                                                                       {"atan", Kind::atan}}};
 
 /// Recursive descent over
 ///   sum     = product (('+' | '-') product)*
@@ -33,9 +41,11 @@ constexpr std::array<std::pair<std::string_view, Kind>, 5> functions{
 ///   primary = decimal | name | function '(' sum ')' | '(' sum ')'
 class Parser {
  public:
-  explicit Parser(std::string_view text) : text_(text) {}
+  Parser(std::string_view text, Expression::Syntax syntax) : text_(text), syntax_(syntax) {}
 
   NodePtr parse() {
+    constexpr std::size_t longest = 100'000;
+    if (syntax_ == Expression::Syntax::formula && text_.size() > longest) fail("begins a text that is too long");
     NodePtr root = sum();
     skip_blanks();
     if (at_ != text_.size()) fail("does not fit here" + product_meant());
@@ -49,7 +59,7 @@ class Parser {
 
   [[noreturn]] void fail(const std::string& what) const {
     const std::string found = at_ < text_.size() ? "'" + std::string(1, text_[at_]) + "' " : "the end ";
-    throw ExpressionError(quoted(text_) + ", column " + std::to_string(at_ + 1) + ": " + found + what);
+    throw ExpressionError(text_, at_, found + what);
   }
 
   /// "2pi" and "2(a + b)" are products to those who write them.
@@ -59,13 +69,17 @@ class Parser {
     return "; a product is written " + quoted(std::string_view(product));
   }
 
-  NodePtr make(Kind kind, NodePtr left = nullptr, NodePtr right = nullptr, std::string text = {}) {
+  /// What stands at this place of the text.
+  NodePtr make(std::size_t at, Kind kind, NodePtr left = nullptr, NodePtr right = nullptr, std::string text = {}) {
     if (++nodes_ > max_nodes) fail("comes after too many operations");
-    return std::make_shared<const Node>(Node{kind, std::move(text), std::move(left), std::move(right)});
+    return std::make_shared<const Node>(Node{kind, std::move(text), std::move(left), std::move(right), at});
   }
 
+  bool is_blank(char c) const {
+    return c == ' ' || c == '\t' || (syntax_ == Expression::Syntax::formula && (c == '\n' || c == '\r'));
+  }
   void skip_blanks() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   }
 
   bool accept(char c) {
@@ -79,12 +93,11 @@ class Parser {
     if (++depth_ > max_depth) fail("is nested too deeply");
     NodePtr left = product();
     for (;;) {
-      if (accept('+'))
-        left = make(Kind::add, left, product());
-      else if (accept('-'))
-        left = make(Kind::subtract, left, product());
-      else
-        break;
+      const bool adds = accept('+');
+      if (!adds && !accept('-')) break;
+      const std::size_t sign = at_ - 1;
+      NodePtr right = product();
+      left = make(sign, adds ? Kind::add : Kind::subtract, std::move(left), std::move(right));
     }
     --depth_;
     return left;
@@ -93,31 +106,37 @@ class Parser {
   NodePtr product() {
     NodePtr left = signed_power();
     for (;;) {
-      if (accept('*'))
-        left = make(Kind::multiply, left, signed_power());
-      else if (accept('/'))
-        left = make(Kind::divide, left, signed_power());
-      else
-        return left;
+      const bool multiplies = accept('*');
+      if (!multiplies && !accept('/')) return left;
+      const std::size_t sign = at_ - 1;
+      NodePtr right = signed_power();
+      left = make(sign, multiplies ? Kind::multiply : Kind::divide, std::move(left), std::move(right));
     }
   }
 
   NodePtr signed_power() {
     bool negative = false;
+    std::size_t sign = 0;
     for (;;) {
-      if (accept('-'))
+      if (accept('-')) {
         negative = !negative;
-      else if (!accept('+'))
+        sign = at_ - 1;
+      } else if (!accept('+')) {
         break;
+      }
     }
-    const NodePtr value = power();
-    return negative ? make(Kind::negate, value) : value;
+    NodePtr value = power();
+    return negative ? make(sign, Kind::negate, std::move(value)) : value;
   }
 
   NodePtr power() {
     if (++depth_ > max_depth) fail("is nested too deeply");
     NodePtr base = primary();
-    if (accept('^')) base = make(Kind::power, base, signed_power());
+    if (accept('^')) {
+      const std::size_t sign = at_ - 1;
+      NodePtr exponent = signed_power();
+      base = make(sign, Kind::power, std::move(base), std::move(exponent));
+    }
     --depth_;
     return base;
   }
@@ -159,25 +178,35 @@ class Parser {
       if (digits == 0) fail("comes where a digit of the exponent is expected");
       if (digits > 6) fail("comes after an exponent out of range");
     }
-    return make(Kind::decimal, nullptr, nullptr, std::string(text_.substr(start, at_ - start)));
+    return make(start, Kind::decimal, nullptr, nullptr, std::string(text_.substr(start, at_ - start)));
+  }
+
+  void skip_word() {
+    while (at_ < text_.size() && (is_name_start(text_[at_]) || is_digit(text_[at_]))) ++at_;
   }
 
   NodePtr name() {
     const std::size_t start = at_;
-    while (at_ < text_.size() && (is_name_start(text_[at_]) || is_digit(text_[at_]))) ++at_;
+    skip_word();
+    if (syntax_ == Expression::Syntax::formula && at_ + 1 < text_.size() && text_[at_] == '.' &&
+        is_name_start(text_[at_ + 1])) {
+      ++at_;
+      skip_word();
+    }
     const std::string word(text_.substr(start, at_ - start));
     for (const auto& [function, kind] : functions) {
       if (word != function) continue;
       if (!accept('(')) fail("comes where '(' is expected after " + word);
       const NodePtr argument = sum();
       close();
-      return make(kind, argument);
+      return make(start, kind, argument);
     }
-    if (word == "pi") return make(Kind::pi);
-    return make(Kind::name, nullptr, nullptr, word);
+    if (word == "pi") return make(start, Kind::pi);
+    return make(start, Kind::name, nullptr, nullptr, word);
   }
 
   std::string_view text_;
+  Expression::Syntax syntax_;
   std::size_t at_ = 0, nodes_ = 0;
   int depth_ = 0;
 };
@@ -190,7 +219,26 @@ void collect_names(const Node& node, std::set<std::string>& names) {
 
 }  // namespace
 
-Expression Expression::parse(std::string_view text) { return {std::string(text), Parser(text).parse()}; }
+ExpressionError::ExpressionError(std::string_view text, std::size_t at, std::string reason)
+    : InputError(quoted(text) + ", column " + std::to_string(at + 1) + ": " + reason),
+      reason_(std::move(reason)),
+      at_(at) {}
+
+ExpressionError::ExpressionError(std::string_view text, std::string reason)
+    : InputError("'" + std::string(text) + "': " + reason), reason_(std::move(reason)) {}
+
+Expression Expression::parse(std::string_view text, Syntax syntax) {
+  return {std::string(text), Parser(text, syntax).parse()};
+}
+
+const std::set<std::string, std::less<>>& Expression::reserved_words() {
+  static const std::set<std::string, std::less<>> words = [] {
+    std::set<std::string, std::less<>> all{"pi"};
+    for (const auto& [word, kind] : functions) all.emplace(word);
+    return all;
+  }();
+  return words;
+}
 
 std::set<std::string> Expression::names() const {
   std::set<std::string> names;

@@ -9,10 +9,31 @@ namespace hbvm {
 
 /// One operation of a parsed expression.
 struct Expression::Node {
-  enum class Kind { decimal, pi, name, negate, add, subtract, multiply, divide, power, sqrt, sin, cos, exp, log };
+  enum class Kind {
+    decimal,
+    pi,
+    name,
+    negate,
+    add,
+    subtract,
+    multiply,
+    divide,
+    power,
+    sqrt,
+    sin,
+    cos,
+    tan,
+    exp,
+    log,
+    sinh,
+    cosh,
+    tanh,
+    atan
+  };
   Kind kind;
   std::string text;  ///< of a decimal or a name
   std::shared_ptr<const Node> left, right;
+  std::size_t at = 0;  ///< where in the text it stands: of an operation its sign
 };
 
 }  // namespace hbvm

@@ -11,15 +11,18 @@
 
 #include "hbvm/problem/constraint_gradient.hpp"
 #include "hbvm/problem/effect/use.hpp"
+#include "hbvm/problem/formula/quadratic.hpp"
+#include "hbvm/problem/formula/symmetry.hpp"
 #include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "scene/formula_binding.hpp"
 
 namespace hbvm {
 namespace {
 
 template <Scalar S>
-class Assembler {
+class Assembler : private FormulaPlaces<S> {
  public:
   explicit Assembler(const Scene& scene) : scene_(scene), d_(scene.dimension) {}
 
@@ -42,6 +45,7 @@ class Assembler {
     for (const SceneEffect& effect : scene_.effects)
       at_line(effect.line, "effect " + std::to_string(++number) + " (" + effect.kind + ")", [&] { add(effect); });
     initial_state();
+    refuse_general();
     if (consistency == Consistency::checked) check_consistency();
     return std::move(result_);
   }
@@ -208,7 +212,7 @@ class Assembler {
   const Place& place(const std::string& name) const { return places_.at(name); }
 
   /// a - b.
-  Displacement<S> difference(const std::string& a, const std::string& b) const {
+  Displacement<S> difference(const std::string& a, const std::string& b) const override {
     Displacement<S> x;
     Vector<S> shift = Vector<S>::Zero(d_);
     bool shifted = false;
@@ -242,7 +246,114 @@ class Assembler {
     return max_norm(difference) <= consistency_tolerance<S>() * size;
   }
 
+  // What a formula takes from the bodies and points of the scene.
+
+  /// Of a rigid body that of its centre of mass.
+  Displacement<S> position(const std::string& name) const override {
+    const auto rigid = rigid_bodies_.find(name);
+    return rigid != rigid_bodies_.end() ? rigid->second.center : place(name).x;
+  }
+  S mass(const std::string& name) const override {
+    const auto rigid = rigid_bodies_.find(name);
+    if (rigid != rigid_bodies_.end()) return rigid->second.mass;
+    typename EffectUse<S>::Instance i;
+    give(name, true, false, i, 0);
+    return i.masses[0];
+  }
+  S charge(const std::string& name) const override {
+    if (rigid_bodies_.contains(name)) throw InputError("'" + name + "' has no charge");
+    typename EffectUse<S>::Instance i;
+    give(name, false, true, i, 0);
+    return i.charges[0];
+  }
+
+  /// Errors in a formula say where in the file.
+  template <class Work>
+  auto in_formula(const SceneFormula& formula, const char* key, Work work) const {
+    try {
+      return work();
+    } catch (const ExpressionError& error) {
+      throw InputError(std::string("'") + key + "', " + formula.begin.place(formula.expression.text(), error.at()) +
+                       ": " + error.reason());
+    }
+  }
+
+  void add_constraint(const SceneFormula& formula) {
+    std::string name = "formula";
+    for (const std::string& of : formula.of) name += (name == "formula" ? " of '" : ", '") + of + "'";
+    in_formula(formula, "g", [&] {
+      const FormulaBinding<S> binding(formula, d_, scene_.constants);
+      FormulaUse<S> use = binding.use();
+      use.instances.push_back(binding.instance(formula.of, *this));
+      if (auto form = quadratic_form(use)) return add(name, std::move(*form));
+      const auto place = static_cast<Index>(problem().constraints.size() + problem().general.size());
+      problem().general.push_back({place, name, make_term(use)});
+      check_formula(use, problem().general.back().g, start());
+    });
+  }
+
+  /// What no method integrates.
+  void refuse_general() const {
+    if (result_.problem.general.empty()) return;
+    const GeneralConstraint<S>& first = result_.problem.general.front();
+    throw InputError(scene_.name + ": constraint " + std::to_string(first.place + 1) + " (" + first.name +
+                     ") is not quadratic: " +
+                     (first.g.degree < 0 ? "no polynomial" : "of degree " + std::to_string(first.g.degree)) +
+                     "; general constraints are not yet integrated");
+  }
+
+  void add_effect(const SceneEffect& effect, const SceneFormula& formula) {
+    in_formula(formula, "U", [&] {
+      const FormulaBinding<S> binding(formula, d_, scene_.constants);
+      FormulaUse<S> use = binding.use();
+      const auto add_instance = [&](const std::vector<std::string>& of) {
+        use.instances.push_back(binding.instance(of, *this));
+      };
+      const auto named = [&](const std::string& name) {
+        return !effect.on || std::count(effect.on->begin(), effect.on->end(), name) > 0;
+      };
+      switch (formula.acts) {
+        case Acts::on_group:
+          add_instance(formula.of);
+          break;
+        case Acts::between_pairs:
+          for (const auto& [a, b] : pairs(effect, false)) add_instance({a, b});
+          break;
+        case Acts::on_each_body:
+          for (const SceneBody& body : scene_.bodies)
+            if (named(body.name)) add_instance({body.name});
+          for (const SceneRigidBody& body : scene_.rigid_bodies)
+            if (named(body.name)) add_instance({body.name});
+          break;
+        case Acts::about_a_center:
+          for (const SceneBody& body : scene_.bodies)
+            if (named(body.name)) add_centered(binding, use, body.name, effect.center);
+          for (const SceneAttachment& attachment : scene_.attachments)
+            if (effect.on && named(attachment.name)) add_centered(binding, use, attachment.name, effect.center);
+          break;
+      }
+      if (use.instances.empty()) return;
+      EffectTerm<S> term = make_term(use);
+      check_formula(use, term, start());
+      term.symmetry = formula_symmetry(use, problem().blocks, start());
+      problem().potential.terms.push_back(std::move(term));
+    });
+  }
+
+  void add_centered(const FormulaBinding<S>& binding, FormulaUse<S>& use, const std::string& name,
+                    const std::string& center) const {
+    if (place(name).is_fixed()) throw InputError("'" + name + "' is fixed in space");
+    auto instance = binding.instance({name}, *this);
+    instance.x = {difference(name, center)};
+    use.instances.push_back(std::move(instance));
+  }
+
+  Vector<S> start() const {
+    return Eigen::Map<const Vector<S>>(positions_.data(), static_cast<Index>(positions_.size()));
+  }
+
   void add(const SceneConstraint& c) {
+    if (c.formula) return add_constraint(*c.formula);
     ConstraintUse<S> use;
     use.dimension = d_;
     std::string name = c.kind;
@@ -304,6 +415,7 @@ class Assembler {
   }
 
   void add(const SceneEffect& effect) {
+    if (effect.formula) return add_effect(effect, *effect.formula);
     EffectUse<S> use;
     use.kind = effect.kind;
     use.dimension = d_;

@@ -9,6 +9,7 @@
 #include "hbvm/nearest.hpp"
 #include "hbvm/problem/constraint/registry.hpp"
 #include "hbvm/problem/effect/registry.hpp"
+#include "hbvm/scene/formula_names.hpp"
 #include "hbvm/scene/scene.hpp"
 #include "toml/toml_table.hpp"
 
@@ -56,8 +57,8 @@ class SceneReader {
       bool valid = !name.empty() && !(name[0] >= '0' && name[0] <= '9');
       for (const char c : name)
         valid = valid && ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_');
-      for (const char* reserved : {"pi", "sqrt", "sin", "cos", "exp", "log"}) valid = valid && name != reserved;
-      if (!valid) reader.fail(value, "'" + name + "' cannot be the name of a constant");
+      if (!valid || Expression::reserved_words().contains(name))
+        reader.fail(value, "'" + name + "' cannot be the name of a constant");
       scene_.constants.emplace(name, reader.to_number(value, "'" + name + "'"));
     }
   }
@@ -237,17 +238,98 @@ class SceneReader {
     c.kind = table.string("kind");
     table.rename("constraint " + std::to_string(scene_.constraints.size() + 1) + " (" + c.kind + ")");
     c.line = table.line();
+    if (c.kind == "formula") {
+      formula_constraint(table, c);
+      return;
+    }
     const bool known = with_constraint_kind<double>(c.kind, [&]<class Kind>() {
       if constexpr (requires { Kind::in_space_only; })
         if (d_ != 3) table.fail("it needs dimension = 3; in the plane bodies turn about a 'ball_joint'");
       for (const ConstraintKey& key : Kind::keys) value(table, key, c);
     });
-    if (!known) table.fail("unknown kind of constraint" + did_you_mean(c.kind, constraint_kinds()));
+    if (!known) table.fail("unknown kind of constraint" + did_you_mean(c.kind, with_formula(constraint_kinds())));
     std::vector<std::string> ends;
     for (const auto& [key, pair] : c.pairs) ends.insert(ends.end(), pair.begin(), pair.end());
     if (!ends.empty() && c.bodies.empty()) check_ends(table, ends);
     table.finish();
     scene_.constraints.push_back(std::move(c));
+  }
+
+  static std::vector<std::string> with_formula(std::vector<std::string> kinds) {
+    kinds.emplace_back("formula");
+    return kinds;
+  }
+
+  /// The formula of a key, and what its names are about.
+  SceneFormula formula(TomlTable& table, std::string_view key, Acts acts, std::vector<std::string> of) {
+    const toml::node& node = table.require(key);
+    const std::string text = table.to_string(node, "'" + std::string(key) + "'");
+    const toml::source_position at = source_.begin_of(text, node.source());
+    const TextBegin begin{at.line, at.column};
+    try {
+      SceneFormula result{Expression::parse(text, Expression::Syntax::formula), acts, std::move(of), begin};
+      names_used(result, scene_.dimension, scene_.constants);
+      return result;
+    } catch (const ExpressionError& error) {
+      table.fail(node, "'" + std::string(key) + "', " + begin.place(text, error.at()) + ": " + error.reason());
+    }
+  }
+
+  /// Which of some keys stands in a table of a formula, the last if none does.
+  std::string key_of(TomlTable& table, const std::vector<std::string>& keys) {
+    std::string found;
+    for (const std::string& key : keys) {
+      if (!table.take(key)) continue;
+      if (!found.empty()) table.fail("give either '" + found + "' or '" + key + "'");
+      found = key;
+    }
+    return found;
+  }
+
+  /// The bodies and points of 'of', one of which moves.
+  std::vector<std::string> group(TomlTable& table) {
+    std::vector<std::string> of = names(table, "of");
+    if (of.empty()) table.fail("'of' must name a body");
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      check_name(table, of[i], {.points = true, .attachments = true});
+      if (std::count(of.begin(), of.end(), of[i]) > 1) table.fail("'of' names '" + of[i] + "' twice");
+    }
+    if (std::all_of(of.begin(), of.end(), [&](const std::string& name) { return points_.contains(name); }))
+      table.fail("'of' names fixed points alone");
+    return of;
+  }
+
+  void formula_constraint(TomlTable& table, SceneConstraint& c) {
+    const std::string key = key_of(table, {"on", "between", "of"});
+    if (key.empty()) table.missing({"on", "between", "of"});
+    if (key == "on") {
+      const std::string body = name(table, table.require("on"), "'on'");
+      check_name(table, body, {.attachments = true});
+      c.formula = formula(table, "g", Acts::on_each_body, {body});
+    } else if (key == "between") {
+      const auto ends = pair(table, "between");
+      check_ends(table, {ends.begin(), ends.end()});
+      c.formula = formula(table, "g", Acts::between_pairs, {ends.begin(), ends.end()});
+    } else {
+      std::vector<std::string> of = group(table);
+      c.formula = formula(table, "g", Acts::on_group, std::move(of));
+    }
+    table.finish();
+    scene_.constraints.push_back(std::move(c));
+  }
+
+  void formula_effect(TomlTable& table, SceneEffect& e) {
+    const std::string key = key_of(table, {"center", "between", "of"});
+    if (key == "of") {
+      std::vector<std::string> of = group(table);
+      e.formula = formula(table, "U", Acts::on_group, std::move(of));
+    } else {
+      const Acts how = key.empty() ? Acts::on_each_body : key == "center" ? Acts::about_a_center : Acts::between_pairs;
+      acts(table, e, how);
+      e.formula = formula(table, "U", how, {});
+    }
+    table.finish();
+    scene_.effects.push_back(std::move(e));
   }
 
   void value(TomlTable& table, const ConstraintKey& key, SceneConstraint& c) {
@@ -283,6 +365,10 @@ class SceneReader {
     e.kind = table.string("kind");
     e.line = table.line();
     table.rename("effect " + std::to_string(scene_.effects.size() + 1) + " (" + e.kind + ")");
+    if (e.kind == "formula") {
+      formula_effect(table, e);
+      return;
+    }
     const bool known = with_effect(e.kind, [&]<class Effect>() {
       for (const EffectKey& key : Effect::keys) {
         if (key.is_vector)
@@ -296,7 +382,7 @@ class SceneReader {
       }
       acts(table, e, Effect::acts);
     });
-    if (!known) table.fail("unknown kind of effect" + did_you_mean(e.kind, effect_kinds()));
+    if (!known) table.fail("unknown kind of effect" + did_you_mean(e.kind, with_formula(effect_kinds())));
     table.finish();
     scene_.effects.push_back(std::move(e));
   }

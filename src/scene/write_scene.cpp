@@ -72,6 +72,16 @@ std::string text(const SceneConstraint& c, const ConstraintKey& key) {
 
 class Writer {
  public:
+  /// Of a constraint also what it holds for, which an effect says itself.
+  void formula(const std::string& name, const SceneFormula& f) {
+    key(name, quoted(f.expression.text()));
+    if (f.of.empty()) return;
+    if (f.acts == Acts::on_each_body)
+      key("on", quoted(f.of.front()));
+    else
+      key(f.acts == Acts::between_pairs ? "between" : "of", text(f.of));
+  }
+
   void table(const std::string& name) { out += "\n[[" + name + "]]\n"; }
   void key(const std::string& name, const std::string& value) { out += name + " = " + value + "\n"; }
   void optional(const std::string& name, const std::optional<Expression>& value) {
@@ -128,6 +138,7 @@ std::string write_scene(const Scene& scene) {
   for (const SceneConstraint& c : scene.constraints) {
     w.table("constraint");
     w.key("kind", quoted(c.kind));
+    if (c.formula) w.formula("g", *c.formula);
     with_constraint_kind<double>(c.kind, [&]<class Kind>() {
       for (const ConstraintKey& key : Kind::keys)
         if (!key.optional || c.has(key.name)) w.key(std::string(key.name), text(c, key));
@@ -136,6 +147,7 @@ std::string write_scene(const Scene& scene) {
   for (const SceneEffect& e : scene.effects) {
     w.table("effect");
     w.key("kind", quoted(e.kind));
+    if (e.formula) w.formula("U", *e.formula);
     if (!e.center.empty()) w.key("center", quoted(e.center));
     for (const auto& [name, value] : e.numbers) w.key(name, text(value));
     for (const auto& [name, value] : e.vectors) w.key(name, text(value));

@@ -23,8 +23,10 @@ ProjectedStepper<S>::ProjectedStepper(std::unique_ptr<Stepper<S>> inner, OnEnerg
       made_p_(before_.p) {
   const Problem<S>& of = problem();
   OperationCounts& counts = scaling_.per_call = std::uint64_t{2} * of.mass.operations();
-  for (const EffectTerm<S>& term : of.potential.terms)
-    for (const Displacement<S>& x : term.displacements) counts += operations(x, of.dimension) + term.value.operations();
+  for (const EffectTerm<S>& term : of.potential.terms) {
+    for (const Displacement<S>& x : term.displacements) counts += operations(x, of.dimension);
+    counts += static_cast<std::uint64_t>(term.instances()) * term.value.operations();
+  }
   counts.add_products(3 * of.m());
   counts.add(Op::reciprocal, 2);
   counts.add(Op::sqrt, 1);

@@ -46,6 +46,15 @@ std::size_t TomlSource::offset_of(const toml::source_position& place) const {
   return at;
 }
 
+toml::source_position TomlSource::begin_of(std::string_view string, const toml::source_region& region) const {
+  const std::size_t begin = offset_of(region.begin), end = offset_of(region.end);
+  const std::size_t found = std::string_view(text_).substr(0, end).find(string, begin + 1);  // after the quote
+  if (begin >= end || found == std::string_view::npos) return {region.begin.line, 0};
+  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), found);
+  const auto line = static_cast<std::size_t>(after - line_starts_.begin());
+  return {static_cast<toml::source_index>(line), static_cast<toml::source_index>(found - *(after - 1) + 1)};
+}
+
 std::string TomlSource::number_at(const toml::source_position& begin) const {
   std::size_t at = offset_of(begin);
   std::string number;

@@ -76,6 +76,11 @@ TEST(ProgramSeries, SumsToTheValueOfTheProgram) {
       {"both", [](const T& x, const T& y, const T&) { return sin(x) * cos(x) + cos(y) * sin(y); }},
       {"exponential", [](const T& x, const T& y, const T& c) { return c * exp(x - y); }},
       {"logarithm", [](const T& x, const T& y, const T&) { return x * log(y); }},
+      {"hyperbolic sine", [](const T& x, const T& y, const T&) { return sinh(x * y); }},
+      {"hyperbolic cosine", [](const T& x, const T& y, const T&) { return y * cosh(x); }},
+      {"both hyperbolic", [](const T& x, const T& y, const T&) { return sinh(x) * cosh(x) + cosh(y) * sinh(y); }},
+      {"hyperbolic tangent", [](const T& x, const T& y, const T& c) { return tanh(x - c * y * y); }},
+      {"arc tangent", [](const T& x, const T& y, const T& c) { return atan(c * x * y) * x; }},
       {"magnitude", [](const T& x, const T& y, const T&) { return abs(x - y) * y; }},
       {"constant", [](const T&, const T&, const T& c) { return c * c; }},
       {"all", [](const T& x, const T& y, const T& c) { return exp(sin(sqrt(x) / y)) * log(c * cos(x) * cos(x) + 1); }}};

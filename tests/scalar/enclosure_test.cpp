@@ -100,7 +100,7 @@ class Generator {
       result.text = a.at_least(left) + blank() + op + blank() + b.at_least(right);
       result.binding = own;
     };
-    switch (pick(11)) {
+    switch (pick(12)) {
       case 0:
       case 1: {
         const Formula b = formula(depth - 1);
@@ -171,10 +171,20 @@ class Generator {
           arb_cos(result.value.get(), a.value.get(), precision_);
         }
         break;
-      default:
+      case 10:
         if (exponent_of(a.value) > 8) return std::nullopt;
         function("exp");
         arb_exp(result.value.get(), a.value.get(), precision_);
+        break;
+      default: {
+        if (exponent_of(a.value) > 8) return std::nullopt;
+        using Function = void (*)(arb_t, const arb_t, slong);
+        static const std::pair<const char*, Function> more[] = {
+            {"tan", arb_tan}, {"sinh", arb_sinh}, {"cosh", arb_cosh}, {"tanh", arb_tanh}, {"atan", arb_atan}};
+        const auto& [name, f] = more[pick(5)];
+        function(name);
+        f(result.value.get(), a.value.get(), precision_);
+      }
     }
     if (!arb_is_finite(result.value.get()) || std::labs(exponent_of(result.value)) > 20'000) return std::nullopt;
     return result;

@@ -90,6 +90,9 @@ INSTANTIATE_TEST_SUITE_P(Functions, Value,
                          ::testing::Values(Example{"sqrt(9)", 3}, Example{"exp(0)", 1}, Example{"log(1)", 0},
                                            Example{"sin(0)", 0}, Example{"cos(0)", 1}, Example{"4*cos(pi/3)", 2},
                                            Example{"log(exp(3))", 3}, Example{"exp(log(7))", 7},
+                                           Example{"tan(pi/4)", 1}, Example{"sinh(log(3))*3", 4},
+                                           Example{"cosh(-log(3))*3", 5}, Example{"cosh(0)", 1},
+                                           Example{"tanh(log(3))*5", 4}, Example{"4*atan(1)/pi", 1},
                                            Example{"sqrt(2)*sqrt(2)", 2}, Example{"8^(1/3)", 2},
                                            Example{"sin(pi/6)", 0.5}, Example{"pi", 3.141592653589793}));
 

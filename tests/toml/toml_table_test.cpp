@@ -43,6 +43,20 @@ TEST(TomlTables, GiveNumbersAsTheyStand) {
   EXPECT_EQ(read.table.optional_number("d")->text(), "7");
 }
 
+TEST(TomlTables, TellWhereAStringBegins) {
+  const TomlSource source("a = 1\nb = \"x + y\"\nc = '''\nx +\n y'''\nd = \"\\u0078 + 1\"\ne = \"\"\n", "file.toml");
+  const toml::table top = source.parse();
+  const auto begin = [&](const char* key) {
+    const toml::node& node = *top.get(key);
+    const auto at = source.begin_of(*node.value_exact<std::string>(), node.source());
+    return std::to_string(at.line) + ":" + std::to_string(at.column);
+  };
+  EXPECT_EQ(begin("b"), "2:6");
+  EXPECT_EQ(begin("c"), "4:1");
+  EXPECT_EQ(begin("d"), "6:0") << "it is not there as it is";
+  EXPECT_EQ(begin("e"), "7:6");
+}
+
 /// Columns count characters, the text bytes.
 TEST(TomlTables, GiveNumbersBehindCharactersOfSeveralBytes) {
   Read read("a = { \"\xC3\xA4\xE2\x82\xAC\" = \"\xF0\x9F\x98\x80\", x = 12.75 }\n");

@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 const fs::path index_file = project / "studies/equations.md";
 
 /// Words in brackets that are no labels.
-const std::set<std::string> ordinary{"CSV",      "Interrupted", "SVG",       "default", "definite", "even",
-                                     "hinge",    "left",        "middle",    "nearly",  "odd",      "once",
-                                     "optional", "right",       "symmetric", "twice",   "wall"};
+const std::set<std::string> ordinary{"CSV",     "Interrupted", "SVG",   "default",   "definite", "even",
+                                     "formula", "hinge",       "left",  "middle",    "nearly",   "odd",
+                                     "once",    "optional",    "right", "symmetric", "twice",    "wall"};
 
 /// A line of the index: dispro1, "(54)" or "Theorem 1", and the files that must cite it.
 struct Entry {

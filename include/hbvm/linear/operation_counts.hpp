@@ -7,8 +7,8 @@
 
 namespace hbvm {
 
-/// The operations a formula is made of; sinc, sinhc and atanhc, which differences of it need, are sin x / x, sinh x / x
-/// and atanh x / x, 1 at 0.
+/// The operations a formula is made of; sinc, sinhc, atanhc and atanc, which differences of it need, are sin x / x,
+/// sinh x / x and so on, 1 at 0.
 enum class Op : std::uint8_t {
   add,
   subtract,
@@ -22,15 +22,20 @@ enum class Op : std::uint8_t {
   cos,
   exp,
   log,
+  sinh,
+  cosh,
+  tanh,
+  atan,
   sinc,
   sinhc,
-  atanhc
+  atanhc,
+  atanc
 };
-inline constexpr std::size_t op_count = 15;
+inline constexpr std::size_t op_count = 20;
 constexpr const char* name_of(Op op) {
-  constexpr std::array<const char*, op_count> names{"add",  "subtract", "multiply", "negate", "abs",
-                                                    "sign", "divide",   "sqrt",     "sin",    "cos",
-                                                    "exp",  "log",      "sinc",     "sinhc",  "atanhc"};
+  constexpr std::array<const char*, op_count> names{
+      "add", "subtract", "multiply", "negate", "abs",  "sign", "divide", "sqrt",  "sin",    "cos",
+      "exp", "log",      "sinh",     "cosh",   "tanh", "atan", "sinc",   "sinhc", "atanhc", "atanc"};
   return names[static_cast<std::size_t>(op)];
 }
 /// Whether it takes two operands.

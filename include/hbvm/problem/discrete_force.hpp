@@ -24,7 +24,7 @@ class DiscreteForce {
  private:
   struct Work {
     DiscreteGradient<S> gradient;
-    Matrix<S> displacement;  ///< instances x 2 d: at q0, and at q1
+    Matrix<S> displacement;  ///< instances x twice the inputs: at q0, and at q1
     Execution<S> execution;
     Work(const EffectTerm<S>& term, Index dimension);
   };

@@ -32,7 +32,7 @@ class EnergyTerms {
   /// An effect in one lane.
   struct Work {
     const EffectTerm<S>& term;
-    Matrix<S> displacement;  ///< instances x d
+    Matrix<S> displacement;  ///< instances x inputs
     Execution<S> value, gradient;
     Work(const EffectTerm<S>& effect, Index dimension);
   };

@@ -55,7 +55,7 @@ class PotentialEvaluator {
 
  private:
   struct Work {
-    Matrix<S> displacement;  ///< (instances * lanes) x d: all lanes of one instance, then the next
+    Matrix<S> displacement;  ///< (instances * lanes) x inputs: all lanes of one instance, then the next
     Execution<S> value, gradient;
     const Kernel* kernel = nullptr;  ///< the gradient compiled, in double, if the library has it
     std::vector<KernelSite> sites;   ///< what it acts on: one an instance
@@ -66,6 +66,9 @@ class PotentialEvaluator {
   /// force += the gradient of term t.
   void add_force(std::size_t term, Lanes<const S> q, Matrix<S>& force);
   void displace_all(std::size_t term, Lanes<const S> q);
+  /// f(output of the gradient, instance, coordinate whose force it is part of, weight), for all of them.
+  template <class F>
+  void for_each_force(const EffectTerm<S>& term, F f) const;
 
   const Potential<S>& potential_;
   Index lanes_;

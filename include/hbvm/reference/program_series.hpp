@@ -16,6 +16,9 @@ namespace hbvm {
 ///     z = exp a    n z_n = sum_{1 <= i <= n} i a_i z_{n-i}
 ///     z = log a    n a_0 z_n = n a_n - sum_{0 < i < n} i z_i a_{n-i}
 ///     s = sin a, c = cos a, together: n s_n = sum i a_i c_{n-i}, n c_n = -sum i a_i s_{n-i}
+///     s = sinh a, c = cosh a, likewise, without the sign
+///     z = tanh a   n z_n = n a_n - sum_{1 <= i <= n} i a_i w_{n-i}, w = z^2
+///     z = atan a   n w_0 z_n = n a_n - sum_{0 < i < n} i z_i w_{n-i}, w = 1 + a^2
 class ProgramSeries {
  public:
   /// Series up to degree `order`. The first inputs vary; the others are numbers, `coefficients`, that outlive this.
@@ -39,8 +42,8 @@ class ProgramSeries {
     Op op;
     Value a, b;
     Index z;                ///< its series
-    Index aux = -1;         ///< i a_i of sin, cos and exp, i z_i of log
-    Index other = -1;       ///< cos of a sin, sin of a cos
+    Index aux = -1;         ///< i a_i of sin, cos, sinh, cosh, tanh and exp, i z_i of log and atan
+    Index other = -1;       ///< cos of a sin, sin of a cos, likewise of sinh and cosh; w of tanh and atan
     bool computed = false;  ///< by the node of the other
   };
   Mpfr* series(Index i) { return &values_[static_cast<std::size_t>(i * (order_ + 1))]; }

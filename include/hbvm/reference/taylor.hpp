@@ -56,10 +56,10 @@ class TaylorMotion {
     Mpfr factor = 0;
     AlignedSeries series, velocity;
   };
-  /// One body or pair of an effect.
+  /// One instance of an effect.
   struct Force {
     const EffectTerm<Mpfr>& term;
-    const Displacement<Mpfr>& displacement;
+    Index instance;
     ProgramSeries series;
   };
   Mpfr* q_series(Index j) { return &q_values_[static_cast<std::size_t>(j * (order_ + 2))]; }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hbvm/problem/effect/interaction.hpp"
 #include "hbvm/scalar/expression.hpp"
 
 namespace hbvm {
@@ -61,7 +62,24 @@ struct SceneAttachment {
   std::size_t line = 0;
 };
 
-/// A constraint by its kind, which says the keys: see ConstraintForms and ConstraintGroups.
+/// Where a text begins in a file: line and column from 1, column 0 if the file has it in other words.
+struct TextBegin {
+  std::size_t line = 0, column = 0;
+
+  /// "line 3, column 12" of character `at`, from 0, of the text.
+  std::string place(std::string_view text, std::size_t at) const;
+};
+
+/// A formula, U of an effect or g of a constraint, and what its names are about.
+struct SceneFormula {
+  Expression expression;
+  Acts acts = Acts::on_each_body;
+  std::vector<std::string> of = {};  ///< of a group, and the body or pair of a constraint
+  TextBegin begin = {};
+};
+
+/// A constraint by its kind, which says the keys: see ConstraintForms and ConstraintGroups. One by a formula has the
+/// kind "formula".
 struct SceneConstraint {
   std::string kind;
   std::map<std::string, std::array<std::string, 2>, std::less<>> pairs;
@@ -69,6 +87,7 @@ struct SceneConstraint {
   std::map<std::string, Expression, std::less<>> numbers;
   std::map<std::string, SceneVector, std::less<>> vectors;
   std::map<std::string, SceneMatrix, std::less<>> matrices;
+  std::optional<SceneFormula> formula = {};
   std::size_t line = 0;
 
   bool has(std::string_view key) const {
@@ -84,6 +103,7 @@ struct SceneEffect {
   std::string center;                                                       ///< of an effect about a centre
   std::optional<std::vector<std::string>> on;                               ///< all bodies if absent
   std::optional<std::vector<std::pair<std::string, std::string>>> between;  ///< all pairs if absent
+  std::optional<SceneFormula> formula = {};                                 ///< of the kind "formula"
   std::size_t line = 0;
 };
 

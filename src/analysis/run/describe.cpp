@@ -51,7 +51,7 @@ std::string describe_in(const Scene& scene) {
   if (problem.potential.terms.empty()) line("effects", "none");
   for (const EffectTerm<S>& term : problem.potential.terms) {
     const std::string degree = term.degree < 0 ? "not a polynomial" : fmt::format("degree {}", term.degree);
-    line("effect", fmt::format("{}, {} in all, {}{}", term.kind, term.displacements.size(), degree,
+    line("effect", fmt::format("{}, {} in all, {}{}", term.kind, term.instances(), degree,
                                term.constant_force ? ", constant force: evaluated once" : ""));
   }
   if (const auto degree = degree_of_U(problem))

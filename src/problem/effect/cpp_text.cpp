@@ -54,10 +54,15 @@ class Printer {
       case Op::cos:
       case Op::exp:
       case Op::log:
+      case Op::sinh:
+      case Op::cosh:
+      case Op::tanh:
+      case Op::atan:
         break;
       case Op::sinc:
       case Op::sinhc:
       case Op::atanhc:
+      case Op::atanc:
         throw Error(std::string("no kernel is printed of ") + name_of(i.op));
     }
     return fmt::format("std::{}({})", name_of(i.op), a);

@@ -16,13 +16,13 @@ class PairedTrace {
  public:
   using Id = typename Trace<S>::Id;
 
-  PairedTrace(const Program<S>& program, std::size_t dimension)
+  PairedTrace(const Program<S>& program, std::size_t inputs)
       : program_(program),
-        dimension_(dimension),
+        input_count_(inputs),
         parameters_(0),
         half_(trace_.constant(S(S(1) / 2))),
         minus_(trace_.constant(S(-1))) {
-    for (std::size_t j = 0; j < dimension; ++j) add_leaf(trace_.input(j), trace_.input(dimension + j), true);
+    for (std::size_t j = 0; j < inputs; ++j) add_leaf(trace_.input(j), trace_.input(inputs + j), true);
     std::vector<std::size_t> registers(program.temporaries());
     for (const Instruction& i : program.instructions()) {
       const std::size_t a = place_of(i.a, registers), b = is_binary(i.op) ? place_of(i.b, registers) : a;
@@ -46,8 +46,8 @@ class PairedTrace {
       });
     }
     std::vector<Id> outputs;
-    for (std::size_t j = 0; j < dimension_; ++j) outputs.push_back(adjoint[j] ? *adjoint[j] : trace_.constant(S(0)));
-    return trace_.compile(outputs, 2 * dimension_, parameters_);
+    for (std::size_t j = 0; j < input_count_; ++j) outputs.push_back(adjoint[j] ? *adjoint[j] : trace_.constant(S(0)));
+    return trace_.compile(outputs, 2 * input_count_, parameters_);
   }
 
  private:
@@ -62,12 +62,12 @@ class PairedTrace {
 
   std::size_t place_of(const Operand& x, const std::vector<std::size_t>& registers) {
     if (x.bank == Bank::temporary) return registers[x.index];
-    if (x.bank == Bank::input && x.index < dimension_) return x.index;
+    if (x.bank == Bank::input && x.index < input_count_) return x.index;
     Id id;
     if (x.bank == Bank::constant) {
       id = trace_.constant(program_.constants()[x.index]);
     } else {
-      const std::size_t parameter = x.index - dimension_;
+      const std::size_t parameter = x.index - input_count_;
       parameters_ = std::max(parameters_, parameter + 1);
       id = trace_.parameter(parameter);
     }
@@ -142,6 +142,27 @@ class PairedTrace {
         const Id over = reciprocal(mean(a));
         return trace_.multiply(over, trace_.apply(Op::atanhc, trace_.multiply(half_difference(a), over)));
       }
+      case Op::sinh:
+        return trace_.multiply(trace_.apply(Op::cosh, mean(a)), trace_.apply(Op::sinhc, half_difference(a)));
+      case Op::cosh:
+        return trace_.multiply(trace_.apply(Op::sinh, mean(a)), trace_.apply(Op::sinhc, half_difference(a)));
+      case Op::tanh: {
+        const Id ends = trace_.multiply(trace_.apply(Op::cosh, a.at0), trace_.apply(Op::cosh, a.at1));
+        return trace_.multiply(reciprocal(ends), trace_.apply(Op::sinhc, trace_.subtract(a.at1, a.at0)));
+      }
+      case Op::atan: {
+        // Half of the angle has the tangent b = a c, c = 1/(1 + sqrt(1 + a^2)), below 1: b0 b1 is not -1.
+        const Id one = trace_.constant(S(1));
+        const auto half_angle = [&](Id x) {
+          return reciprocal(trace_.add(one, trace_.apply(Op::sqrt, trace_.add(one, trace_.multiply(x, x)))));
+        };
+        const Id c0 = half_angle(a.at0), c1 = half_angle(a.at1);
+        const Id b0 = trace_.multiply(a.at0, c0), b1 = trace_.multiply(a.at1, c1);
+        const Id over = reciprocal(trace_.add(one, trace_.multiply(b0, b1)));
+        const Id tangent = trace_.multiply(trace_.subtract(b1, b0), over);
+        const Id slope = trace_.multiply(trace_.multiply(c0, c1), trace_.multiply(over, over));
+        return trace_.multiply(trace_.constant(S(4)), trace_.multiply(slope, trace_.apply(Op::atanc, tangent)));
+      }
       default:
         throw Error(std::string("the difference quotient of ") + name_of(f.op) + " is not known");
     }
@@ -150,7 +171,7 @@ class PairedTrace {
   Id reciprocal(Id a) { return trace_.apply(Op::reciprocal, a); }
 
   const Program<S>& program_;
-  std::size_t dimension_, parameters_, output_ = 0;
+  std::size_t input_count_, parameters_, output_ = 0;
   Trace<S> trace_;
   Id half_, minus_;
   std::vector<Node> nodes_;
@@ -159,18 +180,18 @@ class PairedTrace {
 }  // namespace
 
 template <Scalar S>
-DiscreteGradient<S> discrete_gradient(const EffectTerm<S>& term, Index dimension) {
-  auto compiled = PairedTrace<S>(term.value, static_cast<std::size_t>(dimension)).compile();
+DiscreteGradient<S> discrete_gradient(const EffectTerm<S>& term, Index inputs) {
+  auto compiled = PairedTrace<S>(term.value, static_cast<std::size_t>(inputs)).compile();
   const Program<S>& code = compiled.coefficients;
   DiscreteGradient<S> result;
   result.coefficients.resize(term.value_coefficients.rows(), static_cast<Index>(code.outputs()));
   Matrix<S> registers = code.make_registers(1);
   for (Index n = 0; n < result.coefficients.rows(); ++n) {
-    std::vector<const S*> inputs;
-    for (Index j = 0; j < term.value_coefficients.cols(); ++j) inputs.push_back(&term.value_coefficients(n, j));
-    code.run(registers, inputs);
+    std::vector<const S*> given;
+    for (Index j = 0; j < term.value_coefficients.cols(); ++j) given.push_back(&term.value_coefficients(n, j));
+    code.run(registers, given);
     for (std::size_t i = 0; i < code.outputs(); ++i)
-      result.coefficients(n, static_cast<Index>(i)) = code.output(i, 0, registers, inputs);
+      result.coefficients(n, static_cast<Index>(i)) = code.output(i, 0, registers, given);
   }
   result.program = std::move(compiled.program);
   return result;

@@ -59,6 +59,18 @@ void apply(Op op, S& r, const S& a) {
       case Op::log:
         mpfr_log(raw(r), raw(a), MPFR_RNDN);
         break;
+      case Op::sinh:
+        mpfr_sinh(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::cosh:
+        mpfr_cosh(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::tanh:
+        mpfr_tanh(raw(r), raw(a), MPFR_RNDN);
+        break;
+      case Op::atan:
+        mpfr_atan(raw(r), raw(a), MPFR_RNDN);
+        break;
       case Op::sinc:
         set_ratio(r, a, mpfr_sin);
         break;
@@ -68,11 +80,14 @@ void apply(Op op, S& r, const S& a) {
       case Op::atanhc:
         set_ratio(r, a, mpfr_atanh);
         break;
+      case Op::atanc:
+        set_ratio(r, a, mpfr_atan);
+        break;
       default:
         break;
     }
   } else {
-    using std::atanh, std::cos, std::exp, std::log, std::sin, std::sinh, std::sqrt;
+    using std::atan, std::atanh, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
     switch (op) {
       case Op::negate:
         r = -a;
@@ -101,6 +116,18 @@ void apply(Op op, S& r, const S& a) {
       case Op::log:
         r = log(a);
         break;
+      case Op::sinh:
+        r = sinh(a);
+        break;
+      case Op::cosh:
+        r = cosh(a);
+        break;
+      case Op::tanh:
+        r = tanh(a);
+        break;
+      case Op::atan:
+        r = atan(a);
+        break;
       case Op::sinc:
         set_ratio(r, a, [](const S& x) { return S(sin(x)); });
         break;
@@ -109,6 +136,9 @@ void apply(Op op, S& r, const S& a) {
         break;
       case Op::atanhc:
         set_ratio(r, a, [](const S& x) { return S(atanh(x)); });
+        break;
+      case Op::atanc:
+        set_ratio(r, a, [](const S& x) { return S(atan(x)); });
         break;
       default:
         break;

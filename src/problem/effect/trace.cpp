@@ -20,9 +20,10 @@ typename Trace<S>::Id Trace<S>::leaf(Kind kind, std::size_t index) {
 
 template <Scalar S>
 typename Trace<S>::Id Trace<S>::constant(const S& value) {
-  for (Id i = 0; i < nodes_.size(); ++i)
-    if (is_constant(i) && nodes_[i].value == value) return i;
+  for (const Id i : constants_)
+    if (nodes_[i].value == value) return i;
   nodes_.push_back({Kind::constant, Op::add, 0, 0, value, 0, false});
+  constants_.push_back(nodes_.size() - 1);
   return nodes_.size() - 1;
 }
 
@@ -77,8 +78,9 @@ typename Trace<S>::Id Trace<S>::multiply(Id a, Id b) {
     if (has_coefficient(b) && (nodes_[a].degree > 1 || nodes_[a].degree < 0))
       return multiply(nodes_[b].a, multiply(a, nodes_[b].b));
   }
-  const int degree =
-      nodes_[a].degree < 0 || nodes_[b].degree < 0 ? not_polynomial : nodes_[a].degree + nodes_[b].degree;
+  constexpr int most_degree = 1'000'000;  // sums of two of them do not overflow
+  const int sum = nodes_[a].degree < 0 || nodes_[b].degree < 0 ? not_polynomial : nodes_[a].degree + nodes_[b].degree;
+  const int degree = sum > most_degree ? not_polynomial : sum;
   // A coefficient stands on the left; otherwise the order does not matter and is fixed, to find equal products.
   const bool ordered = !nodes_[a].varies || a <= b;
   return operation(Op::multiply, ordered ? a : b, ordered ? b : a, degree);
@@ -86,7 +88,7 @@ typename Trace<S>::Id Trace<S>::multiply(Id a, Id b) {
 
 template <Scalar S>
 typename Trace<S>::Id Trace<S>::apply(Op function, Id a) {
-  using std::cos, std::exp, std::log, std::sin, std::sqrt;
+  using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
   if (is_constant(a)) {
     const S x = nodes_[a].value;
     switch (function) {
@@ -104,6 +106,14 @@ typename Trace<S>::Id Trace<S>::apply(Op function, Id a) {
         return constant(S(exp(x)));
       case Op::log:
         return constant(S(log(x)));
+      case Op::sinh:
+        return constant(S(sinh(x)));
+      case Op::cosh:
+        return constant(S(cosh(x)));
+      case Op::tanh:
+        return constant(S(tanh(x)));
+      case Op::atan:
+        return constant(S(atan(x)));
       default:
         break;
     }
@@ -167,9 +177,24 @@ std::vector<typename Trace<S>::Id> Trace<S>::gradient(Id output, std::size_t inp
       case Op::log:
         pass(node.a, multiply(y, apply(Op::reciprocal, node.a)));
         break;
+      case Op::sinh:
+        pass(node.a, multiply(y, apply(Op::cosh, node.a)));
+        break;
+      case Op::cosh:
+        pass(node.a, multiply(y, apply(Op::sinh, node.a)));
+        break;
+      case Op::tanh: {  // d tanh(x) = dx / cosh(x)^2: 1 - tanh(x)^2 cancels
+        const Id sech = apply(Op::reciprocal, apply(Op::cosh, node.a));
+        pass(node.a, multiply(y, multiply(sech, sech)));
+        break;
+      }
+      case Op::atan:  // d atan(x) = dx / (1 + x^2)
+        pass(node.a, multiply(y, apply(Op::reciprocal, add(constant(S(1)), multiply(node.a, node.a)))));
+        break;
       case Op::sinc:
       case Op::sinhc:
       case Op::atanhc:
+      case Op::atanc:
         throw Error(std::string("the derivative of ") + name_of(node.op) + " is not known");
     }
   }

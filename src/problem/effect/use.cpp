@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "hbvm/error.hpp"
+#include "hbvm/problem/effect/compile.hpp"
 
 namespace hbvm {
 namespace {
@@ -37,22 +38,6 @@ std::vector<S> parameters_of(const EffectUse<S>& use, const typename EffectUse<S
   for (const auto& [key, value] : use.numbers) p.push_back(value);
   for (const auto& [key, values] : use.vectors) p.insert(p.end(), values.begin(), values.end());
   return p;
-}
-
-/// What a program's coefficients are for each instance: instances x coefficients.
-template <Scalar S>
-Matrix<S> coefficients_of(const Program<S>& program, const EffectUse<S>& use) {
-  Matrix<S> result(static_cast<Index>(use.instances.size()), static_cast<Index>(program.outputs()));
-  Matrix<S> registers = program.make_registers(1);
-  for (std::size_t n = 0; n < use.instances.size(); ++n) {
-    const std::vector<S> parameters = parameters_of(use, use.instances[n]);
-    std::vector<const S*> inputs;
-    for (const S& p : parameters) inputs.push_back(&p);
-    program.run(registers, inputs);
-    for (std::size_t i = 0; i < program.outputs(); ++i)
-      result(static_cast<Index>(n), static_cast<Index>(i)) = program.output(i, 0, registers, inputs);
-  }
-  return result;
 }
 
 /// v over its largest entry, so that products of its entries cannot leave the range of the numbers.
@@ -135,26 +120,13 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
   });
   if (!U) throw Error("no effect of kind '" + use.kind + "'");  // the scene reader has checked
 
-  const auto gradient_ids = trace.gradient(*U, d);
-  std::vector<typename Trace<S>::Id> hessian_ids;
-  for (std::size_t i = 0; i < d; ++i) {
-    const auto row = trace.gradient(gradient_ids[i], d);
-    hessian_ids.insert(hessian_ids.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  std::vector<std::vector<S>> parameters;
+  for (const auto& instance : use.instances) {
+    term.displacements.push_back(instance.x);
+    parameters.push_back(parameters_of(use, instance));
   }
-  auto value = trace.compile({*U}, d, index);
-  auto gradient = trace.compile(gradient_ids, d, index);
-  auto hessian = trace.compile(hessian_ids, d, index);
   term.kind = use.kind;
-  term.degree = trace.degree(*U);
-  term.constant_force = true;
-  for (const auto id : gradient_ids) term.constant_force = term.constant_force && trace.degree(id) == 0;
-  for (const auto& instance : use.instances) term.displacements.push_back(instance.x);
-  term.value_coefficients = coefficients_of(value.coefficients, use);
-  term.gradient_coefficients = coefficients_of(gradient.coefficients, use);
-  term.hessian_coefficients = coefficients_of(hessian.coefficients, use);
-  term.value = std::move(value.program);
-  term.gradient = std::move(gradient.program);
-  term.hessian = std::move(hessian.program);
+  compile(trace, *U, d, index, parameters, term);
   return term;
 }
 

@@ -150,8 +150,8 @@ std::unique_ptr<ClosedForm> kepler_of(const Recognition& content) {
   for (const Acting& a : content.acting) {
     const Displacement<Mpfr>& x = a.displacement();
     if (a.term->constant_force) {
-      const Vector<Mpfr> gradient = a.gradient(Vector<Mpfr>::Zero(d));
-      for (const auto& block : x.blocks) force.segment(block.offset, d) += block.weight * gradient;
+      const Vector<Mpfr> gradient = a.gradient(Vector<Mpfr>::Zero(a.term->arguments * d));
+      a.for_each_coordinate(d, [&](Index i, Index at, const Mpfr& weight) { force[at] += weight * gradient[i]; });
       continue;
     }
     if (!is_inverse_distance(*a.term) || x.blocks.size() != (two ? 2u : 1u)) return nullptr;

@@ -98,14 +98,14 @@ std::unique_ptr<ClosedForm> oscillator_of(const Recognition& content) {
   Vector<Mpfr> force = Vector<Mpfr>::Zero(m);
   Matrix<Mpfr> stiffness = Matrix<Mpfr>::Zero(m, m), mass = stiffness;
   for (const Acting& a : content.acting) {
-    const Displacement<Mpfr>& x = a.displacement();
-    const Vector<Mpfr> at = displaced(x, d, content.scene.q0), gradient = a.gradient(at);
+    const Vector<Mpfr> at = a.place(content.scene.q0, d), gradient = a.gradient(at);
     const Matrix<Mpfr> hessian = a.hessian(at);
-    for (const auto& row : x.blocks) {
-      force.segment(row.offset, d) += row.weight * gradient;
-      for (const auto& column : x.blocks)
-        stiffness.block(row.offset, column.offset, d, d) += Mpfr(row.weight * column.weight) * hessian;
-    }
+    a.for_each_coordinate(d, [&](Index i, Index row, const Mpfr& weight) {
+      force[row] += weight * gradient[i];
+      a.for_each_coordinate(d, [&](Index j, Index column, const Mpfr& other) {
+        stiffness(row, column) += Mpfr(weight * other) * hessian(i, j);
+      });
+    });
   }
   for (const auto& block : problem.mass.blocks())
     for (Index i = 0; i < block.size; ++i)

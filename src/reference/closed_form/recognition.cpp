@@ -40,6 +40,13 @@ Matrix<Mpfr> multiplied(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b) {
   return c;
 }
 
+Vector<Mpfr> Acting::place(const Vector<Mpfr>& q, Index dimension) const {
+  Vector<Mpfr> x(term->arguments * dimension);
+  for (Index a = 0; a < term->arguments; ++a)
+    x.segment(a * dimension, dimension) = displaced(term->displacement(instance, a), dimension, q);
+  return x;
+}
+
 Vector<Mpfr> Acting::gradient(const Vector<Mpfr>& x) const {
   return outputs(term->gradient, term->gradient_coefficients, instance, x);
 }
@@ -55,8 +62,8 @@ Matrix<Mpfr> Acting::hessian(const Vector<Mpfr>& x) const {
 Recognition::Recognition(const Assembled<Mpfr>& assembled, const Mpfr& epsilon_of_scene)
     : scene(assembled), round_off(epsilon_of_scene), dimension(assembled.problem.dimension) {
   for (const EffectTerm<Mpfr>& term : scene.problem.potential.terms)
-    for (std::size_t i = 0; i < term.displacements.size(); ++i)
-      if (term.symmetry.acts[i]) acting.push_back({&term, static_cast<Index>(i)});
+    for (Index i = 0; i < term.instances(); ++i)
+      if (term.symmetry.acts[static_cast<std::size_t>(i)]) acting.push_back({&term, i});
 }
 
 std::optional<Mpfr> Recognition::mass_at(Index offset) const {
@@ -81,9 +88,8 @@ bool Recognition::is_constant_force() const {
 Vector<Mpfr> Recognition::constant_force() const {
   Vector<Mpfr> force = Vector<Mpfr>::Zero(scene.problem.m());
   for (const Acting& a : acting) {
-    const Vector<Mpfr> gradient = a.gradient(Vector<Mpfr>::Zero(dimension));
-    for (const auto& block : a.displacement().blocks)
-      for (Index j = 0; j < dimension; ++j) force[block.offset + j] += block.weight * gradient[j];
+    const Vector<Mpfr> gradient = a.gradient(Vector<Mpfr>::Zero(a.term->arguments * dimension));
+    a.for_each_coordinate(dimension, [&](Index i, Index at, const Mpfr& weight) { force[at] += weight * gradient[i]; });
   }
   return force;
 }

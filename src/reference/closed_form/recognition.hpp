@@ -8,13 +8,23 @@
 
 namespace hbvm {
 
-/// One body or pair on which an effect acts.
+/// One body, pair or group on which an effect acts.
 struct Acting {
   const EffectTerm<Mpfr>* term;
   Index instance;
 
-  const Displacement<Mpfr>& displacement() const { return term->displacements[static_cast<std::size_t>(instance)]; }
-  /// dU/dx and d2U/dx2 at this displacement.
+  /// Its only displacement, or the first.
+  const Displacement<Mpfr>& displacement() const { return term->displacement(instance, 0); }
+  /// Its displacements at q, one after the other.
+  Vector<Mpfr> place(const Vector<Mpfr>& q, Index dimension) const;
+  /// f(i, coordinate, weight) for every coordinate that component i of the displacements is made of.
+  template <class F>
+  void for_each_coordinate(Index dimension, F f) const {
+    for (Index i = 0; i < term->arguments * dimension; ++i)
+      for (const auto& block : term->displacement(instance, i / dimension).blocks)
+        f(i, block.offset + i % dimension, block.weight);
+  }
+  /// dU/dx and d2U/dx2 at these displacements.
   Vector<Mpfr> gradient(const Vector<Mpfr>& x) const;
   Matrix<Mpfr> hessian(const Vector<Mpfr>& x) const;
 };

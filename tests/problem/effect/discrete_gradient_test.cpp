@@ -147,18 +147,21 @@ TYPED_TEST(DiscreteGradients, KeepWhatRotationsKeep) {
 /// Each operation by itself, at points apart, side by side, and on both sides of 0 where it is defined there.
 TYPED_TEST(DiscreteGradients, HaveTheQuotientOfEveryOperation) {
   using S = TypeParam;
-  using std::cos, std::exp, std::log, std::sin, std::sqrt;
+  using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
   const std::pair<Op, std::function<S(const S&)>> functions[] = {
       {Op::negate, [](const S& x) { return S(-x); }},        {Op::abs, [](const S& x) { return magnitude(x); }},
       {Op::reciprocal, [](const S& x) { return S(1 / x); }}, {Op::sqrt, [](const S& x) { return S(sqrt(x)); }},
       {Op::sin, [](const S& x) { return S(sin(x)); }},       {Op::cos, [](const S& x) { return S(cos(x)); }},
-      {Op::exp, [](const S& x) { return S(exp(x)); }},       {Op::log, [](const S& x) { return S(log(x)); }}};
+      {Op::exp, [](const S& x) { return S(exp(x)); }},       {Op::log, [](const S& x) { return S(log(x)); }},
+      {Op::sinh, [](const S& x) { return S(sinh(x)); }},     {Op::cosh, [](const S& x) { return S(cosh(x)); }},
+      {Op::tanh, [](const S& x) { return S(tanh(x)); }},     {Op::atan, [](const S& x) { return S(atan(x)); }}};
   for (const auto& [op, f] : functions) {
     EffectTerm<S> term;
     term.value = Program<S>({}, {{op, {Bank::input, 0}, {}, 0}}, {{Bank::temporary, 0}}, 1);
     term.value_coefficients.resize(1, 0);
     std::vector<std::pair<S, S>> points{{S(1) / 3, S(7) / 4}, {S(5), S(6)}};
     if (op != Op::sqrt && op != Op::log) points.push_back({S(-2), S(S(1) / 7)});
+    if (op == Op::atan) points.push_back({S(-5), S(7)});  // whose angles are more than a right one apart
     for (const auto& [x0, x1] : points) {
       Vector<S> first = Vector<S>::Zero(3), second = first;
       first[0] = x0;

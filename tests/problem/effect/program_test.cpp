@@ -38,7 +38,7 @@ TYPED_TEST_SUITE(ProgramTest, AllScalars, ScalarNames);
 
 TYPED_TEST(ProgramTest, EveryOperationInEveryLane) {
   using S = TypeParam;
-  using std::cos, std::exp, std::log, std::sin, std::sqrt;
+  using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
   this->x(1, 0) = -magnitude(this->x(1, 0));
   this->expect(Op::add, [](const S& a, const S& b) { return S(a + b); });
   this->expect(Op::subtract, [](const S& a, const S& b) { return S(a - b); });
@@ -50,6 +50,10 @@ TYPED_TEST(ProgramTest, EveryOperationInEveryLane) {
   this->expect(Op::sin, [](const S& a, const S&) { return S(sin(a)); });
   this->expect(Op::cos, [](const S& a, const S&) { return S(cos(a)); });
   this->expect(Op::exp, [](const S& a, const S&) { return S(exp(a)); });
+  this->expect(Op::sinh, [](const S& a, const S&) { return S(sinh(a)); });
+  this->expect(Op::cosh, [](const S& a, const S&) { return S(cosh(a)); });
+  this->expect(Op::tanh, [](const S& a, const S&) { return S(tanh(a)); });
+  this->expect(Op::atan, [](const S& a, const S&) { return S(atan(a)); });
   for (Index i = 0; i < this->count; ++i) this->x(i, 0) = magnitude(this->x(i, 0));
   this->expect(Op::sqrt, [](const S& a, const S&) { return S(sqrt(a)); });
   this->expect(Op::log, [](const S& a, const S&) { return S(log(a)); });
@@ -58,14 +62,16 @@ TYPED_TEST(ProgramTest, EveryOperationInEveryLane) {
 /// sin x / x and its like, at 0, next to it and far from it.
 TYPED_TEST(ProgramTest, RatiosToTheArgumentHaveTheirLimitAtZero) {
   using S = TypeParam;
-  using std::atanh, std::sin, std::sinh, std::sqrt;
+  using std::atan, std::atanh, std::sin, std::sinh, std::sqrt;
   this->x(0, 0) = 0;
   this->x(1, 0) = -sqrt(epsilon<S>());
   const S small = this->x(1, 0), far = this->x(2, 0);
-  const std::pair<Op, S> expected[] = {
-      {Op::sinc, S(sin(far) / far)}, {Op::sinhc, S(sinh(far) / far)}, {Op::atanhc, S(atanh(far) / far)}};
-  const long sixths[] = {-1, 1, 2};
-  for (int i = 0; i < 3; ++i) {
+  const std::pair<Op, S> expected[] = {{Op::sinc, S(sin(far) / far)},
+                                       {Op::sinhc, S(sinh(far) / far)},
+                                       {Op::atanhc, S(atanh(far) / far)},
+                                       {Op::atanc, S(atan(far) / far)}};
+  const long sixths[] = {-1, 1, 2, -2};
+  for (int i = 0; i < 4; ++i) {
     const auto& [op, value] = expected[i];
     const Vector<S> result = this->run(op);
     EXPECT_EQ(result[0], 1) << name_of(op);

@@ -36,7 +36,7 @@ Matrix<S> run(const typename Trace<S>::Compiled& compiled, const Matrix<S>& inpu
 class Tree {
  public:
   template <Scalar S>
-  Tree(RandomValues<S>& random, int depth, int leaves) : kind_(static_cast<int>(random.whole(0, 15))) {
+  Tree(RandomValues<S>& random, int depth, int leaves) : kind_(static_cast<int>(random.whole(0, 19))) {
     if (depth == 0) {
       kind_ = leaf;
       index_ = static_cast<std::size_t>(random.whole(0, leaves - 1));
@@ -48,7 +48,7 @@ class Tree {
 
   template <class T>
   T value(const std::vector<T>& leaves) const {
-    using std::abs, std::cos, std::exp, std::log, std::sin, std::sqrt;
+    using std::abs, std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
     if (kind_ == leaf) return leaves[index_];
     const T a = children_[0].value(leaves), b = children_[1].value(leaves);
     switch (kind_) {
@@ -78,6 +78,14 @@ class Tree {
         return log(a * a + 2);
       case 14:
         return abs(a) - 1;
+      case 16:
+        return sinh(T(cos(a))) * b;
+      case 17:
+        return cosh(T(sin(a))) - b;
+      case 18:
+        return tanh(a) + b;
+      case 19:
+        return atan(a) * b;
       default:
         return 1 / (a * a + 2) + b;
     }

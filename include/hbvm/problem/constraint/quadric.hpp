@@ -6,10 +6,10 @@
 
 namespace hbvm {
 
-/// g = q^T A q + b^T q + c for the coordinates q[block ...] of one body, A symmetric.
+/// g = x^T A x + b^T x + c for the coordinates x of one body, or of several, A symmetric.
 template <Scalar S>
 struct Quadric {
-  Index block = 0;
+  std::vector<Index> blocks;  ///< where each body's coordinates begin, ascending
   Matrix<S> A;
   Vector<S> b;
   S c;
@@ -24,53 +24,58 @@ struct Quadric {
     const Matrix<S>& A = use.matrix("A");
     if (A == Matrix<S>::Zero(A.rows(), A.cols()))
       return Plane<S>{use.body("body"), use.vector("b"), S(-use.number("c"))};
-    return Quadric{use.body("body"), A, use.vector("b"), use.number("c")};
+    return Quadric{{use.body("body")}, A, use.vector("b"), use.number("c")};
   }
 
-  std::set<Index> coordinates(Index) const {
+  /// Where coordinate i of x stands in q.
+  Index at(Index dimension, Index i) const { return blocks[static_cast<std::size_t>(i / dimension)] + i % dimension; }
+
+  std::set<Index> coordinates(Index dimension) const {
     std::set<Index> found;
-    for (Index j = 0; j < b.size(); ++j) found.insert(block + j);
+    for (Index j = 0; j < b.size(); ++j) found.insert(at(dimension, j));
     return found;
   }
 
-  ConstraintValue<S> value(Index, const Vector<S>& q) const {
+  ConstraintValue<S> value(Index dimension, const Vector<S>& q) const {
     ConstraintValue<S> sum;
     for (Index i = 0; i < A.rows(); ++i) {
-      for (Index j = 0; j < A.cols(); ++j) sum.add(q[block + i] * A(i, j) * q[block + j]);
-      sum.add(b[i] * q[block + i]);
+      const S& x = q[at(dimension, i)];
+      for (Index j = 0; j < A.cols(); ++j) sum.add(x * A(i, j) * q[at(dimension, j)]);
+      sum.add(b[i] * x);
     }
     sum.add(c);
     return sum;
   }
 
-  S gradient_size(Index dimension, const S& r) const {
-    return S(dimension) * (S(2 * dimension) * max_norm(A) * r + max_norm(b));
+  S gradient_size(Index, const S& r) const {
+    const Index n = b.size();
+    return S(n) * (S(2 * n) * max_norm(A) * r + max_norm(b));
   }
 
-  S curvature(Index, const Vector<S>& v) const {
+  S curvature(Index dimension, const Vector<S>& v) const {
     S sum = 0;
     for (Index i = 0; i < A.rows(); ++i)
-      for (Index j = 0; j < A.cols(); ++j) sum += v[block + i] * A(i, j) * v[block + j];
+      for (Index j = 0; j < A.cols(); ++j) sum += v[at(dimension, i)] * A(i, j) * v[at(dimension, j)];
     return 2 * sum;
   }
 
   template <class Add>
-  void second_derivatives(Index, Add add) const {
+  void second_derivatives(Index dimension, Add add) const {
     for (Index i = 0; i < A.rows(); ++i)
-      for (Index j = 0; j < A.cols(); ++j) add(block + i, block + j, S(2 * A(i, j)));
+      for (Index j = 0; j < A.cols(); ++j) add(at(dimension, i), at(dimension, j), S(2 * A(i, j)));
   }
 
-  Quadric positive() const { return {block, magnitudes(A), b, c}; }
-  Quadric<double> in_double() const { return {block, hbvm::in_double(A), hbvm::in_double(b), approximately(c)}; }
+  Quadric positive() const { return {blocks, magnitudes(A), b, c}; }
+  Quadric<double> in_double() const { return {blocks, hbvm::in_double(A), hbvm::in_double(b), approximately(c)}; }
 
   template <class Conditions>
   void stays(Conditions& conditions) const {
-    conditions.quadratic_stays(block, A, b);
+    conditions.quadratic_stays(blocks, A, b);
   }
 
   class Gradient {
    public:
-    Gradient(const Quadric& form, Index, const std::vector<Index>&) : form_(form) {}
+    Gradient(const Quadric& form, Index dimension, const std::vector<Index>&) : form_(form), dimension_(dimension) {}
 
     void begin(const GradientTarget<S>&) const {}
 
@@ -83,11 +88,11 @@ struct Quadric {
         S* const column = to.column(j);
         for (Index i = 0; i < lanes; ++i) set_zero(column[i]);
         for (Index l = 0; l < form_.b.size(); ++l)
-          if (form_.A(j, l) != 0) add_weighted(column, form_.A(j, l), q[form_.block + l], lanes, to.t);
+          if (form_.A(j, l) != 0) add_weighted(column, form_.A(j, l), q[form_.at(dimension_, l)], lanes, to.t);
         if (to.g) {
           for (Index i = 0; i < lanes; ++i) {
             set_sum(to.t, column[i], form_.b[j]);
-            set_product(to.t, to.t, q[form_.block + j][i]);
+            set_product(to.t, to.t, q[form_.at(dimension_, j)][i]);
             set_sum(to.g[i], to.g[i], to.t);
           }
         }
@@ -108,6 +113,7 @@ struct Quadric {
 
    private:
     const Quadric& form_;
+    Index dimension_;
   };
 };
 

@@ -13,14 +13,16 @@ namespace hbvm {
 enum class Acts {
   on_each_body,    ///< x is the body's position
   about_a_center,  ///< x = body - centre, for every body of `on`
-  between_pairs    ///< x = a - b, for every pair of `between`
+  between_pairs,   ///< x = a - b, for every pair of `between`
+  on_group         ///< a formula alone: the positions of several bodies, one after the other
 };
 
 /// What U depends on, and so which motions of space keep it.
 enum class Symmetry {
   central,  ///< U(|x|): all rotations
   axial,    ///< U(|x|, n.x): the rotations about n
-  planar    ///< U(n.x): the rotations about n, and the translations across it
+  planar,   ///< U(n.x): the rotations about n, and the translations across it
+  computed  ///< known by equations for the motion alone
 };
 
 /// The n of an effect that is not central: the value of a vector key, and M times that for a mass matrix M.
@@ -36,7 +38,7 @@ struct EffectKey {
   std::string_view fallback = {};  ///< value if the key is absent; empty: the key is required
 };
 
-/// What an effect's formula may use, over any number type T with + - * / sqrt sin cos exp log.
+/// What an effect's formula may use, over any number type T with + - * / sqrt sin cos exp log sinh cosh tanh atan.
 template <class T>
 class Interaction {
  public:

@@ -30,6 +30,8 @@ class Trace {
   Id multiply(Id a, Id b);
   Id apply(Op function, Id a);
 
+  /// How much has been recorded.
+  std::size_t size() const { return nodes_.size(); }
   /// Degree of the polynomial in the inputs that `a` is, or not_polynomial.
   int degree(Id a) const { return nodes_[a].degree; }
 
@@ -67,6 +69,7 @@ class Trace {
   bool has_coefficient(Id a) const { return is(Op::multiply, a) && !nodes_[nodes_[a].a].varies && nodes_[a].varies; }
 
   std::vector<Node> nodes_;
+  std::vector<Id> constants_;
   std::map<std::tuple<int, int, Id, Id>, Id> known_;
 };
 
@@ -95,6 +98,10 @@ class Traced {
   friend Traced cos(const Traced& a) { return a.apply(Op::cos); }
   friend Traced exp(const Traced& a) { return a.apply(Op::exp); }
   friend Traced log(const Traced& a) { return a.apply(Op::log); }
+  friend Traced sinh(const Traced& a) { return a.apply(Op::sinh); }
+  friend Traced cosh(const Traced& a) { return a.apply(Op::cosh); }
+  friend Traced tanh(const Traced& a) { return a.apply(Op::tanh); }
+  friend Traced atan(const Traced& a) { return a.apply(Op::atan); }
 
  private:
   Traced whole(int value) const { return {*trace_, trace_->constant(S(value))}; }

@@ -1,0 +1,57 @@
+#include "hbvm/problem/effect/compile.hpp"
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Second derivatives by very many inputs take that many; what compiles would take as long to run.
+constexpr std::size_t most_operations = 200'000;
+
+/// What a program's coefficients are for each instance: instances x coefficients.
+template <Scalar S>
+Matrix<S> coefficients_of(const Program<S>& program, const std::vector<std::vector<S>>& values) {
+  Matrix<S> result(static_cast<Index>(values.size()), static_cast<Index>(program.outputs()));
+  Matrix<S> registers = program.make_registers(1);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    std::vector<const S*> inputs;
+    for (const S& p : values[n]) inputs.push_back(&p);
+    program.run(registers, inputs);
+    for (std::size_t i = 0; i < program.outputs(); ++i)
+      result(static_cast<Index>(n), static_cast<Index>(i)) = program.output(i, 0, registers, inputs);
+  }
+  return result;
+}
+
+}  // namespace
+
+template <Scalar S>
+void compile(Trace<S>& trace, typename Trace<S>::Id U, std::size_t inputs, std::size_t parameters,
+             const std::vector<std::vector<S>>& values, EffectTerm<S>& term) {
+  const auto gradient_ids = trace.gradient(U, inputs);
+  std::vector<typename Trace<S>::Id> hessian_ids;
+  for (std::size_t i = 0; i < inputs; ++i) {
+    const auto row = trace.gradient(gradient_ids[i], inputs);
+    hessian_ids.insert(hessian_ids.end(), row.begin(), row.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    if (trace.size() > most_operations) throw InputError("its second derivatives take too many operations");
+  }
+  auto value = trace.compile({U}, inputs, parameters);
+  auto gradient = trace.compile(gradient_ids, inputs, parameters);
+  auto hessian = trace.compile(hessian_ids, inputs, parameters);
+  term.degree = trace.degree(U);
+  term.constant_force = true;
+  for (const auto id : gradient_ids) term.constant_force = term.constant_force && trace.degree(id) == 0;
+  term.value_coefficients = coefficients_of(value.coefficients, values);
+  term.gradient_coefficients = coefficients_of(gradient.coefficients, values);
+  term.hessian_coefficients = coefficients_of(hessian.coefficients, values);
+  term.value = std::move(value.program);
+  term.gradient = std::move(gradient.program);
+  term.hessian = std::move(hessian.program);
+}
+
+#define HBVM_DEFINE(S)                                                                 \
+  template void compile<S>(Trace<S>&, typename Trace<S>::Id, std::size_t, std::size_t, \
+                           const std::vector<std::vector<S>>&, EffectTerm<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
+
+}  // namespace hbvm

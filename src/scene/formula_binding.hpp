@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <set>
+
+#include "hbvm/problem/formula/use.hpp"
+#include "hbvm/scene/formula_names.hpp"
+
+namespace hbvm {
+
+/// The bodies and points of a scene in numbers, by their names.
+template <Scalar S>
+class FormulaPlaces {
+ public:
+  virtual ~FormulaPlaces() = default;
+  virtual Displacement<S> position(const std::string& name) const = 0;
+  virtual Displacement<S> difference(const std::string& a, const std::string& b) const = 0;
+  /// \throws InputError if it has none
+  virtual S mass(const std::string& name) const = 0;
+  virtual S charge(const std::string& name) const = 0;
+};
+
+/// What the names of a formula in a scene stand for in one precision. Formula and constants must outlive it.
+template <Scalar S>
+class FormulaBinding {
+ public:
+  FormulaBinding(const SceneFormula& formula, Index dimension, const Constants& constants)
+      : formula_(formula),
+        dimension_(dimension),
+        constants_(constants),
+        names_(names_used(formula, static_cast<int>(dimension), constants)) {
+    std::set<std::size_t> used;
+    for (const auto& [name, is] : names_)
+      if (is.is == FormulaName::Is::coordinate) used.insert(is.place);
+    if (formula.acts == Acts::on_group) {
+      if (used.empty()) used = {0};
+    } else if (formula.acts == Acts::between_pairs) {
+      // Unless a position is named, it depends on the displacement alone.
+      if (!used.empty()) used = {0, 1};
+    } else {
+      used = {0};
+    }
+    places_.assign(used.begin(), used.end());
+  }
+
+  /// Without instances.
+  FormulaUse<S> use() const {
+    FormulaUse<S> result{formula_.expression, constants_, dimension_};
+    result.arguments = places_.empty() ? 1 : static_cast<Index>(places_.size());
+    for (const auto& [name, is] : names_) result.variables[name] = variable(is, result.parameters);
+    return result;
+  }
+
+  /// For these bodies and points, one for each that the formula is about.
+  typename FormulaUse<S>::Instance instance(const std::vector<std::string>& of, const FormulaPlaces<S>& scene) const {
+    typename FormulaUse<S>::Instance result;
+    if (places_.empty()) result.x.push_back(scene.difference(of[0], of[1]));
+    for (const std::size_t place : places_) result.x.push_back(scene.position(of[place]));
+    for (const auto& [name, is] : names_) {
+      if (is.is == FormulaName::Is::mass) result.parameters.push_back(scene.mass(of[is.place]));
+      if (is.is == FormulaName::Is::charge) result.parameters.push_back(scene.charge(of[is.place]));
+    }
+    return result;
+  }
+
+ private:
+  /// \param parameters so many are known; one more if the name is one
+  FormulaVariable variable(const FormulaName& is, std::size_t& parameters) const {
+    using Is = FormulaVariable::Is;
+    switch (is.is) {
+      case FormulaName::Is::coordinate: {
+        const auto argument = std::lower_bound(places_.begin(), places_.end(), is.place) - places_.begin();
+        return {Is::input, static_cast<std::size_t>(argument * dimension_) + is.axis};
+      }
+      case FormulaName::Is::difference:
+        return {Is::difference, is.axis};
+      case FormulaName::Is::distance:
+        return {Is::distance, 0};
+      default:
+        return {Is::parameter, parameters++};
+    }
+  }
+
+  const SceneFormula& formula_;
+  Index dimension_;
+  const Constants& constants_;
+  FormulaNames names_;
+  std::vector<std::size_t> places_;  ///< whose positions are inputs, ascending; none for the displacement of a pair
+};
+
+}  // namespace hbvm

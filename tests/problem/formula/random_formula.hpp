@@ -1,0 +1,250 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scalar/random_values.hpp"
+
+namespace hbvm {
+
+/// A number with its first and second derivatives by some variables, for formulas evaluated forwards by the rules of
+/// the second order: what a trace, which is differentiated backwards, is held against.
+template <Scalar S>
+struct Jet {
+  S value;
+  Vector<S> first;
+  Matrix<S> second;
+
+  static Jet number(const S& value, Index n) { return {value, Vector<S>::Zero(n), Matrix<S>::Zero(n, n)}; }
+  static Jet variable(const S& value, Index i, Index n) {
+    Jet result = number(value, n);
+    result.first[i] = 1;
+    return result;
+  }
+
+  /// f(this), with the derivatives of f there.
+  Jet through(const S& f, const S& df, const S& ddf) const {
+    Jet r = number(f, first.size());
+    for (Index i = 0; i < first.size(); ++i) {
+      r.first[i] = df * first[i];
+      for (Index j = 0; j < first.size(); ++j) r.second(i, j) = df * second(i, j) + ddf * first[i] * first[j];
+    }
+    return r;
+  }
+  Jet power(const S& n) const {
+    using std::pow;
+    return through(pow(value, n), n * pow(value, S(n - 1)), n * (n - 1) * pow(value, S(n - 2)));
+  }
+
+  friend Jet operator*(const Jet& a, const Jet& b) {
+    Jet r = number(a.value * b.value, a.first.size());
+    for (Index i = 0; i < r.first.size(); ++i) {
+      r.first[i] = a.first[i] * b.value + a.value * b.first[i];
+      for (Index j = 0; j < r.first.size(); ++j)
+        r.second(i, j) =
+            a.second(i, j) * b.value + a.first[i] * b.first[j] + a.first[j] * b.first[i] + a.value * b.second(i, j);
+    }
+    return r;
+  }
+  /// a + sign b.
+  static Jet sum(const Jet& a, const Jet& b, int sign) {
+    Jet r = a;
+    r.value += sign * b.value;
+    for (Index i = 0; i < r.first.size(); ++i) {
+      r.first[i] += sign * b.first[i];
+      for (Index j = 0; j < r.first.size(); ++j) r.second(i, j) += sign * b.second(i, j);
+    }
+    return r;
+  }
+};
+
+/// A random formula of the variables that are named, with values and derivatives for all of moderate size: its text as
+/// a scene has it, and its value by another evaluator.
+class RandomFormula {
+ public:
+  template <Scalar S>
+  RandomFormula(RandomValues<S>& random, int depth, const std::vector<std::string>& names) {
+    kind_ = depth == 0 ? Kind::leaf : static_cast<Kind>(random.whole(0, static_cast<long>(Kind::leaf)));
+    whole_ = random.whole(0, 9);
+    if (kind_ == Kind::leaf) {
+      const auto count = static_cast<long>(names.size());
+      name_ = static_cast<std::size_t>(random.whole(0, count + 1));
+      text_ = name_ < names.size() ? names[name_]
+              : whole_ % 2 == 0    ? "(" + std::to_string(whole_) + "/7)"
+                                   : "0.3" + std::to_string(whole_) + "e-1";
+      return;
+    }
+    for (int i = 0; i < 2; ++i) parts_.push_back(std::make_shared<RandomFormula>(random, depth - 1, names));
+    const std::string a = "(" + parts_[0]->text_ + ")", b = "(" + parts_[1]->text_ + ")";
+    switch (kind_) {
+      case Kind::add:
+        text_ = a + " + " + b;
+        break;
+      case Kind::subtract:
+        text_ = a + "-" + b;
+        break;
+      case Kind::multiply:
+        text_ = a + "*" + b;
+        break;
+      case Kind::divide:
+        text_ = a + "/(" + b + "^2 + 1)";
+        break;
+      case Kind::negate:
+        text_ = "-" + a + "*" + b;
+        break;
+      case Kind::power:
+        text_ = a + "^" + std::to_string(whole_ + 2) + "/" + std::to_string(1L << (whole_ + 2));
+        break;
+      case Kind::half_power:
+        text_ = "(1 + " + a + "^2)^(-" + std::to_string(whole_) + "-1/2)";
+        break;
+      case Kind::third_power:
+        text_ = "(2 + sin" + a + ")^(" + std::to_string(whole_) + "/3 + 1/3)";
+        break;
+      case Kind::root:
+        text_ = "sqrt(1 + " + a + "^2)";
+        break;
+      case Kind::sine:
+        text_ = "sin" + a;
+        break;
+      case Kind::cosine:
+        text_ = "cos " + a;
+        break;
+      case Kind::tangent:
+        text_ = "tan(sin" + a + ")";
+        break;
+      case Kind::exponential:
+        text_ = "exp(sin" + a + ")";
+        break;
+      case Kind::logarithm:
+        text_ = "log(2 + " + a + "^2)";
+        break;
+      case Kind::hyperbolic_sine:
+        text_ = "sinh(cos" + a + ")";
+        break;
+      case Kind::hyperbolic_cosine:
+        text_ = "cosh(sin" + a + ")";
+        break;
+      case Kind::hyperbolic_tangent:
+        text_ = "tanh" + a;
+        break;
+      case Kind::arc_tangent:
+        text_ = "atan" + a;
+        break;
+      case Kind::leaf:
+        break;
+    }
+  }
+
+  const std::string& text() const { return text_; }
+
+  template <Scalar S>
+  Jet<S> jet(const std::vector<Jet<S>>& variables) const {
+    using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+    using J = Jet<S>;
+    const Index n = variables.front().first.size();
+    const auto plus = [&](const J& a, int number) { return J::sum(a, J::number(S(number), n), 1); };
+    const auto sine = [](const J& a) { return a.through(sin(a.value), cos(a.value), S(-sin(a.value))); };
+    const auto cosine = [](const J& a) { return a.through(cos(a.value), S(-sin(a.value)), S(-cos(a.value))); };
+    if (kind_ == Kind::leaf) {
+      if (name_ < variables.size()) return variables[name_];
+      return J::number(
+          whole_ % 2 == 0 ? S(S(static_cast<int>(whole_)) / 7) : S(S(static_cast<int>(30 + whole_)) / 1000), n);
+    }
+    const J a = parts_[0]->jet(variables), b = parts_[1]->jet(variables);
+    const S& x = a.value;
+    switch (kind_) {
+      case Kind::add:
+        return J::sum(a, b, 1);
+      case Kind::subtract:
+        return J::sum(a, b, -1);
+      case Kind::multiply:
+        return a * b;
+      case Kind::divide:
+        return a * plus(b * b, 1).power(S(-1));
+      case Kind::negate:
+        return J::sum(J::number(S(0), n), a * b, -1);
+      case Kind::power: {
+        J result = a;
+        for (long i = 1; i < whole_ + 2; ++i) result = result * a;
+        return result * J::number(S(S(1) / static_cast<int>(1L << (whole_ + 2))), n);
+      }
+      case Kind::half_power:
+        return plus(a * a, 1).power(S(S(-1 - 2 * static_cast<int>(whole_)) / 2));
+      case Kind::third_power:
+        return plus(sine(a), 2).power(S(S(static_cast<int>(whole_) + 1) / 3));
+      case Kind::root:
+        return plus(a * a, 1).power(S(S(1) / 2));
+      case Kind::sine:
+        return sine(a);
+      case Kind::cosine:
+        return cosine(a);
+      case Kind::tangent: {
+        const J s = sine(a);
+        const S t = tan(s.value), slope = 1 + t * t;
+        return s.through(t, slope, S(2 * t * slope));
+      }
+      case Kind::exponential: {
+        const J s = sine(a);
+        const S e = exp(s.value);
+        return s.through(e, e, e);
+      }
+      case Kind::logarithm: {
+        const J s = plus(a * a, 2);
+        const S over = 1 / s.value;
+        return s.through(log(s.value), over, S(-over * over));
+      }
+      case Kind::hyperbolic_sine: {
+        const J c = cosine(a);
+        return c.through(sinh(c.value), cosh(c.value), sinh(c.value));
+      }
+      case Kind::hyperbolic_cosine: {
+        const J s = sine(a);
+        return s.through(cosh(s.value), sinh(s.value), cosh(s.value));
+      }
+      case Kind::hyperbolic_tangent: {
+        const S t = tanh(x), slope = 1 - t * t;
+        return a.through(t, slope, S(-2 * t * slope));
+      }
+      case Kind::arc_tangent: {
+        const S slope = 1 / (1 + x * x);
+        return a.through(atan(x), slope, S(-2 * x * slope * slope));
+      }
+      case Kind::leaf:
+        break;
+    }
+    return a;
+  }
+
+ private:
+  enum class Kind {
+    add,
+    subtract,
+    multiply,
+    divide,
+    negate,
+    power,
+    half_power,
+    third_power,
+    root,
+    sine,
+    cosine,
+    tangent,
+    exponential,
+    logarithm,
+    hyperbolic_sine,
+    hyperbolic_cosine,
+    hyperbolic_tangent,
+    arc_tangent,
+    leaf
+  };
+  Kind kind_;
+  long whole_;
+  std::size_t name_ = 0;
+  std::string text_;
+  std::vector<std::shared_ptr<RandomFormula>> parts_;
+};
+
+}  // namespace hbvm

@@ -1,0 +1,249 @@
+// Scenes with formulas: what they may say, and that they are what is built in.
+
+#include <chrono>
+#include <cstdlib>
+#include <random>
+
+#include "hbvm/problem/curvature.hpp"
+#include "hbvm/problem/discrete_force.hpp"
+#include "hbvm/problem/energy_terms.hpp"
+#include "hbvm/problem/momenta.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scene/assemble.hpp"
+#include "printing.hpp"
+#include "scene/formula_scene.hpp"
+#include "scene/joined_bodies.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+Vector<S> away_from(const Vector<S>& near) {
+  Vector<S> v = near;
+  for (Index i = 0; i < v.size(); ++i) v[i] += S(static_cast<int>((i * i * 7 + i * 5) % 23) - 11) / 700;
+  return v;
+}
+
+template <class S>
+class FormulaScene : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+  static Assembled<S> assembled(const std::string& text) { return assemble<S>(read_scene(text, "test.toml")); }
+
+  /// All that a problem says, at a state and one step from it.
+  static std::vector<S> all(const Assembled<S>& scene) {
+    const Problem<S>& problem = scene.problem;
+    const Vector<S> q = away_from(scene.q0), p = away_from(scene.p0);
+    std::vector<S> result;
+    const auto add = [&](const auto& values) {
+      result.insert(result.end(), values.data(), values.data() + values.size());
+    };
+    Point<S> point(problem);
+    result.push_back(point.energy(q, p));
+    result.push_back(point.energy_size(q, p));
+    add(point.constraints(q));
+    add(point.hidden_constraints(q, p));
+    add(point.multiplier(q, p));
+    add(point.forces(q, p).applied);
+    EnergyTerms<S> energy(problem);
+    energy.evaluate(q, p);
+    result.push_back(energy.H());
+    DiscreteForce<S> discrete(problem.potential);
+    Matrix<S> force(1, problem.m());
+    discrete.evaluate(scene.q0, q, force);
+    add(force);
+    Curvature<S> curvature(problem, 1);
+    const Matrix<S>& second = curvature.potential(lanes(q));
+    Matrix<S> full = Matrix<S>::Zero(problem.m(), problem.m());
+    for (std::size_t i = 0; i < curvature.pairs().size(); ++i)
+      full(curvature.pairs()[i].row, curvature.pairs()[i].column) = second(0, static_cast<Index>(i));
+    add(full);
+    return result;
+  }
+};
+TYPED_TEST_SUITE(FormulaScene, AllScalars, ScalarNames);
+
+TYPED_TEST(FormulaScene, HasTheDigitsOfTheSameBuiltIn) {
+  const auto formulas = this->assembled(pendulum_by_formulas), built_in = this->assembled(pendulum_as_built_in);
+  EXPECT_EQ(this->all(formulas), this->all(built_in));
+  ASSERT_EQ(formulas.problem.nu(), 2);
+  EXPECT_EQ(formulas.problem.constraints[1].name, "formula of 'a', 'b'");
+  for (const auto& constraint : formulas.problem.constraints)
+    EXPECT_TRUE(std::holds_alternative<Rod<TypeParam>>(constraint.form));
+}
+
+/// The same U of two positions instead of their difference, of a group by number and by name.
+TYPED_TEST(FormulaScene, MaySayTheSameInOtherNames) {
+  using S = TypeParam;
+  const auto expected = this->all(this->assembled(pendulum_as_built_in));
+  const std::string pair = "between = [[\"a\", \"b\"], [\"pivot\", \"b\"]]\nU = \"-k*Q1*Q2/r\"";
+  for (const char* const other :
+       {"between = [[\"a\", \"b\"], [\"pivot\", \"b\"]]\nU = \"-k*Q1*Q2/sqrt((x1 - x2)^2 + (y1 - y2)^2)\"",
+        "between = [[\"a\", \"b\"], [\"pivot\", \"b\"]]\nU = \"-k*Q1*Q2/sqrt(x^2 + y^2) + 0*x1\"",
+        "of = [\"a\", \"pivot\", \"b\"]\nU = \"-k*a.Q*b.Q/sqrt((a.x - b.x)^2 + (a.y - y3)^2) - "
+        "k*Q2*Q3/sqrt((pivot.x - b.x)^2 + (y2 - b.y)^2)\""}) {
+    const auto found = this->all(this->assembled(changed(pendulum_by_formulas, pair, other)));
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_LE(magnitude(S(found[i] - expected[i])), 256 * epsilon<S>() * (1 + magnitude(expected[i]))) << other << i;
+  }
+}
+
+TYPED_TEST(FormulaScene, KeepsTheMomentaOfItsSymmetries) {
+  const auto names = [&](const std::string& text) {
+    std::string all;
+    for (const auto& component : conserved_momenta(this->assembled(text).problem)) all += component.name() + " ";
+    return all;
+  };
+  const std::string gravity = "[[effect]]\nkind = \"formula\"\nU = \"-9.81*m*y\"\n";
+  EXPECT_EQ(names(pendulum_by_formulas), "");
+  EXPECT_EQ(names(changed(pendulum_by_formulas, gravity, "")), "L_z ");
+  EXPECT_EQ(names(changed(changed(pendulum_by_formulas, gravity, ""), "-2/2*r^2", "-2/2*r^2 - x^3")), "");
+  // A quadric of two bodies.
+  const std::string first = "[[constraint]]\nkind = \"formula\"\non = \"a\"\ng = \"x^2 + y^2 - 1\"\n";
+  const std::string scene = changed(changed(pendulum_by_formulas, gravity, ""), first,
+                                    "[[constraint]]\nkind = \"formula\"\nbetween = [\"a\", \"b\"]\n"
+                                    "g = \"2*(x1*x2 + y1*y2) - 2*1.4\"\n");
+  const std::string at_rest =
+      changed(changed(scene, "[\"2/5\", \"3/10\"]", "[0, 0]"), "[\"7/10\", \"3/10\"]", "[0, 0]");
+  EXPECT_EQ(names(at_rest), "L_z ");
+  EXPECT_EQ(names(changed(at_rest, "x1*x2 + y1*y2) - 2*1.4", "x1*x2 + 2*y1*y2) - 2*2.44")), "");
+}
+
+/// x of a pair is from the second to the first, whether positions are named besides or not.
+TYPED_TEST(FormulaScene, OfPairsHasDisplacementsAndTheirSymmetry) {
+  using S = TypeParam;
+  const std::string pair =
+      "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [0, 0], velocity = [0, 0] }, { name = \"b\", mass = "
+      "2, "
+      "position = [3, 4], velocity = [0, 0] }]\n[[effect]]\nkind = \"formula\"\nU = \"2*x + r^2/10\"\n"
+      "between = [\"a\", \"b\"]\n";
+  for (const std::string& text : {pair, changed(pair, "2*x +", "2*x + 0*x1 +"), changed(pair, "2*x", "2*x1 - 2*x2")}) {
+    const Assembled<S> scene = this->assembled(text);
+    Point<S> point(scene.problem);
+    const Vector<S> force = point.forces(scene.q0, scene.p0).applied;
+    const S expected[] = {2 - S(6) / 10, S(-8) / 10, S(6) / 10 - 2, S(8) / 10};
+    for (Index i = 0; i < 4; ++i) EXPECT_LE(magnitude(S(force[i] - expected[i])), 4 * epsilon<S>()) << text;
+    std::string names;
+    for (const auto& component : conserved_momenta(scene.problem)) names += component.name() + " ";
+    EXPECT_EQ(names, "P_x P_y ") << text;
+  }
+}
+
+/// Points and centres of rigid bodies.
+TYPED_TEST(FormulaScene, ActsOnRigidBodies) {
+  using S = TypeParam;
+  const std::string formula = joined_bodies + "\n[[effect]]\nkind = \"formula\"\nU = \"-m*(2*x - y/3)\"\n";
+  const std::string built_in =
+      joined_bodies + "\n[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [-2, \"1/3\", 0]\n";
+  const auto found = this->all(this->assembled(formula)), expected = this->all(this->assembled(built_in));
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_LE(magnitude(S(found[i] - expected[i])), 256 * epsilon<S>() * (1 + magnitude(expected[i]))) << i;
+}
+
+/// What a scene with a change of the pendulum is refused with in double.
+std::string refused_in_double(const std::string& from, const std::string& to) {
+  try {
+    assemble<double>(read_scene(changed(pendulum_by_formulas, from, to), "test.toml"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(FormulaScenes, AreRefusedAtTheOperationThatHasNoValue) {
+  const std::string gravity = "\"-9.81*m*y\"";
+  EXPECT_EQ(refused_in_double(gravity, "\"-9.81*m*y + 1/(x - 3/5)\""),
+            "test.toml:38: effect 1 (formula): 'U', line 40, column 19: division by 0 at the start");
+  EXPECT_EQ(refused_in_double(gravity, "\"-9.81*m*y + log(k - 0.3)*x\""),
+            "test.toml:38: effect 1 (formula): 'U', line 40, column 18: logarithm of 0");
+  EXPECT_EQ(refused_in_double("charge = \"3/7\"", ""), "test.toml:42: effect 2 (formula): 'a' has no charge");
+  EXPECT_EQ(refused_in_double("mass = 3", "mass = [[3, 0], [0, 2]]"),
+            "test.toml:38: effect 1 (formula): 'b' has a mass matrix; a scalar mass is needed");
+}
+
+TEST(FormulaScenes, AreRefusedIfTheyDoNotSayWhatTheyActOn) {
+  const std::string pair = "between = [\"a\", \"b\"]\ng";
+  EXPECT_NE(refused_in_double(pair, "g").find("the key 'on' is missing"), std::string::npos);
+  EXPECT_NE(refused_in_double(pair, "on = \"a\"\nof = [\"a\"]\ng").find("give either 'on' or 'of'"), std::string::npos);
+  EXPECT_NE(refused_in_double(pair, "of = [\"pivot\"]\ng").find("fixed points alone"), std::string::npos);
+  EXPECT_NE(refused_in_double(pair, "of = []\ng").find("must name a body"), std::string::npos);
+  EXPECT_NE(refused_in_double(pair, "of = [\"a\", \"a\"]\ng").find("'a' twice"), std::string::npos);
+  EXPECT_NE(refused_in_double(pair, "of = [\"a\", \"c\"]\ng").find("no body 'c'"), std::string::npos);
+  EXPECT_NE(refused_in_double("kind = \"formula\"\non", "kind = \"formla\"\non").find("did you mean 'formula'"),
+            std::string::npos);
+}
+
+TEST(FormulaScenes, WithConstraintsThatAreNotQuadraticAreRefused) {
+  EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 + y^2) - 1"),
+            "test.toml: constraint 1 (formula of 'a') is not quadratic: no polynomial; general constraints are not yet "
+            "integrated");
+  EXPECT_NE(refused_in_double("x^2 + y^2 - 1", "x^3 + y^2 - 1").find("of degree 3"), std::string::npos);
+  EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "log(x^2 - 9/25) + y^2 - 1").substr(0, 70),
+            "test.toml:28: constraint 1 (formula): 'g', line 31, column 6: logarith");
+}
+
+TEST(FormulaScenes, ReadBackAsTheyAreWritten) {
+  const std::string group = changed(pendulum_by_formulas, "center = \"pivot\"\non = [\"b\"]\nU = \"-2/2*r^2\"",
+                                    "of = [\"a\", \"b\"]\nU = '''\n a.x*b.y\n - m2*k'''");
+  for (const std::string& text : {pendulum_by_formulas, group}) {
+    const Scene scene = read_scene(text, "test.toml");
+    const std::string written = write_scene(scene);
+    EXPECT_EQ(write_scene(read_scene(written, "test.toml")), written);
+    EXPECT_EQ(assemble<double>(read_scene(written, "test.toml")).problem.potential.terms.size(), 3u);
+  }
+}
+
+/// Any text is a formula or refused with one line; what is one has a finite value or is refused. For ten minutes with
+/// HBVM_FULL in the environment.
+TEST(FormulaScenes, OfRandomTextsAreReadOrRefused) {
+  const bool all = std::getenv("HBVM_FULL") != nullptr;
+  const auto end = std::chrono::steady_clock::now() + (all ? std::chrono::seconds(600) : std::chrono::seconds(3));
+  const std::vector<std::string> words{
+      "x",    "y",     "m",     "Q",      "r",     "k",  "L", "x1", "a.x", "sqrt(", "sin(",    "cos(", "tan(", "exp(",
+      "log(", "sinh(", "cosh(", "tanh(",  "atan(", "pi", "(", ")",  "+",   "-",     "*",       "/",    "^",    "1",
+      "0",    "0.5",   "1e9",   "1e-400", ".",     ",",  " ", "\t", "1/3", "999",   "\\u0000", "\\n"};
+  std::mt19937 random(17);
+  std::size_t read = 0, others = 0;
+  while (std::chrono::steady_clock::now() < end) {
+    std::string text;
+    const bool sensible = random() % 2 == 0;
+    for (unsigned length = 1 + random() % 24; length > 0; --length) {
+      // Of operand and operator in turn more come through.
+      if (sensible)
+        text += words[random() % 8] + words[22 + random() % 5];
+      else
+        text += words[random() % words.size()];
+    }
+    if (sensible) text += "x";
+    try {
+      const Assembled<double> scene =
+          assemble<double>(read_scene(changed(pendulum_by_formulas, "\"-9.81*m*y\"", "\"" + text + "\""), "test.toml"));
+      Point<double> point(scene.problem);
+      EXPECT_TRUE(is_finite(point.energy(scene.q0, scene.p0))) << text;
+      ++read;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      ++others;
+    }
+  }
+  EXPECT_GT(read, 20u);
+  EXPECT_GT(others, 20u);
+}
+
+/// Deep, long and steep texts end with an error, soon.
+TEST(FormulaScenes, OfHugeTextsAreRefused) {
+  const auto of = [](const std::string& text) { return refused_in_double("\"-9.81*m*y\"", "\"" + text + "\""); };
+  std::string deep, steep = "x", long_sum = "x";
+  for (int i = 0; i < 50'000; ++i) deep += "(";
+  EXPECT_NE(of(deep + "x").find("nested too deeply"), std::string::npos);
+  for (int i = 0; i < 10; ++i) steep = "(" + steep + ")^999";
+  EXPECT_NE(of("exp(2*x)*" + steep + "/x^999").size(), 0u);
+  for (int i = 0; i < 2'000; ++i) long_sum += "+x";
+  EXPECT_NE(of(long_sum).find("too many operations"), std::string::npos);
+  EXPECT_NE(of(std::string(200'000, ' ')).find("too long"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hbvm
