@@ -40,6 +40,9 @@ Mpfr spread(const std::vector<Vector<Mpfr>>& values) {
   return result;
 }
 
+/// Of the vectors at a time: those before it are q, p and lambda; H is the first that the motion conserves.
+constexpr std::size_t first_conserved = 3;
+
 }  // namespace
 
 long Agreement::State::agreed() const {
@@ -88,6 +91,16 @@ Agreement::Agreement(const Assembled<Mpfr>& scene, const std::vector<Expression>
         add(component.name(), single(here.value), here.size);
       }
     }
+  }
+  // What is conserved must be what it was at the start, too: nothing that the routes' states are compared by is as
+  // blind to a formula of H that does not belong to the forces.
+  for (State& state : states_) {
+    const auto add = [&](std::size_t v, const Mpfr& value) {
+      state.vectors[first_conserved + v].values.push_back(single(value));
+    };
+    add(0, point.energy(scene.q0, scene.p0));
+    for (std::size_t i = 0; i < momenta.size(); ++i)
+      add(i + 1, momentum(scene.problem, momenta[i], scene.q0, scene.p0).value);
   }
   count_digits();
 }
@@ -140,13 +153,14 @@ void Agreement::fail(std::size_t time, const Compared& c) const {
       c.values.front().size() > 1 || c.name == "lambda" ? fmt::format("{}_{}", c.name, worst + 1) : c.name;
   std::vector<Disagreement::Value> values;
   std::string list;
-  for (std::size_t r = 0; r < routes_.size(); ++r) {
-    values.push_back({routes_[r], to_scientific(c.values[r][worst], shown)});
-    list += fmt::format("{}{} by {}",
-                        r == 0                    ? ""
-                        : r + 1 == routes_.size() ? " and "
-                                                  : ", ",
-                        values[r].number, routes_[r]);
+  for (std::size_t r = 0; r < c.values.size(); ++r) {
+    const bool is_start = r == routes_.size();
+    values.push_back({is_start ? "start" : routes_[r], to_scientific(c.values[r][worst], shown)});
+    list += fmt::format("{}{} {} {}",
+                        r == 0                     ? ""
+                        : r + 1 == c.values.size() ? " and "
+                                                   : ", ",
+                        values[r].number, is_start ? "at the" : "by", values[r].route);
   }
   throw Disagreement(fmt::format("the routes agree in {} digits of {}, not in {}, at t = {}: {} is {}; nothing is "
                                  "given out",
@@ -171,7 +185,7 @@ std::vector<ReferenceState> Agreement::states() const {
         out.p = texts;
       else if (v == 2)
         out.lambda = texts;
-      else if (v == 3)
+      else if (v == first_conserved)
         out.H = texts.front();
       else
         out.momenta.push_back(texts.front());

@@ -1,5 +1,6 @@
 #include "hbvm/scalar/text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <memory>
@@ -95,9 +96,10 @@ std::string printed(const BigFloat& x, const char* format, int digits) {
 std::string scientific(const BigFloat& x, int digits) { return printed(x, "%.*Re", digits - 1); }
 
 /// With more bits than its digits have.
-BigFloat number_of(const std::string& decimal) {
+/// The number of a text, right to its own digits and to as many as are to be printed, if those are more.
+BigFloat number_of(const std::string& decimal, int digits) {
   constexpr long bits_a_digit = 4, spare = 64;
-  BigFloat x(static_cast<long>(decimal.size()) * bits_a_digit + spare);
+  BigFloat x(std::max(static_cast<long>(decimal.size()), static_cast<long>(digits)) * bits_a_digit + spare);
   mpfr_set_str(raw(x), decimal.c_str(), 10, MPFR_RNDN);
   return x;
 }
@@ -124,10 +126,12 @@ std::string to_text(double x) {
 std::string to_scientific(const Mpfr& x, int digits) { return scientific(exactly(x), digits); }
 std::string to_scientific(const Quad& x, int digits) { return scientific(exactly(x), digits); }
 std::string to_scientific(double x, int digits) { return scientific(exactly(x), digits); }
-std::string to_scientific(const std::string& decimal, int digits) { return scientific(number_of(decimal), digits); }
+std::string to_scientific(const std::string& decimal, int digits) {
+  return scientific(number_of(decimal, digits), digits);
+}
 
 std::string rounded_text(const std::string& decimal, int digits) {
-  const BigFloat x = number_of(decimal);
+  const BigFloat x = number_of(decimal, digits);
   if (!mpfr_regular_p(raw(x))) return special(x);
   std::string text = printed(x, "%#.*Rg", digits);
   // C's alternative form ends a whole number with its point.

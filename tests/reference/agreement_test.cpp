@@ -66,12 +66,16 @@ TEST_F(RoutesAgreement, HoldsForAnyNumberOfRunsThatAreTheSame) {
     const Agreement agreement(scene_, times(), std::vector<NamedRun>(n, {"taylor", run_}), wanted);
     EXPECT_TRUE(agreement.holds());
     EXPECT_NO_THROW(agreement.require());
-    EXPECT_EQ(agreement.digits(), digits10<Mpfr>());
+    // All of them but for what rounding has made of H since the start.
+    EXPECT_GE(agreement.digits(), digits10<Mpfr>() - 3);
     const std::vector<ReferenceState> states = agreement.states();
     ASSERT_EQ(states.size(), 2u);
     EXPECT_EQ(states[0].t, "1/2");
     // One run confirms nothing.
-    EXPECT_EQ(states[1].agreed, n == 1 ? 0 : digits10<Mpfr>());
+    if (n == 1)
+      EXPECT_EQ(states[1].agreed, 0);
+    else
+      EXPECT_GE(states[1].agreed, agreement.digits());
     EXPECT_EQ(states[1].q.size(), 2u);
     EXPECT_EQ(states[1].p.size(), 2u);
     EXPECT_EQ(states[1].lambda.size(), 1u);
@@ -106,6 +110,23 @@ TEST_F(RoutesAgreement, FindsTheNumberThatDiffers) {
     expect("q_2", [](ExactPoint& at) -> Mpfr& { return at.q[1]; });
     expect("p_2", [](ExactPoint& at) -> Mpfr& { return at.p[1]; });
     expect("lambda_1", [](ExactPoint& at) -> Mpfr& { return at.lambda[0]; });
+  }
+}
+
+/// Routes that share a formula of H which does not belong to the forces: what they find is not what the start has.
+TEST_F(RoutesAgreement, FindsAnEnergyThatIsNotConserved) {
+  Assembled<Mpfr> other = assemble<Mpfr>(text_);
+  other.p0 *= 1 + literal<Mpfr>("1e-25");
+  const Agreement agreement(other, times(), {{"taylor", run_}, {"hbvm", run_}}, wanted);
+  EXPECT_FALSE(agreement.holds());
+  try {
+    agreement.require();
+    FAIL();
+  } catch (const Disagreement& found) {
+    EXPECT_EQ(found.component, "H");
+    ASSERT_EQ(found.values.size(), 3u);
+    EXPECT_EQ(found.values.back().route, "start");
+    EXPECT_NE(std::string(found.what()).find(" at the start"), std::string::npos) << found.what();
   }
 }
 

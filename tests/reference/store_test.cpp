@@ -1,6 +1,10 @@
 #include "hbvm/reference/store.hpp"
 
 #include "hbvm/error.hpp"
+#include "hbvm/problem/momenta.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -97,6 +101,31 @@ TEST(Store, ShipsReferencesThatCanBeRead) {
     EXPECT_GE(stored.reference.routes.size(), 2u) << name;
     EXPECT_EQ(scene_hash(load_scene(stored.reference.scene)), stored.reference.scene_hash) << name;
     for (const ReferenceState& state : stored.reference.times) EXPECT_GT(state.agreed, stored.reference.digits) << name;
+  }
+}
+
+/// What is conserved is what it was at the start, to the last digit that is printed, and what the printed state has.
+TEST(Store, ShipsWhatIsConserved) {
+  for (const auto& [name, text] : shipped_references()) {
+    const Reference reference = read_reference(text, name).reference;
+    const PrecisionScope scope(static_cast<unsigned>(reference.digits) + 20);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(reference.scene));
+    Point<Mpfr> point(scene.problem);
+    const auto momenta = conserved_momenta(scene.problem);
+    const Mpfr unit = literal<Mpfr>("1e-" + std::to_string(reference.digits));
+    for (const ReferenceState& state : reference.times) {
+      const auto expect = [&](const std::string& what, const std::string& printed, const Mpfr& value,
+                              const Mpfr& size) {
+        const Mpfr number = literal<Mpfr>(printed), scale = number == 0 ? size : magnitude(value);
+        EXPECT_LE(magnitude(Mpfr(number - value)), unit * scale) << what << " of " << name << " is " << printed;
+      };
+      expect("H", state.H, point.energy(scene.q0, scene.p0), point.energy_size(scene.q0, scene.p0));
+      ASSERT_EQ(state.momenta.size(), momenta.size()) << name;
+      for (std::size_t i = 0; i < momenta.size(); ++i) {
+        const MomentumValue<Mpfr> start = momentum(scene.problem, momenta[i], scene.q0, scene.p0);
+        expect(momenta[i].name(), state.momenta[i], start.value, start.size);
+      }
+    }
   }
 }
 

@@ -190,6 +190,11 @@ TEST(Text, OfADecimalIsRounded) {
   EXPECT_EQ(rounded_text("9.99e-700", 1), "1e-699");
   EXPECT_EQ(rounded_text("0", 3), "0");
   EXPECT_EQ(rounded_text("nan", 3), "nan");
+  // More digits than the text has are zeros, as many as may be asked for.
+  for (const std::size_t zeros : {10U, 20U, 46U, 300U}) {
+    EXPECT_EQ(rounded_text("1.2625", 5 + static_cast<int>(zeros)), "1.2625" + std::string(zeros, '0'));
+    EXPECT_EQ(to_scientific(std::string("0.7"), static_cast<int>(zeros)), "7." + std::string(zeros - 1, '0') + "e-01");
+  }
   const std::string third = "0." + std::string(1'000, '3');
   EXPECT_EQ(rounded_text(third, 1'000), third);
   EXPECT_EQ(to_scientific(std::string("-0.0123456"), 3), "-1.23e-02");

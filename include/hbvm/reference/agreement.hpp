@@ -29,8 +29,9 @@ class Disagreement : public IntegrationError {
 };
 
 /// Runs of one motion beside each other: q, p, lambda, H and each conserved momentum at each time, every run with every
-/// other. Digits are counted after the leading one of a vector's greatest component; what is 0 but for rounding is
-/// measured by the terms that it is a sum of, or by what it is at other times.
+/// other; and what is conserved beside what it was at the start. Digits are counted after the leading one of a vector's
+/// greatest component; what is 0 but for rounding is measured by the terms that it is a sum of, or by what it is at
+/// other times.
 class Agreement {
  public:
   /// In the scope of the runs' digits. \param runs one at least; of one alone nothing is compared
@@ -53,7 +54,7 @@ class Agreement {
   /// A vector at one time.
   struct Compared {
     std::string name;
-    std::vector<Vector<Mpfr>> values;  ///< of each run
+    std::vector<Vector<Mpfr>> values;  ///< of each run, then at the start if it is conserved
     Mpfr natural = 0;                  ///< the size of the terms that it is a sum of, if it is a sum
     long leading = 0;                  ///< decimal exponent of the greatest component
     long agreed = 0;                   ///< digits after it
