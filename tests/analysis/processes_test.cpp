@@ -5,6 +5,8 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "hbvm/interruption.hpp"
+
 namespace hbvm {
 namespace {
 
@@ -29,6 +31,34 @@ TEST(InProcesses, TellsResultsFromWhatWasLost) {
   EXPECT_EQ(*results[1], "1an exception: odd");
   EXPECT_TRUE(results[2]->starts_with("2")) << *results[2];
   EXPECT_EQ(*results[3], "\"four\"");
+}
+
+/// What a cell says that a signal ended is no result.
+TEST(InProcesses, EndWithASignalAndKeepWhatWasDoneBefore) {
+  std::vector<WorkCell> cells;
+  for (const char* const key : {"a", "b", "c"})
+    cells.push_back({key, [] {
+                       if (interruption != 0) throw Interrupted(SIGINT, "x");
+                       return std::string("1");
+                     }});
+  CellStore store;
+  CellOptions options;
+  options.store = &store;
+  options.progress = [](long done, long) {
+    if (done == 1) interruption = SIGINT;
+  };
+  EXPECT_THROW(run_cells(cells, options,
+                         in_processes(
+                             cells, 1, [](std::size_t) { return 10.; },
+                             [](std::size_t, const ProcessEnd& end) {
+                               return end.failure.empty() ? end.text : "\"" + end.failure + "\"";
+                             })),
+               Interrupted);
+  interruption = 0;
+  ASSERT_TRUE(store.find("a"));
+  EXPECT_EQ(*store.find("a"), "1");
+  EXPECT_FALSE(store.find("b"));
+  EXPECT_FALSE(store.find("c"));
 }
 
 }  // namespace
