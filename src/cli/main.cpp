@@ -41,6 +41,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   hbvm::add_stability_command(app);
   hbvm::add_reference_command(app);
   hbvm::add_cost_command(app);
+  hbvm::add_report_command(app);
   hbvm::add_completion_command(app);
   hbvm::add_help_command(app);
   try {

@@ -3,9 +3,25 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "figure_layout.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/read_file.hpp"
+#include "hbvm/write_file.hpp"
 
 namespace hbvm {
+namespace {
+
+/// Numbers of the curves within the drawing, for who reads them from it: hbvm report.
+std::string with_data(std::string svg, const std::string& data) {
+  std::string text;
+  for (const char c : data)
+    text += c == '&' ? std::string("&amp;") : c == '<' ? std::string("&lt;") : std::string(1, c);
+  const std::size_t end = svg.rfind("</svg>");
+  if (end != std::string::npos) svg.insert(end, "<metadata id=\"hbvm-figure\">" + text + "</metadata>\n");
+  return svg;
+}
+
+}  // namespace
 
 void draw(const Figure& figure, const std::string& file) {
   const std::string script = gnuplot_script(figure, file);
@@ -16,6 +32,7 @@ void draw(const Figure& figure, const std::string& file) {
   if (!gnuplot) throw Error("cannot start gnuplot");
   const bool written = std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
   if (pclose(gnuplot) != 0 || !written) throw Error("gnuplot did not draw '" + file + "'");
+  if (file.ends_with(".svg")) write_file(file, with_data(read_file(file), figure_data(figure)));
 }
 
 }  // namespace hbvm

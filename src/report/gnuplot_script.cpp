@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "axis_range.hpp"
+#include "figure_layout.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/report/figure.hpp"
 
@@ -13,10 +13,6 @@ namespace {
 std::string colour_of(std::size_t curve) { return std::string(curve_colours[curve % curve_colours.size()]); }
 constexpr int dashes[] = {1, 2, 4, 5, 3};
 constexpr int marks[] = {7, 5, 9, 13, 11, 6, 4, 8, 12};
-
-/// In pixels of an SVG.
-constexpr double box_width = 330, box_height = 270, left = 74, above = 34, below = 52, between = 18;
-constexpr double letter_width = 6.6, line_height = 14, title_height = 26, footnote_height = 20;
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -34,11 +30,6 @@ std::string in_lines(const std::string& text) {
       result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
   }
   return result + "\"";
-}
-
-/// How many letters are seen of UTF-8.
-std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 struct Placed {
@@ -77,44 +68,16 @@ void spread(std::vector<Placed>& labels) {
       labels[group.first + i].at = group.lowest(distance) + distance * static_cast<double>(i);
 }
 
-/// A panel with the ranges of its axes.
+/// A panel as its place has it.
 class PanelScript {
  public:
-  explicit PanelScript(const Panel& panel) : panel_(panel) {
-    std::vector<double> x, y;
-    const auto gather = [&](const PlotPoint& point) {
-      x.push_back(point[0]);
-      y.push_back(std::isfinite(point[0]) ? point[1] : NAN);
-    };
-    for (const Curve& curve : panel.curves) std::for_each(curve.points.begin(), curve.points.end(), gather);
-    for (const Polyline& line : panel.lines) std::for_each(line.points.begin(), line.points.end(), gather);
-    for (const Mark& mark : panel.marks) gather(mark.at);
-    for (const Bar& bar : panel.bars) {
-      gather({bar.x - double{1} / 2, bar.from});
-      gather({bar.x + double{1} / 2, bar.to});
-    }
-    x_ = range_of(x);
-    y_ = range_of(y);
-    constexpr double room = 0.04;
-    if (panel.equal_axes)
-      make_equal(room);
-    else if (panel.bars.empty())
-      y_ = widened(y_, room);
-    if (panel.x.scale == AxisScale::binary) x_ = widened(x_, room);
-  }
+  PanelScript(const Panel& panel, const PanelPlace& place)
+      : panel_(panel), left_(place.left), bottom_(place.bottom), x_(place.x), y_(place.y) {}
 
-  /// What the labels at the right of its curves need, in pixels.
-  double right() const {
-    std::size_t longest = 0;
-    if (labelled())
-      for (const Curve& curve : panel_.curves) longest = std::max(longest, letters(curve.label));
-    const double before = panel_.labels_beside ? 20 : 10;
-    return longest > 0 ? before + letter_width * static_cast<double>(longest) : 0;
-  }
-
-  /// \param x, y of the lower left corner of its box, in pixels from the figure's; \param size of the figure
+  /// \param size of the figure
   /// \param words labels of the figure that are drawn with this panel
-  std::string text(double x, double y, const PlotPoint& size, const std::string& words) {
+  std::string text(const PlotPoint& size, const std::string& words) {
+    const double x = left_, y = bottom_;
     script_ = fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n", x / size[0],
                           (x + box_width) / size[0]) +
               fmt::format("set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n", y / size[1],
@@ -128,7 +91,7 @@ class PanelScript {
     for (const Mark& mark : panel_.marks) add(mark);
     label_marks();
     for (const Label& label : panel_.labels) write(label.at, label.text, "black", 0);
-    if (labelled()) label_curves();
+    if (has_names(panel_)) label_curves();
     if (parts_.empty()) parts_.push_back("NaN notitle");
     std::string plot = "plot ";
     for (std::size_t i = 0; i < parts_.size(); ++i) plot += (i > 0 ? ", \\\n     " : "") + parts_[i];
@@ -136,22 +99,6 @@ class PanelScript {
   }
 
  private:
-  /// No name for the only curve; none beside more curves than have room.
-  bool labelled() const {
-    constexpr std::size_t most = 24;
-    return panel_.curves.size() > 1 && panel_.curves.size() <= most;
-  }
-
-  void make_equal(double room) {
-    const double unit = (1 + 2 * room) * std::max(x_.length() / box_width, y_.length() / box_height);
-    const auto about = [&](const AxisRange& range, double pixels) {
-      const double middle = (range.from + range.to) / 2;
-      return AxisRange{middle - unit * pixels / 2, middle + unit * pixels / 2};
-    };
-    x_ = about(x_, box_width);
-    y_ = about(y_, box_height);
-  }
-
   void axis(const std::string& name, const Axis& axis, const AxisRange& range, int most) {
     Tics tics = tics_of(range, axis.scale, most);
     if (!axis.names.empty()) tics = {};
@@ -324,6 +271,7 @@ class PanelScript {
   }
 
   const Panel& panel_;
+  double left_, bottom_;
   AxisRange x_, y_;
   std::string script_;
   std::vector<std::string> parts_;
@@ -365,14 +313,8 @@ std::string plain(const std::string& text) {
 }
 
 std::string gnuplot_script(const Figure& figure, const std::string& file) {
-  const std::size_t count = figure.panels.size(), columns = std::min<std::size_t>(count, 2),
-                    rows = columns > 0 ? (count + columns - 1) / columns : 0;
-  std::vector<PanelScript> panels(figure.panels.begin(), figure.panels.end());
-  double right = between;
-  for (const PanelScript& panel : panels) right = std::max(right, panel.right());
-  const double width = left + box_width + right, height = above + box_height + below;
-  const double top = figure.caption.empty() ? 0 : title_height, foot = figure.footnote.empty() ? 0 : footnote_height;
-  const PlotPoint size{static_cast<double>(columns) * width, static_cast<double>(rows) * height + top + foot};
+  const FigureLayout layout = layout_of(figure);
+  const PlotPoint& size = layout.size;
   const Terminal terminal = terminal_of(file, size);
   const auto font = [&](double pixels) { return fmt::format("font 'sans,{:g}'", pixels * terminal.letters); };
   std::string text = "set encoding utf8\nset minussign\nset terminal " + terminal.text + " " + font(12) +
@@ -385,11 +327,8 @@ std::string gnuplot_script(const Figure& figure, const std::string& file) {
   if (!figure.footnote.empty())
     words += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left {} tc rgb '#555555'\n",
                          quoted(plain(figure.footnote)), 12 / size[0], 0.5 * footnote_height / size[1], font(9));
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = static_cast<double>(i % columns) * width + left,
-                 y = foot + static_cast<double>(rows - 1 - i / columns) * height + below;
-    text += panels[i].text(x, y, size, i == 0 ? words : "");
-  }
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    text += PanelScript(figure.panels[i], layout.panels[i]).text(size, i == 0 ? words : "");
   return text + "unset multiplot\n";
 }
 

@@ -12,6 +12,7 @@
 #include "hbvm/scene/sketch.hpp"
 #include "hbvm/version.hpp"
 #include "report/axis_range.hpp"
+#include "report/html.hpp"
 
 namespace hbvm {
 namespace {
@@ -144,43 +145,6 @@ class PageData {
   OrderedJson charts_ = OrderedJson::array(), time_;
 };
 
-/// Text within HTML, also within an attribute.
-std::string html(std::string_view text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  return result;
-}
-
-/// JSON within a script: no text in it may end the script, or begin a comment in it.
-std::string within_script(const OrderedJson& json) {
-  std::string result;
-  for (const char c : dumped(json, -1)) {
-    if (c == '<')
-      result += "\\u003c";
-    else
-      result += c;
-  }
-  return result;
-}
-
 /// 12 000
 std::string grouped(long n) {
   constexpr long short_enough = 10'000;
@@ -275,7 +239,7 @@ std::string run_page(const RunRequest& request, const Recording& recording, cons
                      {"sketch", drawn}};
     data.update(PageData(shown).json());
     words["account"] = html(account_of(shown, last_step(recording)));
-    words["data"] = within_script(data);
+    words["data"] = within_script(dumped(data, -1));
     std::string page = filled(parts.html, words);
     if (page.size() < run_page_bytes) return page;
     if (shown.samples.size() <= 2)

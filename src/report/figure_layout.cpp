@@ -1,0 +1,151 @@
+#include "figure_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace hbvm {
+namespace {
+
+constexpr double left_of_box = 74, above_box = 34, below_box = 52, least_right_of_box = 18;
+
+PanelPlace ranges_of(const Panel& panel) {
+  std::vector<double> x, y;
+  const auto gather = [&](const PlotPoint& point) {
+    x.push_back(point[0]);
+    y.push_back(std::isfinite(point[0]) ? point[1] : NAN);
+  };
+  for (const Curve& curve : panel.curves) std::for_each(curve.points.begin(), curve.points.end(), gather);
+  for (const Polyline& line : panel.lines) std::for_each(line.points.begin(), line.points.end(), gather);
+  for (const Mark& mark : panel.marks) gather(mark.at);
+  for (const Bar& bar : panel.bars) {
+    gather({bar.x - double{1} / 2, bar.from});
+    gather({bar.x + double{1} / 2, bar.to});
+  }
+  PanelPlace place{0, 0, range_of(x), range_of(y)};
+  constexpr double room = 0.04;
+  if (panel.equal_axes) {
+    const double unit = (1 + 2 * room) * std::max(place.x.length() / box_width, place.y.length() / box_height);
+    const auto about = [&](const AxisRange& range, double pixels) {
+      const double middle = (range.from + range.to) / 2;
+      return AxisRange{middle - unit * pixels / 2, middle + unit * pixels / 2};
+    };
+    place.x = about(place.x, box_width);
+    place.y = about(place.y, box_height);
+  } else if (panel.bars.empty()) {
+    place.y = widened(place.y, room);
+  }
+  if (panel.x.scale == AxisScale::binary) place.x = widened(place.x, room);
+  return place;
+}
+
+/// What the labels at the right of its curves need, in pixels.
+double right_of(const Panel& panel) {
+  std::size_t longest = 0;
+  if (has_names(panel))
+    for (const Curve& curve : panel.curves) longest = std::max(longest, letters(curve.label));
+  const double before = panel.labels_beside ? 20 : 10;
+  return longest > 0 ? before + letter_width * static_cast<double>(longest) : 0;
+}
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(AxisScale scale) {
+  switch (scale) {
+    case AxisScale::binary:
+      return "binary";
+    case AxisScale::decimal:
+      return "decimal";
+    case AxisScale::falling:
+      return "falling";
+    case AxisScale::linear:
+      break;
+  }
+  return "linear";
+}
+
+/// Words of a figure as they are read: what lowers, raises and joins is for the eye alone.
+std::string read_words(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\\' && i + 1 < text.size())
+      result += text[++i];
+    else if (text[i] != '{' && text[i] != '}')
+      result += text[i];
+  }
+  return result;
+}
+
+Json json_of(const Axis& axis, const AxisRange& range) {
+  Json json{{"label", read_words(axis.label)}, {"scale", name_of(axis.scale)}, {"from", range.from}, {"to", range.to}};
+  if (!axis.names.empty()) json["names"] = axis.names;
+  return json;
+}
+
+/// No more digits than are drawn.
+double rounded(double x) { return std::strtod(fmt::format("{:.7g}", x).c_str(), nullptr); }
+
+}  // namespace
+
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+bool has_names(const Panel& panel) {
+  constexpr std::size_t most = 24;
+  return panel.curves.size() > 1 && panel.curves.size() <= most;
+}
+
+FigureLayout layout_of(const Figure& figure) {
+  const std::size_t count = figure.panels.size(), columns = std::min<std::size_t>(count, 2),
+                    rows = columns > 0 ? (count + columns - 1) / columns : 0;
+  double right = least_right_of_box;
+  for (const Panel& panel : figure.panels) right = std::max(right, right_of(panel));
+  const double width = left_of_box + box_width + right, height = above_box + box_height + below_box;
+  const double top = figure.caption.empty() ? 0 : title_height, foot = figure.footnote.empty() ? 0 : footnote_height;
+  FigureLayout layout{{static_cast<double>(columns) * width, static_cast<double>(rows) * height + top + foot}, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    PanelPlace place = ranges_of(figure.panels[i]);
+    place.left = static_cast<double>(i % columns) * width + left_of_box;
+    place.bottom = foot + static_cast<double>(rows - 1 - i / columns) * height + below_box;
+    layout.panels.push_back(place);
+  }
+  return layout;
+}
+
+std::string figure_data(const Figure& figure) {
+  const FigureLayout layout = layout_of(figure);
+  Json json{{"size", layout.size}};
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const Panel& panel = figure.panels[i];
+    const PanelPlace& place = layout.panels[i];
+    Json curves = Json::array();
+    const auto add = [&](const std::string& label, const std::vector<PlotPoint>& points) {
+      Json list = Json::array();
+      for (const PlotPoint& point : points)
+        if (std::isfinite(point[0]) && std::isfinite(point[1])) list.push_back({rounded(point[0]), rounded(point[1])});
+      if (!list.empty()) curves.push_back({{"label", read_words(label)}, {"points", list}});
+    };
+    if (panel.bars.empty())
+      for (const Curve& curve : panel.curves) add(curve.label, curve.points);
+    for (const Bar& bar : panel.bars) {
+      const bool named = bar.colour < panel.curves.size();
+      Json one{{"label", named ? read_words(panel.curves[bar.colour].label) : ""},
+               {"points", Json::array({{bar.x, rounded((bar.from + bar.to) / 2)}})},
+               {"value", rounded(bar.to - bar.from)}};
+      curves.push_back(one);
+    }
+    for (const Mark& mark : panel.marks) add(mark.label, {mark.at});
+    json["panels"].push_back({{"title", read_words(panel.title)},
+                              {"box", {place.left, layout.size[1] - place.bottom - box_height, box_width, box_height}},
+                              {"x", json_of(panel.x, place.x)},
+                              {"y", json_of(panel.y, place.y)},
+                              {"curves", curves}});
+  }
+  return json.dump();
+}
+
+}  // namespace hbvm

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace hbvm {
+
+/// Text within HTML, also within an attribute.
+std::string html(std::string_view text);
+
+/// JSON within a script: no text in it can end the script, or begin a comment in it.
+std::string within_script(std::string_view json);
+
+}  // namespace hbvm

@@ -1,0 +1,94 @@
+#include "hbvm/report/folder_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "hbvm/error.hpp"
+#include "hbvm/write_file.hpp"
+
+namespace hbvm {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FolderReportTest : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(mkdtemp(folder_.data())); }
+  void TearDown() override { fs::remove_all(folder_); }
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((fs::path(folder_) / name).parent_path());
+    write_file(fs::path(folder_) / name, text);
+  }
+  std::string page() { return folder_report(folder_, "1.2", "hbvm report x"); }
+  std::string refusal() {
+    try {
+      page();
+      return "none";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  }
+
+  std::string folder_ = (fs::temp_directory_path() / "hbvm_report_test_XXXXXX").string();
+};
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
+  return n;
+}
+
+TEST_F(FolderReportTest, ShowsTablesDrawingsTextsAndWhatMadeThem) {
+  write("README.md", "# A <study>\n\nSee ![it](a.svg).\n");
+  write("a.svg", "<svg><g/></svg>");
+  write("more/b.svg", "<svg><path/></svg>");
+  write("t.csv", "x,y\n1,<b>\n");
+  write("t.md", "| x | y |\n|--|--|\n| 1 | 2 |\n");
+  write("t.csv-metadata.json", R"({"dc:title": "Title", "hbvm:command": "hbvm study x", "hbvm:precision": "quad"})");
+  write("cells.jsonl", "{}");
+  const std::string text = page();
+  EXPECT_NE(text.find("<title>A &lt;study&gt;</title>"), std::string::npos);
+  EXPECT_EQ(count(text, "<figure"), 2u);
+  EXPECT_EQ(count(text, "<svg"), 2u);
+  EXPECT_EQ(count(text, "<td>1</td><td>&lt;b&gt;</td>"), 1u);
+  EXPECT_EQ(count(text, "<code>hbvm study x</code>"), 1u);
+  EXPECT_NE(text.find("<th>precision</th><td>quad</td>"), std::string::npos);
+  EXPECT_NE(text.find("not shown: cells.jsonl"), std::string::npos);
+  EXPECT_EQ(count(text, "<script"), 1u) << "no drawing here says what it draws";
+}
+
+TEST_F(FolderReportTest, ShowsSomeRowsOfLongTables) {
+  std::string csv = "n\n";
+  for (int n = 0; n < 5000; ++n) csv += std::to_string(n) + "\n";
+  write("t.csv", csv);
+  const std::string text = page();
+  EXPECT_NE(text.find("400 of 5000 rows"), std::string::npos);
+  EXPECT_EQ(count(text, "<td>0</td>"), 1u);
+  EXPECT_EQ(count(text, "<td>4999</td>"), 1u);
+}
+
+TEST_F(FolderReportTest, LeavesOutWhatIsTooLarge) {
+  write("large.svg", "<svg><path d=\"" + std::string(report_bytes, '0') + "\"/></svg>");
+  write("small.svg", "<svg><path d=\"1\"/></svg>");
+  const std::string text = page();
+  EXPECT_LT(text.size(), report_bytes);
+  EXPECT_NE(text.find("large.svg is left out"), std::string::npos);
+  EXPECT_EQ(count(text, "<figure"), 1u);
+}
+
+TEST_F(FolderReportTest, SaysWhatIsWrong) {
+  EXPECT_NE(refusal().find("nothing to report in"), std::string::npos);
+  write("t.csv", "a,b\n1\n");
+  EXPECT_EQ(refusal(), folder_ + "/t.csv:2: 1 cells, and the first line names 2 columns");
+  write("t.csv", "a,b\n1,2\n");
+  write("r.json", "{");
+  EXPECT_TRUE(refusal().starts_with(folder_ + "/r.json:1: no JSON")) << refusal();
+  write("r.json", "{}");
+  write("a.svg", "<svg>");
+  EXPECT_EQ(refusal(), folder_ + "/a.svg:1: <svg> does not end");
+  EXPECT_THROW(folder_report(folder_ + "/none", "1", "x"), InputError);
+}
+
+}  // namespace
+}  // namespace hbvm
