@@ -99,12 +99,13 @@ std::string command_of(const CostArguments& o) {
 }
 
 void grid_command(const CostArguments& o) {
-  const CostStudy study = study_of(o);
+  CostStudy study = study_of(o);
   std::string command = command_of(o) + " --digits-range " + o.range;
   if (o.seconds != CostArguments().seconds) command += fmt::format(" --seconds {:g}", o.seconds);
   command += o.work.provenance();
   std::optional<fs::path> folder;
   if (o.work.out) folder = make_out_folder(*o.work.out);
+  study.with_steps_and_energy = folder.has_value();
   CostOutcome outcome;
   {
     LongWork work(o.work, folder, "cost");
@@ -114,10 +115,9 @@ void grid_command(const CostArguments& o) {
     options.reference_progress = part_done(bar);
     outcome = run_cost_study(study, options);
   }
-  const bool complete = outcome.findings.size() == outcome.cells;
   const std::string json = to_json(study, outcome, command);
   std::vector<std::string> files;
-  if (folder && complete) {
+  if (folder && outcome.complete) {
     const Table table = cost_table(study, outcome);
     CsvMetadata metadata{table.caption, {}, {{"version", version()}, {"command", command}}, cost_columns()};
     for (const auto& property : measuring_system()) metadata.properties.push_back(property);
@@ -126,8 +126,18 @@ void grid_command(const CostArguments& o) {
     write_csv(csv, table, metadata);
     write_file(*folder / "cost.json", json + "\n");
     files = {csv, csvw_file(csv), (*folder / "cost.json").string()};
-    for (const Figure& figure :
-         {work_precision_figure(study, outcome), digits_figure(study, outcome), breakdown_figure(study, outcome)})
+    for (const auto& [name, further] : {std::pair{"steps", step_time_table(study, outcome.step_times)},
+                                        {"energy", energy_table(study, *outcome.energy_until, outcome.energies)},
+                                        {"conserving", energy_table(study, study.until, outcome.conserving)}}) {
+      if (further.groups.front().rows.empty()) continue;
+      const std::string file = (*folder / (std::string(name) + ".csv")).string();
+      CsvMetadata of_further = metadata;
+      of_further.title = further.caption;
+      of_further.columns = further_cost_columns(further);
+      write_csv(file, further, of_further);
+      files.push_back(file);
+    }
+    for (const Figure& figure : cost_figures(study, outcome))
       for (const char* const ending : {".svg", ".pdf"}) {
         const std::string file = (*folder / (figure.name + ending)).string();
         try {
@@ -149,7 +159,7 @@ void grid_command(const CostArguments& o) {
   fmt::print("{} runs of {}; the motion magnifies errors by 10^{:.1f}; compared with {} digits ({})\n",
              outcome.findings.size(), outcome.cells, outcome.nature.digits_lost, outcome.reference.digits,
              outcome.reference.source);
-  if (!complete)
+  if (!outcome.complete)
     fmt::print("the runs of shard {} are in {}; tables come from all shards, by --merge\n", *o.work.shard,
                (*folder / o.work.store).string());
   std::fflush(stdout);
@@ -182,7 +192,7 @@ void add_cost_command(CLI::App& app) {
   for (const std::string& name : cost_families()) families += (families.empty() ? "" : ", ") + name;
   command->add_option("SCENE", o->scene, "Scene file or built-in scene")->required();
   command->add_option("--methods", o->methods,
-                      "Methods, or families of them: " + families + " (default: all of these families, but taylor)");
+                      "Methods, or families of them: " + families + " (default: all of these families)");
   command->add_option("--precisions", o->precisions, "Some of double, quad, mpfr:N (default: what the digits ask for)");
   command->add_option("--digits-range", o->range, "A:B, the right digits that runs are to have")->capture_default_str();
   command->add_option("--until", o->until, "Time at which the state is compared")->capture_default_str();

@@ -16,16 +16,6 @@ namespace {
 /// What of a measurement is drawn: log10 of an error.
 using ErrorOf = std::function<double(const CostMeasurement&)>;
 
-/// A family as a curve names it.
-std::string family_of(const Method& method) {
-  if (const HbvmMethod* const hbvm = as_hbvm(method)) {
-    const HbvmName& name = hbvm->name();
-    return name.is_auto() ? "HBVM(k,s), k > s" : name.k == name.s ? "HBVM(s,s)" : "HBVM(k,s)";
-  }
-  const std::string title = method.title();
-  return title.substr(0, title.find_first_of(":(,"));
-}
-
 /// Findings that came to their end and are drawn, with where they stand: digits to the right, log10 of seconds up.
 struct Drawn {
   const CostFinding* finding;
@@ -40,7 +30,7 @@ std::vector<Drawn> drawn(const CostStudy& study, const CostOutcome& outcome, con
     if (!f.measured.failure.empty() || !(seconds[i] > 0)) continue;
     const double digits = -error(f.measured);
     // Errors as great as what they are of say nothing of an order.
-    if (std::isfinite(digits) && digits > 0 && digits <= study.most_digits + 4)
+    if (std::isfinite(digits) && digits > 0 && digits <= study.most_digits + 8)
       result.push_back({&f, {digits, std::log10(seconds[i])}});
   }
   return result;
@@ -70,6 +60,9 @@ Panel work_panel(const std::string& title) {
   return panel;
 }
 
+/// Of those that divide their steps, whatever digits they are asked for, one curve is the front.
+std::string curve_key(const Method& method) { return method.digits() ? family_of(method) : method.key(); }
+
 /// A curve a method, of its steps that are the best for something: of each family that which is nearest to the front of
 /// all, then others as near as may be.
 void add_methods(Panel& panel, const std::vector<Drawn>& all) {
@@ -84,7 +77,7 @@ void add_methods(Panel& panel, const std::vector<Drawn>& all) {
   for (const Drawn& d : all) {
     const Method* const method = d.finding->cell.method.get();
     auto place = std::find_if(candidates.begin(), candidates.end(),
-                              [&](const Candidate& c) { return c.method->key() == method->key(); });
+                              [&](const Candidate& c) { return curve_key(*c.method) == curve_key(*method); });
     if (place == candidates.end())
       place = candidates.insert(place, {method, {}, std::numeric_limits<double>::infinity()});
     place->points.push_back(d);
@@ -103,23 +96,17 @@ void add_methods(Panel& panel, const std::vector<Drawn>& all) {
   std::stable_sort(chosen.begin(), chosen.end(),
                    [](const Candidate& a, const Candidate& b) { return a.method->order() < b.method->order(); });
   for (const Candidate& c : chosen) {
-    const std::string order = c.method->order() > 0 ? fmt::format(", order {}", c.method->order()) : "";
-    panel.curves.push_back({plain(c.method->title()) + order, front_of(c.points), true});
+    const bool divides = c.method->digits().has_value();
+    const std::string order =
+        c.method->order() > 0 && !divides ? fmt::format(", order {}", c.method->order()) : std::string();
+    panel.curves.push_back(
+        {plain(divides ? family_of(*c.method) : c.method->title()) + order, front_of(c.points), true});
   }
   panel.lines.push_back({front, Polyline::Look::front});
 }
 
 std::string title_of(const Precision& precision) {
   return precision.kind() == Precision::Kind::mpfr ? fmt::format("{} digits", precision.digits()) : precision.name();
-}
-
-std::string footnote_of(const CostStudy& study, const CostOutcome& outcome) {
-  std::string text = fmt::format("hbvm cost {} --until {} --quantity {}", study.scene.name, study.until.text(),
-                                 name_of(study.quantity));
-  text += fmt::format("; reference of {} digits", outcome.reference.digits);
-  for (const auto& [key, value] : measuring_system())
-    if (key == "machine") text += "; " + value;
-  return text;
 }
 
 /// The front of each group of findings, named by a function.
@@ -140,6 +127,25 @@ void add_fronts(Panel& panel, const std::vector<Drawn>& all,
 
 }  // namespace
 
+std::string family_of(const Method& method) {
+  if (const HbvmMethod* const hbvm = as_hbvm(method)) {
+    const HbvmName& name = hbvm->name();
+    return name.is_auto() ? "HBVM(k,s), k > s" : name.k == name.s ? "HBVM(s,s)" : "HBVM(k,s)";
+  }
+  const std::string title = method.title(), text = method.text();
+  // HBVM that ends its steps otherwise is another.
+  if (title.starts_with("HBVM")) return text.substr(0, text.find(':'));
+  return title.substr(0, title.find_first_of(":(,"));
+}
+
+std::string cost_footnote(const CostStudy& study) {
+  std::string text = fmt::format("hbvm cost {} --until {} --quantity {}", study.scene.name, study.until.text(),
+                                 name_of(study.quantity));
+  for (const auto& [key, value] : measuring_system())
+    if (key == "machine") text += "; " + value;
+  return text;
+}
+
 Figure work_precision_figure(const CostStudy& study, const CostOutcome& outcome) {
   const std::vector<Drawn> all =
       drawn(study, outcome, [&](const CostMeasurement& m) { return m.errors.of(study.quantity); });
@@ -148,7 +154,7 @@ Figure work_precision_figure(const CostStudy& study, const CostOutcome& outcome)
   figure.caption =
       fmt::format("{} to t = {}: time against the error of {}", plain(study.scene.name), plain(study.until.text()),
                   study.quantity == CostQuantity::all ? "q, p and λ" : name_of(study.quantity));
-  figure.footnote = footnote_of(study, outcome);
+  figure.footnote = cost_footnote(study) + fmt::format("; reference of {} digits", outcome.reference.digits);
   figure.panels.push_back(work_panel("The best of each precision"));
   add_fronts(figure.panels.back(), all, [](const CostFinding& f) { return title_of(f.cell.precision); });
   std::vector<Precision> precisions;
@@ -169,7 +175,7 @@ Figure digits_figure(const CostStudy& study, const CostOutcome& outcome) {
   Figure figure;
   figure.name = "digits";
   figure.caption = fmt::format("{} to t = {}: what digits cost", plain(study.scene.name), plain(study.until.text()));
-  figure.footnote = footnote_of(study, outcome);
+  figure.footnote = cost_footnote(study) + fmt::format("; reference of {} digits", outcome.reference.digits);
   const auto panel_of = [](const std::string& title) {
     Panel panel = work_panel(title);
     panel.x = {"right digits", AxisScale::linear};

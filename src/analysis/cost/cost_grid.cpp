@@ -1,5 +1,7 @@
 #include "hbvm/analysis/cost/cost_grid.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,8 +32,10 @@ struct CountedStep {
   /// About, at what they typically cost: no clock has a say in what cells there are.
   double seconds(const Precision& precision) const {
     constexpr double nanoseconds = 1'000'000'000;
+    // Work in double beside many digits is products of matrices, and solutions with them.
+    constexpr double of_products = double{1} / 4;
     return (operations * typical_nanoseconds(precision) +
-            operations_in_double * typical_nanoseconds(Precision::parse("double"))) /
+            operations_in_double * of_products * typical_nanoseconds(Precision::parse("double"))) /
            nanoseconds;
   }
 };
@@ -47,7 +51,13 @@ CountedStep count_step(const CostStudy& study, const MethodPtr& method, const Pr
   for (const double steps : {usual_steps, 4 * usual_steps}) {
     const CostCell cell{made, precision, std::max(1L, static_cast<long>(std::ceil(steps)))};
     const CostSample sample = sample_cost(study.scene, study.until, cell, few, always);
-    if (sample.failure.empty()) return {sample.operations, sample.operations_in_double};
+    if (!sample.failure.empty()) continue;
+    // Of methods on the index-reduced equations the forces alone are counted, and neither sums nor what the constraints
+    // cost, which is more; eight times the sums, about.
+    const bool forces_alone = !method->kept().constraints && !as_hbvm(*method);
+    const double coordinates = 3 * static_cast<double>(std::max<std::size_t>(1, study.scene.bodies.size()));
+    const double sums = forces_alone ? 8 * coordinates * std::pow(method->terms(), 2) : double{0};
+    return {std::max(sample.operations, sums), sample.operations_in_double};
   }
   return {};
 }
@@ -64,6 +74,12 @@ std::vector<long> ladder(double from, double to, bool fine) {
   return steps;
 }
 
+/// Numbers of steps of a method that divides them: none to speak of, and as many as others would make.
+std::vector<long> divided_steps(double usual_steps) {
+  const long usual = std::max(2L, std::lround(usual_steps));
+  return {1, usual};
+}
+
 /// Some of them, so that no more than so many are left, the last among them.
 std::vector<long> thinned(const std::vector<long>& steps, std::size_t most) {
   if (steps.size() <= most) return steps;
@@ -72,7 +88,31 @@ std::vector<long> thinned(const std::vector<long>& steps, std::size_t most) {
   return result;
 }
 
+double time_of(const CostStudy& study, const Expression& time) {
+  const PrecisionScope scope(Precision::min_digits);
+  return approximately(evaluate<Mpfr>(time, study.scene.constants));
+}
+
 }  // namespace
+
+double usual_steps(const CostStudy& study, const MotionNature& nature) {
+  return time_of(study, study.until) / std::exp2(nature.log2_radius - 2);
+}
+
+double counted_seconds(const CostStudy& study, const MethodPtr& method, const Precision& precision,
+                       const MotionNature& nature) {
+  return count_step(study, method, precision, usual_steps(study, nature)).seconds(precision);
+}
+
+std::string times_text(const Expression& until, int times) {
+  const std::string& text = until.text();
+  const bool is_whole = text.find_first_not_of("0123456789") == std::string::npos && text.size() < 9;
+  return is_whole ? std::to_string(std::stol(text) * times) : fmt::format("({})*{}", text, times);
+}
+
+long times_of(const Expression& time, const CostStudy& study) {
+  return std::lround(time_of(study, time) / time_of(study, study.until));
+}
 
 double reachable_digits(const Precision& precision, const MotionNature& nature) {
   return precision.digits() + double{1} - nature.digits_lost - rounding_digits;
@@ -100,16 +140,16 @@ std::vector<Precision> default_precisions(double most_digits, const MotionNature
 std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& nature) {
   const std::vector<Precision> precisions =
       study.precisions.empty() ? default_precisions(study.most_digits, nature) : study.precisions;
-  const PrecisionScope scope(Precision::min_digits);
-  const double until = approximately(evaluate<Mpfr>(study.until, study.scene.constants));
-  const double usual_steps = until / std::exp2(nature.log2_radius - 2);
+  const double until = time_of(study, study.until), usual = usual_steps(study, nature);
   // Where there are more digits than double has the operations of a step hardly depend on their number.
-  std::map<std::pair<std::string, bool>, CountedStep> counts;
+  std::map<std::pair<std::string, Precision::Kind>, CountedStep> counts;
   const auto counted = [&](const MethodPtr& method, const Precision& precision) {
-    const bool in_double = precision.kind() == Precision::Kind::binary64;
-    const auto [place, is_new] = counts.try_emplace({method->key(), in_double});
-    if (is_new)
-      place->second = count_step(study, method, Precision::parse(in_double ? "double" : "mpfr:40"), usual_steps);
+    const auto [place, is_new] = counts.try_emplace({method->key(), precision.kind()});
+    if (is_new) {
+      const Precision few_digits = Precision::parse("mpfr:40");
+      const bool many = precision.kind() == Precision::Kind::mpfr && precision.digits() > few_digits.digits();
+      place->second = count_step(study, method, many ? few_digits : precision, usual);
+    }
     return place->second;
   };
   std::vector<CostCell> cells;
@@ -118,6 +158,7 @@ std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& natu
     // Half of the digits are enough to see where the next smaller precision is the better one.
     const Window window{std::max(study.least_digits, precision == precisions.front() ? 0 : reach / 2), reach};
     for (const MethodPtr& method : study.methods) {
+      if (!suits(*method, precision)) continue;
       const double order = method->order() > 0 ? method->order() : 4;
       const ErrorModel model{order, std::log10(typical_reach(*method)) + nature.log2_radius * std::log10(double{2}),
                              nature.digits_lost};
@@ -127,11 +168,14 @@ std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& natu
                    to = until / std::pow(10, model.log10_step(window.most + margin));
       constexpr int fine_from = 8;
       constexpr std::size_t most_rungs = 8;
-      std::vector<long> steps = ladder(from, to, order >= fine_from);
+      std::vector<long> steps = method->digits() ? divided_steps(usual) : ladder(from, to, order >= fine_from);
       // No step takes less than that; those of few stages would be counted for nothing.
       constexpr double least_step_seconds = double{3} / 10'000'000;
       const auto too_long = [&](double seconds) {
-        return [&study, seconds](long n) { return !(static_cast<double>(n) * seconds <= study.most_seconds); };
+        return [&, seconds](long n) {
+          const double made = method->digits() ? usual : static_cast<double>(n);
+          return !(made * seconds <= study.most_seconds);
+        };
       };
       std::erase_if(steps, too_long(least_step_seconds * typical_nanoseconds(precision)));
       if (steps.empty()) continue;

@@ -38,6 +38,15 @@ Methods parsed(const std::vector<std::string>& names) {
   return methods;
 }
 
+/// HBVM(s,s) that ends its steps otherwise.
+Methods of_stages(const std::string& family, double digits) {
+  Methods methods;
+  for (const int s : {2, 4, 8, 16, 32})
+    if (s <= 8 + digits / 2)
+      methods.push_back(parse_method(family + ":" + std::to_string(s) + "," + std::to_string(s)));
+  return methods;
+}
+
 /// A family of the registry that is a method without arguments, or none.
 Methods without_arguments(std::string_view name) {
   try {
@@ -71,6 +80,19 @@ std::vector<Family> families() {
       {"lobatto",
        [](double, Choice) {
          return parsed({"lobatto:3", "lobatto:4", "lobatto:6"});
+       }},
+      // What projection takes is more than further nodes would save: as many as stages.
+      {"projected_hbvm", [](double digits, Choice) { return of_stages("projected_hbvm", digits); }},
+      {"restored_hbvm", [](double digits, Choice) { return of_stages("restored_hbvm", digits); }},
+      {"bulirsch_stoer",
+       [](double digits, Choice choice) {
+         // Of order 16 at most, it takes too many steps for more.
+         const int most = choice == Choice::dense ? 20 : 30;
+         Methods methods;
+         for (const int asked : {4, 7, 10, 13, 16, 20, 25, 30})
+           if (asked <= std::min<double>(digits + 10, most))
+             methods.push_back(parse_method("bulirsch_stoer:" + std::to_string(asked)));
+         return methods;
        }},
   };
   for (const MethodFamily& family : method_families()) {
@@ -107,11 +129,17 @@ std::vector<MethodPtr> cost_methods(const std::vector<std::string>& list, double
     if (family == known.end())
       add(parse_method(name));
     else
-      for (const MethodPtr& method : family->members(most_digits, choice))
-        // What divides its steps has no error that a step decides: it is looked at where it is asked for.
-        if (!list.empty() || !method->digits()) add(method);
+      for (const MethodPtr& method : family->members(most_digits, choice)) add(method);
   }
   return methods;
+}
+
+bool suits(const Method& method, const Precision& precision) {
+  if (!method.digits() || method.kept().energy) return true;
+  // With far more digits than are asked for each operation costs more, and nothing is gained.
+  const int working = static_cast<int>(precision.digits());
+  constexpr int guard = 16;
+  return *method.digits() <= working && working <= 2 * *method.digits() + guard;
 }
 
 double typical_reach(const Method& method) {

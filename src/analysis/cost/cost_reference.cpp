@@ -2,18 +2,10 @@
 
 #include "analysis/json.hpp"
 #include "hbvm/reference/store.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "hbvm/version.hpp"
 
 namespace hbvm {
 namespace {
-
-/// The state of a reference at a time, or null.
-const ReferenceState* state_at(const Reference& reference, const Mpfr& t, const Constants& constants) {
-  for (const ReferenceState& state : reference.times)
-    if (evaluate<Mpfr>(Expression::parse(state.t), constants) == t) return &state;
-  return nullptr;
-}
 
 std::string routes_of(const Reference& reference) {
   std::string text;
@@ -21,27 +13,14 @@ std::string routes_of(const Reference& reference) {
   return text;
 }
 
-/// Times are compared as numbers of many digits.
-constexpr unsigned time_digits = 50;
-
 }  // namespace
 
 CostReference find_cost_reference(const CostReferenceRequest& request) {
   const Scene& scene = *request.scene;
-  const std::string hash = scene_hash(scene);
-  {
-    const PrecisionScope scope(time_digits);
-    const Mpfr t = evaluate<Mpfr>(request.until, scene.constants);
-    for (const auto& [name, text] : shipped_references()) {
-      if (text.find(hash) == std::string::npos) continue;
-      const Reference shipped = read_reference(text, name).reference;
-      const ReferenceState* const state = state_at(shipped, t, scene.constants);
-      if (shipped.scene_hash == hash && state && shipped.digits >= request.digits)
-        return {*state, shipped.digits, "shipped: " + name};
-    }
-  }
-  const std::string key = "reference|" + hash + "|" + request.until.text() + "|" + std::to_string(request.digits) +
-                          (request.confirmed ? "" : "|taylor");
+  if (const auto shipped = find_reference(scene, request.until, request.digits))
+    return {shipped->state, shipped->digits, "shipped: " + shipped->name};
+  const std::string key = "reference|" + scene_hash(scene) + "|" + request.until.text() + "|" +
+                          std::to_string(request.digits) + (request.confirmed ? "" : "|taylor");
   Reference reference;
   const std::string* const known = request.store ? request.store->find(key) : nullptr;
   if (known) {

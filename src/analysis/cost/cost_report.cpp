@@ -96,6 +96,38 @@ std::vector<CsvColumn> cost_columns() {
           {"failure", CsvType::text, "why there is no result"}};
 }
 
+std::vector<CsvColumn> further_cost_columns(const Table& table) {
+  const std::vector<CsvColumn> known{
+      {"method", CsvType::text, "as listed"},
+      {"made_by", CsvType::text, "with its k as chosen"},
+      {"precision", CsvType::text, "working precision"},
+      {"steps", CsvType::integer, ""},
+      {"step", CsvType::text, "exact"},
+      {"seconds", CsvType::binary64, "of the processor: of a step, or of all steps of a run"},
+      {"operations", CsvType::integer, "of a step, in the working precision"},
+      {"log10_error_H", CsvType::binary64, "of the greatest error of H relative to the size of its terms"},
+      {"log10_round_off", CsvType::binary64, "of what rounding explains of it"}};
+  std::vector<CsvColumn> columns;
+  for (const std::string& name : csv_columns(table))
+    columns.push_back(*std::find_if(known.begin(), known.end(), [&](const CsvColumn& c) { return c.name == name; }));
+  return columns;
+}
+
+std::vector<Figure> cost_figures(const CostStudy& study, const CostOutcome& outcome) {
+  std::vector<Figure> figures{work_precision_figure(study, outcome), digits_figure(study, outcome),
+                              breakdown_figure(study, outcome)};
+  // Of those of which no run came to its end there is nothing to see.
+  const auto add = [&](Figure figure) {
+    const auto& panels = figure.panels;
+    if (std::any_of(panels.begin(), panels.end(), [](const Panel& panel) { return !panel.curves.empty(); }))
+      figures.push_back(std::move(figure));
+  };
+  add(step_time_figure(study, outcome.step_times));
+  if (outcome.energy_until) add(energy_figure(study, *outcome.energy_until, outcome.energies));
+  add(conserving_figure(study, outcome.conserving));
+  return figures;
+}
+
 Table cost_table(const CostStudy& study, const CostOutcome& outcome) {
   Table table;
   table.caption = fmt::format("What accuracy costs: {} to t = {}", study.scene.name, study.until.text());

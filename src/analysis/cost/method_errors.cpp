@@ -61,7 +61,7 @@ void MethodErrors::learn(const std::function<void(double)>& progress) {
                            std::log10(typical_reach(*method)) + nature_.log2_radius * std::log10(double{2}),
                            nature_.digits_lost};
     PlannedMethod planned{method, guess};
-    if (is_gauss(*method) && method->stages() > most_piloted_stages)
+    if (method->digits() || (is_gauss(*method) && method->stages() > most_piloted_stages))
       methods_.push_back(planned);
     else if (learn(planned))
       methods_.push_back(planned);

@@ -7,6 +7,7 @@
 #include "hbvm/analysis/cost/calibration.hpp"
 #include "hbvm/analysis/cost/cost_cell.hpp"
 #include "hbvm/analysis/cost/cost_grid.hpp"
+#include "hbvm/analysis/cost/cost_methods.hpp"
 #include "hbvm/error.hpp"
 #include "method_errors.hpp"
 
@@ -70,8 +71,14 @@ class Planner {
     for (const Precision& precision : precisions())
       for (std::size_t m = 0; m < errors_.methods().size(); ++m) {
         const double log10_h = errors_.methods()[m].model.log10_step(aimed_digits());
-        if (!errors_.has_steps(log10_h)) continue;
         PlannedSetting setting{errors_.methods()[m].method, precision};
+        if (setting.method->digits()) {
+          // Found out by running it.
+          setting.steps = 1;
+          if (may_divide_well(*setting.method, precision)) all.emplace_back(0, Trial{m, setting});
+          continue;
+        }
+        if (!errors_.has_steps(log10_h)) continue;
         setting.steps = errors_.steps_of(log10_h);
         const double stages = errors_.methods()[m].method->terms();
         const double at_first_sight =
@@ -89,11 +96,28 @@ class Planner {
     }
   }
 
+  /// Whether a method that divides its steps is asked for so many digits that what the motion leaves of them is enough,
+  /// and not much more.
+  bool may_divide_well(const Method& method, const Precision& precision) const {
+    constexpr double further = 6;
+    const double asked = *method.digits();
+    return suits(method, precision) &&
+           (method.kept().energy ||
+            (asked >= request_.digits && asked <= request_.digits + nature_.digits_lost + further));
+  }
+
+  double predicted_digits(const Trial& trial) const {
+    const Method& method = *trial.setting.method;
+    if (!method.digits()) return errors_.model(trial.method).digits(errors_.log10_step(trial.setting.steps));
+    return method.kept().energy ? reachable_digits(trial.setting.precision, nature_)
+                                : *method.digits() - nature_.digits_lost;
+  }
+
   /// Time and error of the trial's step, by the models.
   void predict(Trial& trial) {
     PlannedSetting& setting = trial.setting;
     setting.step = step_text(request_.until, setting.steps);
-    setting.predicted_error = -errors_.methods()[trial.method].model.digits(errors_.log10_step(setting.steps));
+    setting.predicted_error = -predicted_digits(trial);
     setting.seconds.reset();
     setting.error.reset();
     constexpr long most = 8;
@@ -106,7 +130,7 @@ class Planner {
       if (!sample.failure.empty()) {
         // It is tried with smaller steps.
         constexpr double smaller = double{13} / 10;
-        if (++trial.attempts > most_attempts) {
+        if (setting.method->digits() || ++trial.attempts > most_attempts) {
           trial.done = true;
           return;
         }
@@ -162,6 +186,8 @@ class Planner {
       setting.error = -digits;
       measured_.push_back(setting);
     }
+    trial.done = true;
+    if (setting.method->digits()) return;
     const bool has = digits >= request_.digits;
     const long before = setting.steps;
     const double log10_h = errors_.log10_step(before);
@@ -177,7 +203,6 @@ class Planner {
     }
     const long wanted = errors_.steps_of(planned.model.log10_step(aimed_digits()));
     constexpr double gain = double{19} / 20;
-    trial.done = true;
     if (++trial.attempts > most_attempts) return;
     if (has) {
       if (static_cast<double>(wanted) > gain * static_cast<double>(before)) return;
@@ -208,7 +233,7 @@ class Planner {
     setting.steps = errors_.steps_of(log10_h);
     setting.step = step_text(request_.until, setting.steps);
     setting.predicted_seconds = second_a_step * static_cast<double>(setting.steps);
-    setting.predicted_error = -errors_.methods()[trial.method].model.digits(errors_.log10_step(setting.steps));
+    setting.predicted_error = -predicted_digits(trial);
   }
 
   Plan result() {
@@ -231,7 +256,7 @@ class Planner {
     for (const PlannedSetting& s : measured_)
       if (*s.error <= -request_.digits) others.push_back(s);
     for (const Trial& trial : trials_)
-      if (!trial.setting.seconds) others.push_back(trial.setting);
+      if (!trial.setting.seconds && trial.setting.predicted_seconds > 0) others.push_back(trial.setting);
     const auto time = [](const PlannedSetting& s) { return s.seconds.value_or(s.predicted_seconds); };
     std::stable_sort(others.begin(), others.end(),
                      [&](const PlannedSetting& a, const PlannedSetting& b) { return time(a) < time(b); });

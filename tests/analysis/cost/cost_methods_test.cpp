@@ -6,6 +6,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/reference/taylor_method.hpp"
+#include "hbvm/step/registry.hpp"
 
 namespace hbvm {
 namespace {
@@ -35,17 +36,31 @@ TEST(CostMethods, AreThoseOfAListEachOnce) {
 }
 
 TEST(CostMethods, AreAllFamiliesWithoutAList) {
+  add_taylor_method();
   const std::vector<MethodPtr> all = cost_methods({}, 20);
-  for (const char* const name : {"hbvm:1,1", "hbvm:auto,3", "rattle", "compose:rattle,4", "lobatto:3"})
+  for (const char* const name :
+       {"hbvm:1,1", "hbvm:auto,3", "rattle", "compose:rattle,4", "lobatto:3", "energy_momentum", "projected_hbvm:4,4",
+        "restored_hbvm:4,4", "rkf78", "bulirsch_stoer:10", "taylor"})
     EXPECT_TRUE(holds(all, name)) << name;
 }
 
-/// Its errors do not follow from the step, and its number types may be fewer.
-TEST(CostMethods, LeaveOutWhatDividesItsStepsUnlessItIsAskedFor) {
+TEST(CostMethods, AreMembersOfAFamilyByItsName) {
+  for (const char* const family : {"projected_hbvm", "restored_hbvm", "bulirsch_stoer"}) {
+    const std::vector<MethodPtr> members = cost_methods({family}, 20);
+    EXPECT_GT(members.size(), 3u) << family;
+    for (const MethodPtr& member : members) EXPECT_TRUE(member->text().starts_with(family)) << member->text();
+    EXPECT_LT(cost_methods({family}, 5).size(), members.size()) << family;
+  }
+}
+
+TEST(CostMethods, SuitThePrecisionsThatHaveTheirDigits) {
   add_taylor_method();
-  EXPECT_FALSE(holds(cost_methods({}, 20), "taylor"));
-  EXPECT_TRUE(holds(cost_methods({"taylor"}, 20), "taylor"));
-  EXPECT_TRUE(holds(cost_methods({"bulirsch_stoer:12"}, 20), "bulirsch_stoer:12"));
+  const MethodPtr extrapolation = parse_method("bulirsch_stoer:20"), taylor = parse_method("taylor");
+  EXPECT_FALSE(suits(*extrapolation, Precision::parse("double")));
+  EXPECT_TRUE(suits(*extrapolation, Precision::parse("quad")));
+  EXPECT_FALSE(suits(*extrapolation, Precision::parse("mpfr:200")));
+  EXPECT_TRUE(suits(*taylor, Precision::parse("mpfr:20")));
+  EXPECT_TRUE(suits(*parse_method("rattle"), Precision::parse("double")));
 }
 
 TEST(CostMethods, RefuseWhatIsNone) {

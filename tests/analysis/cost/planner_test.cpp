@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "hbvm/analysis/cost/cost_cell.hpp"
 #include "hbvm/analysis/cost/cost_methods.hpp"
+#include "hbvm/reference/taylor_method.hpp"
 
 namespace hbvm {
 namespace {
@@ -42,6 +45,28 @@ TEST(Planner, TakesHighOrderForManyDigits) {
   EXPECT_GE(many.pick.method->order(), 20);
   EXPECT_GE(many.pick.precision.digits(), 40u);
   EXPECT_EQ(few.pick.precision.name(), "double");
+}
+
+TEST(Planner, TriesWhatDividesItsStepsWithOne) {
+  add_taylor_method();
+  PlanRequest request = request_of("kepler", 8);
+  request.methods = cost_methods({"bulirsch_stoer", "hbvm:8,8"}, 8, Choice::dense);
+  const Plan few = plan_cost(request);
+  std::vector<PlannedSetting> found = few.runners_up;
+  found.push_back(few.pick);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const PlannedSetting& s) {
+    return s.method->text().starts_with("bulirsch_stoer") && s.steps == 1 && s.error && *s.error <= -8;
+  }));
+  request = request_of("kepler", 40);
+  request.methods = cost_methods({"taylor"}, 40, Choice::dense);
+  const Plan many = plan_cost(request);
+  EXPECT_EQ(many.pick.method->text(), "taylor");
+  EXPECT_EQ(many.pick.steps, 1);
+  // What cannot be run is no runner-up.
+  request.methods = cost_methods({"taylor", "hbvm:8,8"}, 8, Choice::dense);
+  request.digits = 8;
+  for (const PlannedSetting& other : plan_cost(request).runners_up) EXPECT_GT(other.predicted_seconds, 0);
+  EXPECT_LE(*many.pick.error, -40);
 }
 
 TEST(Planner, SaysWhenNothingHasTheDigits) {

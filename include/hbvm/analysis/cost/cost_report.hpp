@@ -24,6 +24,9 @@ Table cost_table(const CostStudy& study, const CostOutcome& outcome);
 /// What its columns are.
 std::vector<CsvColumn> cost_columns();
 
+/// What those of step_time_table and energy_table are.
+std::vector<CsvColumn> further_cost_columns(const Table& table);
+
 /// The cheapest cell for some numbers of digits.
 Table cheapest_table(const CostStudy& study, const CostOutcome& outcome);
 
@@ -37,6 +40,9 @@ Figure digits_figure(const CostStudy& study, const CostOutcome& outcome);
 /// Where the time of a step goes: to each precision a bar, of the run of HBVM on the front with the most digits that
 /// the precision is for.
 Figure breakdown_figure(const CostStudy& study, const CostOutcome& outcome);
+
+/// All of these, and those of steps and energies, as far as something was measured for them.
+std::vector<Figure> cost_figures(const CostStudy& study, const CostOutcome& outcome);
 
 /// What the time of a step goes into.
 inline constexpr std::array<std::string_view, 6> cost_parts{"forces",      "constraints",    "products",

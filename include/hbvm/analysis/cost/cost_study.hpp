@@ -6,6 +6,8 @@
 #include "hbvm/analysis/cells.hpp"
 #include "hbvm/analysis/cost/cost_grid.hpp"
 #include "hbvm/analysis/cost/cost_reference.hpp"
+#include "hbvm/analysis/cost/energy_cost.hpp"
+#include "hbvm/analysis/cost/step_time.hpp"
 
 namespace hbvm {
 
@@ -24,6 +26,10 @@ struct CostOutcome {
   CostReference reference;
   std::size_t cells = 0;              ///< of the whole study
   std::vector<CostFinding> findings;  ///< of the shard: by precision, method and steps
+  bool complete = false;              ///< all cells are there, those of steps and energy, too
+  std::vector<StepTime> step_times = {};
+  std::vector<EnergyCost> energies = {}, conserving = {};
+  std::optional<Expression> energy_until = {};  ///< of the energies
 };
 
 /// Measures the cells of the study, each in a process of its own, beside which a calibration loop shows what else the

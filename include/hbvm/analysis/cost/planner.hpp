@@ -47,7 +47,7 @@ struct Plan {
 /// shows the reach of its steps and what the motion makes of errors, ErrorModel; a few of its steps in the precision
 /// it would need show what a step costs. The cheapest by these models is run to the end; the models learn from it, and
 /// the next is taken, until nothing that was not run is predicted to be cheaper than the best that was, and has the
-/// digits.
+/// digits. Methods that divide their steps have no step to be found: they are tried with one.
 /// \throws InputError, IntegrationError if nothing has the digits
 Plan plan_cost(const PlanRequest& request);
 
