@@ -273,8 +273,11 @@ class Assembler : private FormulaPlaces<S> {
     try {
       return work();
     } catch (const ExpressionError& error) {
+      // One line, though the reason may quote a formula of several.
+      std::string reason = error.reason();
+      std::replace(reason.begin(), reason.end(), '\n', ' ');
       throw InputError(std::string("'") + key + "', " + formula.begin.place(formula.expression.text(), error.at()) +
-                       ": " + error.reason());
+                       ": " + reason);
     }
   }
 
