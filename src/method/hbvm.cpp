@@ -61,11 +61,12 @@ Matrix<Mpfr> butcher_matrix(const Matrix<Mpfr>& I, const Matrix<Mpfr>& projectio
 }
 
 /// The method in the precision of the scope, from nodes of that precision.
-Hbvm<Mpfr> assemble(int k, int s) {
+Hbvm<Mpfr> assemble(int k, int s, int r) {
   using std::sqrt;
   Hbvm<Mpfr> m;
   m.k = k;
   m.s = s;
+  m.r = r;
   const auto at_nodes = [&](int n, Vector<Mpfr>& c, Vector<Mpfr>& b, Matrix<Mpfr>& P, Matrix<Mpfr>& I,
                             Matrix<Mpfr>& projection) {
     const Quadrature<Mpfr> gauss = gauss_legendre<Mpfr>(n);
@@ -76,8 +77,8 @@ Hbvm<Mpfr> assemble(int k, int s) {
     I = legendre_integrals<Mpfr>(values);
     projection = projection_of(P, b);
   };
-  at_nodes(s, m.c, m.b, m.P_s, m.I_s, m.projection);
-  if (k == s) {
+  at_nodes(r, m.c, m.b, m.P_s, m.I_s, m.projection);
+  if (k == r) {
     m.c_hat = m.c;
     m.b_hat = m.b;
     m.P_hat = m.P_s;
@@ -87,12 +88,21 @@ Hbvm<Mpfr> assemble(int k, int s) {
     at_nodes(k, m.c_hat, m.b_hat, m.P_hat, m.I_hat, m.projection_hat);
   }
   m.X_s = X_matrix<Mpfr>(s);
-  m.A = butcher_matrix(m.I_s, m.projection);
-  m.lagrange_at_1 = Vector<Mpfr>::Zero(s);
+  m.lambda_at_1 = Vector<Mpfr>::Zero(s);
   Mpfr t;
   for (int j = 0; j < s; ++j) {
     const Mpfr P_j_at_1 = sqrt(Mpfr(2 * j + 1));
-    for (int i = 0; i < s; ++i) add_product(m.lagrange_at_1[i], P_j_at_1, m.projection(j, i), t);
+    if (r > s)
+      m.lambda_at_1[j] = P_j_at_1;
+    else
+      for (int i = 0; i < s; ++i) add_product(m.lambda_at_1[i], P_j_at_1, m.projection(j, i), t);
+  }
+  if (r == s) {
+    m.A = butcher_matrix(m.I_s, m.projection);
+  } else {
+    Matrix<Mpfr> X_projection;
+    product<Mpfr>(X_projection, m.X_s, m.projection);
+    product<Mpfr>(m.A, m.P_s, X_projection);
   }
   return m;
 }
@@ -100,34 +110,35 @@ Hbvm<Mpfr> assemble(int k, int s) {
 }  // namespace
 
 template <Scalar S>
-Hbvm<S> make_hbvm(int k, int s) {
-  const HbvmName name{k, s};
+Hbvm<S> make_hbvm(int k, int s, int r) {
+  const HbvmName name{k, s, r};
   name.check();
   if (name.is_auto()) throw InputError("method " + name.text() + ": K is not chosen yet");
-  Hbvm<S> r;
-  r.k = k;
-  r.s = s;
-  const Quadrature<S> gauss = gauss_legendre<S>(s), gauss_hat = k == s ? gauss : gauss_legendre<S>(k);
-  r.c = gauss.c;
-  r.b = gauss.b;
-  r.c_hat = gauss_hat.c;
-  r.b_hat = gauss_hat.b;
+  Hbvm<S> method;
+  method.k = k;
+  method.s = s;
+  method.r = r;
+  const Quadrature<S> gauss = gauss_legendre<S>(r), gauss_hat = k == r ? gauss : gauss_legendre<S>(k);
+  method.c = gauss.c;
+  method.b = gauss.b;
+  method.c_hat = gauss_hat.c;
+  method.b_hat = gauss_hat.b;
   // The small integrals near 0 take the most digits.
   const unsigned guard = 20 + static_cast<unsigned>(s);
   const auto digits = static_cast<unsigned>(digits10<S>());
   const PrecisionScope guarded(digits + guard);
-  const Hbvm<Mpfr> m = assemble(k, s);
+  const Hbvm<Mpfr> m = assemble(k, s, r);
   const PrecisionScope working(digits);
-  r.P_s = rounded<S>(m.P_s);
-  r.I_s = rounded<S>(m.I_s);
-  r.P_hat = rounded<S>(m.P_hat);
-  r.I_hat = rounded<S>(m.I_hat);
-  r.X_s = rounded<S>(m.X_s);
-  r.projection = rounded<S>(m.projection);
-  r.projection_hat = rounded<S>(m.projection_hat);
-  r.A = rounded<S>(m.A);
-  r.lagrange_at_1 = rounded<S>(m.lagrange_at_1);
-  return r;
+  method.P_s = rounded<S>(m.P_s);
+  method.I_s = rounded<S>(m.I_s);
+  method.P_hat = rounded<S>(m.P_hat);
+  method.I_hat = rounded<S>(m.I_hat);
+  method.X_s = rounded<S>(m.X_s);
+  method.projection = rounded<S>(m.projection);
+  method.projection_hat = rounded<S>(m.projection_hat);
+  method.A = rounded<S>(m.A);
+  method.lambda_at_1 = rounded<S>(m.lambda_at_1);
+  return method;
 }
 
 template <Scalar S>
@@ -135,6 +146,7 @@ Hbvm<double> in_double(const Hbvm<S>& method) {
   Hbvm<double> r;
   r.k = method.k;
   r.s = method.s;
+  r.r = method.r;
   r.c = in_double(method.c);
   r.b = in_double(method.b);
   r.c_hat = in_double(method.c_hat);
@@ -147,12 +159,12 @@ Hbvm<double> in_double(const Hbvm<S>& method) {
   r.projection = in_double(method.projection);
   r.projection_hat = in_double(method.projection_hat);
   r.A = in_double(method.A);
-  r.lagrange_at_1 = in_double(method.lagrange_at_1);
+  r.lambda_at_1 = in_double(method.lambda_at_1);
   return r;
 }
 
 #define HBVM_DEFINE(S)                     \
-  template Hbvm<S> make_hbvm<S>(int, int); \
+  template Hbvm<S> make_hbvm<S>(int, int, int); \
   template Hbvm<double> in_double<S>(const Hbvm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -1,39 +1,56 @@
 #include "hbvm/method/hbvm_name.hpp"
 
 #include <charconv>
+#include <iterator>
 
 #include "hbvm/error.hpp"
 
 namespace hbvm {
+
+std::string HbvmName::text() const {
+  const std::string third = r == 0 ? "" : "," + std::to_string(r);
+  return "hbvm:" + (is_auto() ? "auto" : std::to_string(k)) + "," + std::to_string(s) + third;
+}
 
 void HbvmName::check() const {
   if (s < 1) throw InputError("method " + text() + ": S must be at least 1");
   if (k != 0 && k < s) throw InputError("method " + text() + ": K must be at least S");
   if (s > max_s) throw InputError("method " + text() + ": S must be at most " + std::to_string(max_s));
   if (k > max_k) throw InputError("method " + text() + ": K must be at most " + std::to_string(max_k));
+  if (r != 0 && r < s) throw InputError("method " + text() + ": R must be at least S");
+  if (r > max_k) throw InputError("method " + text() + ": R must be at most " + std::to_string(max_k));
 }
 
 HbvmName HbvmName::parse(std::string_view text) {
-  constexpr std::string_view prefix = "hbvm:";
+  const InputError unknown("unknown method '" + std::string(text) +
+                           "': use hbvm:K,S with whole numbers K >= S >= 1, e.g. hbvm:5,3, or hbvm:auto,S; a third, "
+                           "hbvm:K,S,R with R >= S, is the number of nodes of constraints that are not quadratic");
+  constexpr std::string_view prefix = "hbvm:", automatic = "auto";
+  if (!text.starts_with(prefix)) throw unknown;
   HbvmName name;
-  if (text.starts_with(prefix)) {
-    const char* const end = text.data() + text.size();
-    constexpr std::string_view automatic = "auto";
-    auto first = std::from_chars(text.data() + prefix.size(), end, name.k);
-    const bool chosen_later = text.substr(prefix.size()).starts_with(automatic);
-    if (chosen_later) first = {text.data() + prefix.size() + automatic.size(), std::errc()};
-    if (first.ec == std::errc() && first.ptr != end && *first.ptr == ',') {
-      const auto second = std::from_chars(first.ptr + 1, end, name.s);
-      if (second.ec == std::errc() && second.ptr == end) {
-        if (!chosen_later && name.k < 1)
-          throw InputError("method " + std::string(text) + ": K must be at least S, and S at least 1");
-        name.check();
-        return name;
-      }
-    }
+  std::string_view rest = text.substr(prefix.size());
+  const bool chosen_later = rest.starts_with(automatic);
+  int* const numbers[] = {&name.k, &name.s, &name.r};
+  std::size_t found = 0;
+  if (chosen_later) {
+    rest.remove_prefix(automatic.size());
+    found = 1;
   }
-  throw InputError("unknown method '" + std::string(text) +
-                   "': use hbvm:K,S with whole numbers K >= S >= 1, e.g. hbvm:5,3, or hbvm:auto,S");
+  while (found == 0 || !rest.empty()) {
+    if (found == std::size(numbers) || (found > 0 && rest.front() != ',')) throw unknown;
+    if (found > 0) rest.remove_prefix(1);
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), *numbers[found]);
+    if (error != std::errc()) throw unknown;
+    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+    ++found;
+  }
+  if (found < 2) throw unknown;
+  if (!chosen_later && name.k < 1)
+    throw InputError("method " + std::string(text) + ": K must be at least S, and S at least 1");
+  if (found == std::size(numbers) && name.r < 1)
+    throw InputError("method " + std::string(text) + ": R must be at least S");
+  name.check();
+  return name;
 }
 
 }  // namespace hbvm

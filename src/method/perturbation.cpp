@@ -80,20 +80,29 @@ void perturb(Nodes<S> nodes, const Perturbation& p, const S& relative) {
   if (p.part != Perturbation::Part::integral) set_projection(nodes);
 }
 
-/// A and l_i(1) from the values and integrals at the s nodes.
+/// A and what the unknowns of lambda add to lambda(1), from the values and integrals at the constraints' nodes.
 template <Scalar S>
 void follow(Hbvm<S>& m, const Perturbation& p, const S& relative) {
   using std::sqrt;
   using Part = Perturbation::Part;
-  m.A = m.I_s.lazyProduct(m.projection);
+  const bool coefficients = m.has_coefficients_of_lambda();
+  if (coefficients)
+    m.A = m.P_s.lazyProduct(Matrix<S>(m.X_s.lazyProduct(m.projection)));
+  else
+    m.A = m.I_s.lazyProduct(m.projection);
   if (p.part == Part::integral) return;
+  Vector<S> at_1(m.s);
+  for (int j = 0; j < m.s; ++j) {
+    at_1[j] = sqrt(S(2 * j + 1));
+    if (p.part == Part::legendre && p.i == j) at_1[j] += relative * legendre_coefficient<S>(p.i, p.j);
+  }
+  if (coefficients) {
+    m.lambda_at_1 = at_1;
+    return;
+  }
   for (Index i = 0; i < m.s; ++i) {
-    m.lagrange_at_1[i] = 0;
-    for (int j = 0; j < m.s; ++j) {
-      S P_j_at_1 = sqrt(S(2 * j + 1));
-      if (p.part == Part::legendre && p.i == j) P_j_at_1 += relative * legendre_coefficient<S>(p.i, p.j);
-      m.lagrange_at_1[i] += P_j_at_1 * m.projection(j, i);
-    }
+    m.lambda_at_1[i] = 0;
+    for (Index j = 0; j < m.s; ++j) m.lambda_at_1[i] += at_1[j] * m.projection(j, i);
   }
 }
 
@@ -112,7 +121,7 @@ void perturb(Hbvm<S>& method, const Perturbation& p) {
     return;
   }
   Hbvm<S> m = method;
-  const bool both = m.k == m.s || p.part == Part::legendre;
+  const bool both = m.k == m.r || p.part == Part::legendre;
   if (both || p.hat) perturb<S>(Nodes<S>{m.c_hat, m.b_hat, m.P_hat, m.I_hat, m.projection_hat}, p, relative);
   if (both || !p.hat) {
     perturb<S>(Nodes<S>{m.c, m.b, m.P_s, m.I_s, m.projection}, p, relative);

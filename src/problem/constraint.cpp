@@ -1,5 +1,9 @@
 #include "hbvm/problem/constraint.hpp"
 
+#include <algorithm>
+
+#include "hbvm/problem/effect/trace.hpp"
+
 namespace hbvm {
 
 template <Scalar S>
@@ -15,19 +19,56 @@ ConstraintValue<S> value(const Constraint<S>& constraint, Index dimension, const
 
 template <Scalar S>
 S gradient_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& q) {
-  return std::visit([&](const auto& form) { return form.gradient_size(dimension, max_norm(q)); }, constraint.form);
+  return std::visit(
+      [&]<class Form>(const Form& form) {
+        if constexpr (ConstraintForm<Form, S>)
+          return form.gradient_size(dimension, max_norm(q));
+        else
+          return form.gradient_size(dimension, q);
+      },
+      constraint.form);
 }
 
 template <Scalar S>
-S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& v) {
-  return std::visit([&](const auto& form) { return form.curvature(dimension, v); }, constraint.form);
+int degree(const Constraint<S>& constraint) {
+  const auto* const formula = std::get_if<FormulaConstraint<S>>(&constraint.form);
+  return formula ? formula->degree() : 2;
 }
 
 template <Scalar S>
-S curvature_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& v) {
-  // The same of what has no negative entries.
-  return std::visit([&](const auto& form) { return form.positive().curvature(dimension, magnitudes(v)); },
-                    constraint.form);
+int degree(const std::vector<Constraint<S>>& constraints) {
+  int greatest = 2;
+  for (const Constraint<S>& constraint : constraints) {
+    const int own = degree(constraint);
+    if (own == Trace<S>::not_polynomial) return own;
+    greatest = std::max(greatest, own);
+  }
+  return greatest;
+}
+
+template <Scalar S>
+S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& q, const Vector<S>& v) {
+  return std::visit(
+      [&]<class Form>(const Form& form) {
+        if constexpr (ConstraintForm<Form, S>)
+          return form.curvature(dimension, v);
+        else
+          return form.curvature(dimension, q, v);
+      },
+      constraint.form);
+}
+
+template <Scalar S>
+S curvature_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& q, const Vector<S>& v) {
+  return std::visit(
+      [&]<class Form>(const Form& form) {
+        // The same of what has no negative entries.
+        if constexpr (ConstraintForm<Form, S>)
+          return form.positive().curvature(dimension, magnitudes(v));
+        else
+          return form.curvature_size(dimension, q, v);
+      },
+      constraint.form);
 }
 
 template <Scalar S>
@@ -36,12 +77,14 @@ Constraint<double> in_double(const Constraint<S>& constraint) {
           std::visit([](const auto& form) -> ConstraintForms<double> { return form.in_double(); }, constraint.form)};
 }
 
-#define HBVM_DEFINE(S)                                                                 \
-  template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);             \
-  template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&); \
-  template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);          \
-  template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&);              \
-  template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&);         \
+#define HBVM_DEFINE(S)                                                                              \
+  template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                          \
+  template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);              \
+  template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);                       \
+  template int degree<S>(const Constraint<S>&);                                                     \
+  template int degree<S>(const std::vector<Constraint<S>>&);                                        \
+  template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);         \
+  template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);    \
   template Constraint<double> in_double<S>(const Constraint<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -1,15 +1,40 @@
 #include "hbvm/problem/curvature.hpp"
 
+#include <algorithm>
+
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
 
 template <Scalar S>
-Curvature<S>::Term::Term(const EffectTerm<S>& term, Index dimension, Index nodes)
+template <class Column>
+Curvature<S>::Term::Term(const EffectTerm<S>& term, Index dimension, Index nodes, Column column)
     : effect(&term),
       displacement(Matrix<S>::Zero(term.instances() * nodes, term.arguments * dimension)),
-      hessian(term.hessian, term.hessian_coefficients, displacement, nodes) {}
+      hessian(term.hessian, term.hessian_coefficients, displacement, nodes) {
+  const Index d = dimension, inputs = term.arguments * d;
+  for (Index n = 0; n < term.instances(); ++n)
+    for (Index i = 0; i < inputs; ++i)
+      for (Index j = 0; j < inputs; ++j) {
+        const Index high = std::max(i, j), low = std::min(i, j);
+        for (const auto& a : term.displacement(n, i / d).blocks)
+          for (const auto& b : term.displacement(n, j / d).blocks)
+            targets.push_back({column(a.offset + i % d, b.offset + j % d), high * (high + 1) / 2 + low, n,
+                               S(a.weight * b.weight)});
+      }
+}
+
+template <Scalar S>
+void Curvature<S>::Term::add_to(Matrix<S>& values, Index dimension, Lanes<const S> q, S& t) {
+  displace(*effect, dimension, q, displacement.data(), displacement.rows());
+  hessian.run();
+  const Index nodes = values.rows();
+  for (const Target& target : targets)
+    for (Index i = 0; i < nodes; ++i)
+      add_product(values(i, target.column), target.weight, hessian.output(target.output, target.instance * nodes + i),
+                  t);
+}
 
 template <Scalar S>
 Index Curvature<S>::pair(Index row, Index column) {
@@ -31,42 +56,49 @@ void Curvature<S>::add(Index constraint, Index row, Index column, const S& value
 }
 
 template <Scalar S>
-Curvature<S>::Curvature(const Problem<S>& problem, Index nodes) : dimension_(problem.dimension), nodes_(nodes) {
+Index Curvature<S>::varying_entry(Index constraint, Index pair) {
+  for (std::size_t n = varying_entries_.size(); n-- > 0 && varying_entries_[n].constraint == constraint;)
+    if (varying_entries_[n].pair == pair) return static_cast<Index>(n);
+  varying_entries_.push_back({constraint, pair});
+  return static_cast<Index>(varying_entries_.size()) - 1;
+}
+
+template <Scalar S>
+Curvature<S>::Curvature(const Problem<S>& problem, Index nodes, Index constraint_nodes)
+    : dimension_(problem.dimension) {
   const Index d = dimension_;
-  for (const EffectTerm<S>& effect : problem.potential.terms) {
-    if (effect.constant_force) continue;
-    Term& term = terms_.emplace_back(effect, d, nodes);
-    const Index inputs = effect.arguments * d;
-    for (Index n = 0; n < effect.instances(); ++n)
-      for (Index i = 0; i < inputs; ++i)
-        for (Index j = 0; j < inputs; ++j) {
-          const Index high = std::max(i, j), low = std::min(i, j);
-          for (const auto& a : effect.displacement(n, i / d).blocks)
-            for (const auto& b : effect.displacement(n, j / d).blocks)
-              term.targets.push_back(
-                  {pair(a.offset + i % d, b.offset + j % d), high * (high + 1) / 2 + low, n, S(a.weight * b.weight)});
-        }
-  }
+  for (const EffectTerm<S>& effect : problem.potential.terms)
+    if (!effect.constant_force)
+      terms_.emplace_back(effect, d, nodes, [&](Index row, Index column) { return pair(row, column); });
   for (Index c = 0; c < problem.nu(); ++c) {
     const auto add_entry = [&](Index row, Index column, const S& value) { add(c, row, column, value); };
-    std::visit([&](const auto& form) { form.second_derivatives(d, add_entry); },
-               problem.constraints[static_cast<std::size_t>(c)].form);
+    std::visit(
+        [&]<class Form>(const Form& form) {
+          if constexpr (ConstraintForm<Form, S>)
+            form.second_derivatives(d, add_entry);
+          else
+            constraint_terms_.emplace_back(form.term, d, constraint_nodes, [&](Index row, Index column) {
+              return varying_entry(c, pair(row, column));
+            });
+        },
+        problem.constraints[static_cast<std::size_t>(c)].form);
   }
   values_ = Matrix<S>::Zero(nodes, static_cast<Index>(pairs_.size()));
+  varying_ = Matrix<S>::Zero(constraint_nodes, static_cast<Index>(varying_entries_.size()));
 }
 
 template <Scalar S>
 const Matrix<S>& Curvature<S>::potential(Lanes<const S> q) {
   set_zero(values_);
-  for (Term& term : terms_) {
-    displace(*term.effect, dimension_, q, term.displacement.data(), term.displacement.rows());
-    term.hessian.run();
-    for (const auto& target : term.targets)
-      for (Index i = 0; i < nodes_; ++i)
-        add_product(values_(i, target.pair), target.weight,
-                    term.hessian.output(target.output, target.instance * nodes_ + i), t_);
-  }
+  for (Term& term : terms_) term.add_to(values_, dimension_, q, t_);
   return values_;
+}
+
+template <Scalar S>
+const Matrix<S>& Curvature<S>::varying(Lanes<const S> q) {
+  set_zero(varying_);
+  for (Term& term : constraint_terms_) term.add_to(varying_, dimension_, q, t_);
+  return varying_;
 }
 
 #define HBVM_DEFINE(S) template class Curvature<S>;

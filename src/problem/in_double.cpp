@@ -5,44 +5,6 @@
 #include "hbvm/scalar/binary_exponent.hpp"
 
 namespace hbvm {
-namespace {
-
-template <Scalar S>
-Program<double> rounded(const Program<S>& program) {
-  std::vector<double> constants;
-  for (const S& value : program.constants()) constants.push_back(approximately(value));
-  return {std::move(constants), program.instructions(), program.output_operands(), program.temporaries()};
-}
-
-template <Scalar S>
-EffectSymmetry<double> rounded(const EffectSymmetry<S>& symmetry) {
-  EffectSymmetry<double> result{symmetry.kind, symmetry.acts, in_double(symmetry.axes),
-                                in_double(symmetry.axis_round_off), in_double(symmetry.conditions)};
-  for (Index i = 0; i < result.axes.size(); ++i)
-    result.axis_round_off.data()[i] += epsilon<double>() * magnitude(result.axes.data()[i]);
-  return result;
-}
-
-template <Scalar S>
-EffectTerm<double> rounded(const EffectTerm<S>& term) {
-  EffectTerm<double> result{term.kind,
-                            term.degree,
-                            rounded(term.value),
-                            rounded(term.gradient),
-                            rounded(term.hessian),
-                            term.constant_force,
-                            term.arguments,
-                            {},
-                            in_double(term.value_coefficients),
-                            in_double(term.gradient_coefficients),
-                            in_double(term.hessian_coefficients),
-                            rounded(term.symmetry)};
-  for (const auto& x : term.displacements) result.displacements.push_back(in_double(x));
-  return result;
-}
-
-}  // namespace
-
 template <Scalar S>
 Problem<double> in_double(const Problem<S>& problem) {
   Problem<double> result;
@@ -57,9 +19,7 @@ Problem<double> in_double(const Problem<S>& problem) {
   for (const auto& constraint : problem.constraints) result.constraints.push_back(in_double(constraint));
   result.potential.dimension = problem.potential.dimension;
   result.potential.m = problem.potential.m;
-  for (const auto& term : problem.potential.terms) result.potential.terms.push_back(rounded(term));
-  for (const auto& constraint : problem.general)
-    result.general.push_back({constraint.place, constraint.name, rounded(constraint.g)});
+  for (const auto& term : problem.potential.terms) result.potential.terms.push_back(in_double(term));
   return result;
 }
 

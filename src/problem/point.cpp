@@ -85,7 +85,7 @@ void Point<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, const Mat
   problem_.mass.velocity(lanes(p), lanes(v_));
   for (Index a = 0; a < problem_.nu(); ++a) {
     gradient_.transposed_times(a, lanes(std::as_const(acceleration_)), &multiplier_[a]);
-    multiplier_[a] += curvature(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, v_);
+    multiplier_[a] += curvature(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, q, v_);
   }
   solve_gram(multiplier_);
 }

@@ -206,8 +206,8 @@ Independence<S> find_independent(const Problem<S>& problem, const Vector<S>& q, 
   Matrix<S> bending(nu, 2);  // with the sizes of its terms
   for (Index a = 0; a < nu; ++a) {
     const auto& constraint = problem.constraints[static_cast<std::size_t>(a)];
-    bending(a, 0) = curvature(constraint, problem.dimension, v);
-    bending(a, 1) = curvature_size(constraint, problem.dimension, v);
+    bending(a, 0) = curvature(constraint, problem.dimension, q, v);
+    bending(a, 1) = curvature_size(constraint, problem.dimension, q, v);
   }
 
   std::vector<std::array<BigFloat, 2>> bendings;  // of the redundant ones, with bounds of their round-off

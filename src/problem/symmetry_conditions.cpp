@@ -95,6 +95,34 @@ class Conditions {
     add(std::move(all));
   }
 
+  /// A formula, U or g.
+  void effect(const EffectTerm<S>& term) {
+    for (Index i = 0; i < term.symmetry.conditions.rows(); ++i) {
+      UncertainRow r = row();
+      for (std::size_t j = 0; j < r.size(); ++j) r[j] = number(term.symmetry.conditions(i, static_cast<Index>(j)));
+      add(std::move(r));
+    }
+    if (term.symmetry.kind == Symmetry::computed) return;
+    for (std::size_t n = 0; n < term.displacements.size(); ++n) {
+      if (!term.symmetry.acts[n]) continue;
+      const Place x = place(term.displacements[n]);
+      if (x.weights.empty()) continue;  // nothing that moves
+      if (term.symmetry.kind != Symmetry::planar) center_stays(x);
+      if (term.symmetry.kind == Symmetry::central) continue;
+      UncertainVector axis = zero();
+      for (std::size_t i = 0; i < d_; ++i) {
+        const auto at = [&](const Matrix<S>& values) {
+          return number(values(static_cast<Index>(n), static_cast<Index>(i))).value;
+        };
+        axis[i] = {at(term.symmetry.axes), at(term.symmetry.axis_round_off)};
+      }
+      if (term.symmetry.kind == Symmetry::axial)
+        axis_stays(axis);
+      else
+        component_stays(axis, x);
+    }
+  }
+
  private:
   Uncertain number(const S& x) const {
     const Mpfr value = rounded_to<Mpfr>(raw(exactly(x)));
@@ -208,33 +236,6 @@ class Conditions {
     const Index d = problem_.dimension;
     for (Index a = 0; a < M.rows(); a += d)
       for (Index b = a; b < M.cols(); b += d) matrix_stays(M.block(a, b, d, d));
-  }
-
-  void effect(const EffectTerm<S>& term) {
-    for (Index i = 0; i < term.symmetry.conditions.rows(); ++i) {
-      UncertainRow r = row();
-      for (std::size_t j = 0; j < r.size(); ++j) r[j] = number(term.symmetry.conditions(i, static_cast<Index>(j)));
-      add(std::move(r));
-    }
-    if (term.symmetry.kind == Symmetry::computed) return;
-    for (std::size_t n = 0; n < term.displacements.size(); ++n) {
-      if (!term.symmetry.acts[n]) continue;
-      const Place x = place(term.displacements[n]);
-      if (x.weights.empty()) continue;  // nothing that moves
-      if (term.symmetry.kind != Symmetry::planar) center_stays(x);
-      if (term.symmetry.kind == Symmetry::central) continue;
-      UncertainVector axis = zero();
-      for (std::size_t i = 0; i < d_; ++i) {
-        const auto at = [&](const Matrix<S>& values) {
-          return number(values(static_cast<Index>(n), static_cast<Index>(i))).value;
-        };
-        axis[i] = {at(term.symmetry.axes), at(term.symmetry.axis_round_off)};
-      }
-      if (term.symmetry.kind == Symmetry::axial)
-        axis_stays(axis);
-      else
-        component_stays(axis, x);
-    }
   }
 
   /// A rotation mixes the components of x = 0, so that all together stay where one does not. Those set aside follow

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -49,13 +50,7 @@ TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
   form_values_ = storage(static_cast<Index>(forms_.size()));
   form_velocities_ = storage(static_cast<Index>(forms_.size()));
   for (const EffectTerm<Mpfr>& term : problem.potential.terms)
-    for (Index n = 0; n < term.instances(); ++n) {
-      std::vector<const Mpfr*> coefficients;
-      for (Index c = 0; c < term.gradient_coefficients.cols(); ++c)
-        coefficients.push_back(&term.gradient_coefficients(n, c));
-      forces_.push_back(
-          {term, n, ProgramSeries(term.gradient, term.arguments * problem.dimension, coefficients, order_)});
-    }
+    for (Index n = 0; n < term.instances(); ++n) forces_.push_back(slope_of(term, n));
   aligned_lambda_.assign(static_cast<std::size_t>(problem.nu()), AlignedSeries(order_ + 1));
   find_unit();
   take_up();
@@ -63,63 +58,115 @@ TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
 }
 
 void TaylorMotion::collect_forms() {
+  for (Index a = 0; a < problem_.nu(); ++a) {
+    const bool formula =
+        std::holds_alternative<FormulaConstraint<Mpfr>>(problem_.constraints[static_cast<std::size_t>(a)].form);
+    std::vector<Form> own = formula ? formula_forms(a) : affine_forms(a);
+    std::move(own.begin(), own.end(), std::back_inserter(forms_));
+  }
+}
+
+std::vector<TaylorMotion::Form> TaylorMotion::formula_forms(Index a) {
+  const Constraint<Mpfr>& constraint = problem_.constraints[static_cast<std::size_t>(a)];
+  const EffectTerm<Mpfr>& term = std::get<FormulaConstraint<Mpfr>>(constraint.form).term;
+  const Index d = problem_.dimension, inputs = term.arguments * d;
+  std::vector<Form> own;
+  for (const Index j : coordinates(constraint, d)) {
+    Form form{.constant = Mpfr(0),
+              .terms = {},
+              .constraint = a,
+              .columns = {{j, 1}},
+              .series = AlignedSeries(order_ + 2),
+              .velocity = AlignedSeries(order_ + 2)};
+    for (Index i = 0; i < inputs; ++i)
+      for (const auto& block : term.displacement(0, i / d).blocks)
+        if (block.offset + i % d == j)
+          form.parts.push_back({constraint_slopes_.size(), static_cast<std::size_t>(i), block.weight});
+    own.push_back(std::move(form));
+  }
+  constraint_slopes_.push_back(slope_of(term, 0));
+  return own;
+}
+
+std::vector<TaylorMotion::Form> TaylorMotion::affine_forms(Index a) const {
   const Index d = problem_.dimension, m = problem_.m();
   const auto digits = static_cast<unsigned>(digits10<Mpfr>());
-  for (Index a = 0; a < problem_.nu(); ++a) {
-    const Constraint<Mpfr>& constraint = problem_.constraints[static_cast<std::size_t>(a)];
-    std::map<Index, std::map<Index, Mpfr>> second;
-    std::visit(
-        [&](const auto& form) {
+  const Constraint<Mpfr>& constraint = problem_.constraints[static_cast<std::size_t>(a)];
+  std::map<Index, std::map<Index, Mpfr>> second;
+  std::visit(
+      [&]<class Of>(const Of& form) {
+        if constexpr (ConstraintForm<Of, Mpfr>)
           form.second_derivatives(d, [&](Index i, Index j, const Mpfr& h) {
             const auto [entry, is_new] = second[i].emplace(j, h);
             if (!is_new) entry->second += h;
           });
-        },
-        constraint.form);
-    std::vector<Form> own;
-    for (const Index j : coordinates(constraint, d)) {
-      Form form{.constant = Mpfr(0),
-                .terms = {second[j].begin(), second[j].end()},
-                .constraint = a,
-                .columns = {{j, 1}},
-                .series = AlignedSeries(order_ + 2),
-                .velocity = AlignedSeries(order_ + 2)};
-      std::erase_if(form.terms, [](const auto& term) { return term.second == 0; });
-      {
-        // What q_j takes g to, less its square: exact with twice the digits and some.
-        const PrecisionScope more(2 * digits + 20);
-        const Vector<Mpfr> origin = Vector<Mpfr>::Zero(m);
-        Vector<Mpfr> unit = origin;
-        unit[j] = 1;
-        Mpfr slope = value(constraint, d, unit).g - value(constraint, d, origin).g;
-        for (const auto& [i, h] : form.terms)
-          if (i == j) slope -= h / 2;
-        set(form.constant, slope);
-      }
-      const auto like = [&](int sign) {
-        return std::find_if(own.begin(), own.end(), [&](const Form& other) {
-          return form.constant == sign * other.constant &&
-                 std::equal(
-                     form.terms.begin(), form.terms.end(), other.terms.begin(), other.terms.end(),
-                     [&](const auto& x, const auto& y) { return x.first == y.first && x.second == sign * y.second; });
-        });
-      };
-      if (const auto same = like(1); same != own.end())
-        same->columns.emplace_back(j, 1);
-      else if (const auto opposite = like(-1); opposite != own.end())
-        opposite->columns.emplace_back(j, -1);
-      else
-        own.push_back(std::move(form));
+      },
+      constraint.form);
+  std::vector<Form> own;
+  for (const Index j : coordinates(constraint, d)) {
+    Form form{.constant = Mpfr(0),
+              .terms = {second[j].begin(), second[j].end()},
+              .constraint = a,
+              .columns = {{j, 1}},
+              .series = AlignedSeries(order_ + 2),
+              .velocity = AlignedSeries(order_ + 2)};
+    std::erase_if(form.terms, [](const auto& term) { return term.second == 0; });
+    {
+      // What q_j takes g to, less its square: exact with twice the digits and some.
+      const PrecisionScope more(2 * digits + 20);
+      const Vector<Mpfr> origin = Vector<Mpfr>::Zero(m);
+      Vector<Mpfr> unit = origin;
+      unit[j] = 1;
+      Mpfr slope = value(constraint, d, unit).g - value(constraint, d, origin).g;
+      for (const auto& [i, h] : form.terms)
+        if (i == j) slope -= h / 2;
+      set(form.constant, slope);
     }
-    for (Form& form : own) {
-      std::ranges::sort(form.columns);
-      const Mpfr factor = form.terms.empty() ? Mpfr(0) : Mpfr(form.terms.front().second * form.columns.front().second);
-      if (std::equal(form.terms.begin(), form.terms.end(), form.columns.begin(), form.columns.end(),
-                     [&](const auto& x, const auto& y) { return x.first == y.first && x.second == factor * y.second; }))
-        form.factor = factor;
-    }
-    forms_.insert(forms_.end(), own.begin(), own.end());
+    const auto like = [&](int sign) {
+      return std::find_if(own.begin(), own.end(), [&](const Form& other) {
+        return form.constant == sign * other.constant &&
+               std::equal(
+                   form.terms.begin(), form.terms.end(), other.terms.begin(), other.terms.end(),
+                   [&](const auto& x, const auto& y) { return x.first == y.first && x.second == sign * y.second; });
+      });
+    };
+    if (const auto same = like(1); same != own.end())
+      same->columns.emplace_back(j, 1);
+    else if (const auto opposite = like(-1); opposite != own.end())
+      opposite->columns.emplace_back(j, -1);
+    else
+      own.push_back(std::move(form));
   }
+  for (Form& form : own) {
+    std::ranges::sort(form.columns);
+    const Mpfr factor = form.terms.empty() ? Mpfr(0) : Mpfr(form.terms.front().second * form.columns.front().second);
+    if (std::equal(form.terms.begin(), form.terms.end(), form.columns.begin(), form.columns.end(),
+                   [&](const auto& x, const auto& y) { return x.first == y.first && x.second == factor * y.second; }))
+      form.factor = factor;
+  }
+  return own;
+}
+
+TaylorMotion::Slope TaylorMotion::slope_of(const EffectTerm<Mpfr>& term, Index instance) const {
+  std::vector<const Mpfr*> coefficients;
+  for (Index c = 0; c < term.gradient_coefficients.cols(); ++c)
+    coefficients.push_back(&term.gradient_coefficients(instance, c));
+  return {term, instance, ProgramSeries(term.gradient, term.arguments * problem_.dimension, coefficients, order_)};
+}
+
+void TaylorMotion::advance(Slope& slope, Index n) {
+  const Index d = problem_.dimension, inputs = slope.term.arguments * d;
+  for (Index i = 0; i < inputs; ++i) {
+    const Displacement<Mpfr>& from = slope.term.displacement(slope.instance, i / d);
+    Mpfr& x = slope.series.input(i, n);
+    if (n == 0 && from.shift.size() > 0)
+      set(x, from.shift[i % d]);
+    else
+      set_zero(x);
+    for (const auto& block : from.blocks)
+      add_weighted(&x, block.weight, q_series(block.offset + i % d) + n, Index{1}, t_);
+  }
+  slope.series.advance(n);
 }
 
 void TaylorMotion::set_velocity(Index n) {
@@ -148,6 +195,7 @@ void TaylorMotion::set_velocity(Index n) {
 }
 
 void TaylorMotion::set_forms(Index n) {
+  for (Slope& slope : constraint_slopes_) advance(slope, n);
   for (std::size_t l = 0; l < forms_.size(); ++l) {
     Mpfr& sum = form_series(l)[n];
     if (n == 0)
@@ -155,6 +203,8 @@ void TaylorMotion::set_forms(Index n) {
     else
       set_zero(sum);
     for (const auto& [j, h] : forms_[l].terms) add_product(sum, h, q_series(j)[n], x_);
+    for (const auto& [slope, output, weight] : forms_[l].parts)
+      add_weighted(&sum, weight, &constraint_slopes_[slope].series.output(output, n), Index{1}, x_);
     forms_[l].series.set(n, sum);
   }
 }
@@ -221,20 +271,9 @@ void TaylorMotion::project() {
 void TaylorMotion::set_force(Index n) {
   const Index d = problem_.dimension;
   for (Index j = 0; j < F_.size(); ++j) set_zero(F_[j]);
-  for (Force& force : forces_) {
-    const Index inputs = force.term.arguments * d;
-    for (Index i = 0; i < inputs; ++i) {
-      const Displacement<Mpfr>& from = force.term.displacement(force.instance, i / d);
-      Mpfr& x = force.series.input(i, n);
-      if (n == 0 && from.shift.size() > 0)
-        set(x, from.shift[i % d]);
-      else
-        set_zero(x);
-      for (const auto& block : from.blocks)
-        add_weighted(&x, block.weight, q_series(block.offset + i % d) + n, Index{1}, t_);
-    }
-    force.series.advance(n);
-    for (Index i = 0; i < inputs; ++i)
+  for (Slope& force : forces_) {
+    advance(force, n);
+    for (Index i = 0; i < force.term.arguments * d; ++i)
       for (const auto& block : force.term.displacement(force.instance, i / d).blocks)
         add_weighted(&F_[block.offset + i % d], block.weight, &force.series.output(static_cast<std::size_t>(i), n),
                      Index{1}, t_);

@@ -45,7 +45,6 @@ class Assembler : private FormulaPlaces<S> {
     for (const SceneEffect& effect : scene_.effects)
       at_line(effect.line, "effect " + std::to_string(++number) + " (" + effect.kind + ")", [&] { add(effect); });
     initial_state();
-    refuse_general();
     if (consistency == Consistency::checked) check_consistency();
     return std::move(result_);
   }
@@ -289,20 +288,11 @@ class Assembler : private FormulaPlaces<S> {
       FormulaUse<S> use = binding.use();
       use.instances.push_back(binding.instance(formula.of, *this));
       if (auto form = quadratic_form(use)) return add(name, std::move(*form));
-      const auto place = static_cast<Index>(problem().constraints.size() + problem().general.size());
-      problem().general.push_back({place, name, make_term(use)});
-      check_formula(use, problem().general.back().g, start());
+      EffectTerm<S> term = make_term(use);
+      check_formula(use, term, start());
+      term.symmetry = formula_symmetry(use, problem().blocks, start());
+      add(name, FormulaConstraint<S>{std::move(term)});
     });
-  }
-
-  /// What no method integrates.
-  void refuse_general() const {
-    if (result_.problem.general.empty()) return;
-    const GeneralConstraint<S>& first = result_.problem.general.front();
-    throw InputError(scene_.name + ": constraint " + std::to_string(first.place + 1) + " (" + first.name +
-                     ") is not quadratic: " +
-                     (first.g.degree < 0 ? "no polynomial" : "of degree " + std::to_string(first.g.degree)) +
-                     "; general constraints are not yet integrated");
   }
 
   void add_effect(const SceneEffect& effect, const SceneFormula& formula) {

@@ -19,6 +19,7 @@ Continuation<S>::Continuation(const Hbvm<S>& method, std::vector<Index> body, In
       columns_(legendre_shift<S>(method.s).transpose()),
       P_(method.P_s, ParityMatrix<S>::Nodes::rows, ParityMatrix<S>::First::even),
       projection_(method.projection, ParityMatrix<S>::Nodes::columns, ParityMatrix<S>::First::even),
+      coefficients_known_(method.has_coefficients_of_lambda()),
       coefficients_(s_, multipliers),
       x_(s_) {
   const auto coordinates = static_cast<Index>(body_.size());
@@ -30,7 +31,7 @@ Continuation<S>::Continuation(const Hbvm<S>& method, std::vector<Index> body, In
     for (Index i = 0; i <= l; ++i) growth_.back() = std::max(growth_.back(), binary_exponent(columns_(l, i)));
   }
   for (Index i = 0; i < s_; ++i) part_.per_call.add_dots(coordinates + multipliers, s_ - i);
-  if (multipliers > 0) part_.per_call += P_.operations(multipliers) + projection_.operations(multipliers);
+  if (multipliers > 0 && !coefficients_known_) part_.per_call += P_.operations(multipliers) + projection_.operations(multipliers);
 }
 
 template <Scalar S>
@@ -100,6 +101,11 @@ void Continuation<S>::predict(StageUnknowns<S>& x) {
   set(x.zeta, last_.zeta);
   shift(x.gamma);
   if (x.lambda.size() == 0) return;
+  if (coefficients_known_) {
+    set(x.lambda, last_.lambda);
+    shift(x.lambda);
+    return;
+  }
   projection_.times(coefficients_, last_.lambda);
   shift(coefficients_);
   P_.times(x.lambda, coefficients_);

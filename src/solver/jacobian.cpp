@@ -26,7 +26,7 @@ template <Scalar S>
 Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method)
     : problem_(problem),
       method_(method),
-      curvature_(problem, method.k),
+      curvature_(problem, method.k, method.r),
       W_(inverse_mass_rows(problem.mass)),
       X_hat_(method.X_s.lazyProduct(method.projection_hat)),
       X_projection_(method.X_s.lazyProduct(method.projection)) {
@@ -52,8 +52,9 @@ Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method)
   row_factors_.assign(static_cast<std::size_t>(n_), S(1));
   column_factors_ = row_factors_;
   block_.resize(s, s);
-  weighted_.resize(s, method.k);
-  curved_.resize(s, static_cast<Index>(curvature_.pairs().size()));
+  weighted_.resize(s, std::max(method.k, method.r));
+  curved_.resize(method.r, static_cast<Index>(curvature_.pairs().size()));
+  at_nodes_.resize(method.r);
   parts_ = {{"matrix of the Jacobian", 0, assembly_operations()},
             {"factors of the Jacobian", 0, matrix_.factor_operations()},
             {"corrections", 0, matrix_.solve_operations()}};
@@ -61,21 +62,34 @@ Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method)
 
 template <Scalar S>
 OperationCounts Jacobian<S>::assembly_operations() const {
-  const Index s = method_.s, k = method_.k, square = s * s;
+  const Index s = method_.s, k = method_.k, r = method_.r, square = s * s;
+  // Of a block of coefficients, from one at the nodes.
+  const bool coefficients = method_.has_coefficients_of_lambda();
+  const auto add_block = [&](OperationCounts& to) {
+    if (coefficients) to.add_products(square * r), to.add(Op::multiply, s * r);
+  };
   const auto weights = [&](Index column) { return static_cast<Index>(W_[static_cast<std::size_t>(column)].size()); };
   OperationCounts counts;
-  counts.add_products(s * static_cast<Index>(curvature_.constraints().size()));
+  counts.add_products(r * static_cast<Index>(curvature_.constraints().size()));
+  for (const auto& second : curvature_.varying_constraints()) {
+    counts.add_products(r);
+    add_block(counts);
+    counts.add_products(square * weights(curvature_.pairs()[static_cast<std::size_t>(second.pair)].column));
+  }
   for (const auto& pair : curvature_.pairs()) {
-    counts.add_products((k + s) * square);
-    counts.add(Op::multiply, (k + s) * (s + 1));
+    counts.add_products((k + r) * square);
+    counts.add(Op::multiply, (k + r) * (s + 1));
     counts.add_products(weights(pair.column) * square);
   }
   const ConstraintGradient<S> gradient(problem_, 1);
   for (Index a = 0; a < problem_.nu(); ++a) {
     counts.add(Op::multiply, square * static_cast<Index>(gradient.pattern(a).coordinates.size()));
     counts.add_products(square * static_cast<Index>(gradient.weighted_pattern(a).coordinates.size()));
+    for (std::size_t l = 0; l < gradient.pattern(a).coordinates.size(); ++l) add_block(counts);
+    for (std::size_t l = 0; l < gradient.weighted_pattern(a).coordinates.size(); ++l) add_block(counts);
   }
   for (const auto& second : curvature_.constraints()) {
+    add_block(counts);
     const Index entries = square * weights(curvature_.pairs()[static_cast<std::size_t>(second.pair)].column);
     counts.add_products(entries);
     counts.add(Op::multiply, 3 * entries);
@@ -117,11 +131,19 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) matrix_.entry(of_coordinate(j) + i, of_coordinate(j) + i) = 1;
 
-  // The second derivatives, of U at the k nodes and of g lambda at the s nodes.
+  // The second derivatives, of U at the k nodes and of g lambda at the r nodes.
   const Matrix<S>& hessian = curvature_.potential(lanes(at.quadrature_positions()));
   curved_.setZero();
+  const Index r = method_.r;
+  const Matrix<S>& multipliers = at.node_multipliers(lambda);
   for (const auto& second : curvature_.constraints())
-    for (Index n = 0; n < s; ++n) curved_(n, second.pair) += second.value * lambda(n, second.constraint);
+    for (Index n = 0; n < r; ++n) curved_(n, second.pair) += second.value * multipliers(n, second.constraint);
+  const auto& varying = curvature_.varying_constraints();
+  const Matrix<S>* const curvatures = varying.empty() ? nullptr : &curvature_.varying(lanes(at.node_positions()));
+  for (std::size_t e = 0; e < varying.size(); ++e)
+    for (Index n = 0; n < r; ++n)
+      curved_(n, varying[e].pair) +=
+          (*curvatures)(n, static_cast<Index>(e)) * multipliers(n, varying[e].constraint);
   for (std::size_t p = 0; p < curvature_.pairs().size(); ++p) {
     const auto& pair = curvature_.pairs()[p];
     const auto second = static_cast<Index>(p);
@@ -135,21 +157,50 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
   }
 
   const ConstraintGradient<S>& gradient = at.constraint_gradient();
+  const bool coefficients = method_.has_coefficients_of_lambda();
   for (Index a = 0; a < nu; ++a) {
     const auto& own = gradient.pattern(a);
+    const auto& weighted = gradient.weighted_pattern(a);
+    if (coefficients) {
+      for (std::size_t l = 0; l < own.coordinates.size(); ++l) {
+        block_.setZero();
+        add_weighted(S(1), X_projection_, &gradient.values()(0, own.first + static_cast<Index>(l)), method_.P_s);
+        for (Index j = 0; j < s; ++j)
+          for (Index i = 0; i < s; ++i)
+            matrix_.entry(of_coordinate(own.coordinates[l]) + i, of_multiplier(a) + j) = block_(i, j);
+      }
+      for (std::size_t l = 0; l < weighted.coordinates.size(); ++l) {
+        set_rows(&gradient.weighted_values()(0, weighted.first + static_cast<Index>(l)), method_.P_s);
+        add_rows(a, weighted.coordinates[l], S(1));
+      }
+      continue;
+    }
     for (std::size_t l = 0; l < own.coordinates.size(); ++l)
       for (Index n = 0; n < s; ++n)
         for (Index i = 0; i < s; ++i)
           matrix_.entry(of_coordinate(own.coordinates[l]) + i, of_multiplier(a) + n) =
               X_projection_(i, n) * gradient.values()(n, own.first + static_cast<Index>(l));
-    const auto& weighted = gradient.weighted_pattern(a);
     for (std::size_t l = 0; l < weighted.coordinates.size(); ++l)
       for (Index j = 0; j < s; ++j)
         for (Index n = 0; n < s; ++n)
           matrix_.entry(of_multiplier(a) + n, of_coordinate(weighted.coordinates[l]) + j) +=
               method_.P_s(n, j) * gradient.weighted_values()(n, weighted.first + static_cast<Index>(l));
   }
+  // h I_nj D_n^T W, of which D_n has the velocity at the node.
+  const auto add_curved = [&](Index constraint, Index pair_number, auto second_at) {
+    const auto& pair = curvature_.pairs()[static_cast<std::size_t>(pair_number)];
+    for (Index n = 0; n < r; ++n) at_nodes_[n] = h * second_at(n) * at.node_velocities()(n, pair.row);
+    set_rows(at_nodes_.data(), method_.I_s);
+    for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)]) add_rows(constraint, column, w);
+  };
+  for (std::size_t e = 0; e < varying.size(); ++e)
+    add_curved(varying[e].constraint, varying[e].pair,
+               [&](Index n) -> const S& { return (*curvatures)(n, static_cast<Index>(e)); });
   for (const auto& second : curvature_.constraints()) {
+    if (coefficients) {
+      add_curved(second.constraint, second.pair, [&](Index) -> const S& { return second.value; });
+      continue;
+    }
     const auto& pair = curvature_.pairs()[static_cast<std::size_t>(second.pair)];
     for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)])
       for (Index j = 0; j < s; ++j)
@@ -157,6 +208,24 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
           matrix_.entry(of_multiplier(second.constraint) + n, of_coordinate(column) + j) +=
               h * method_.I_s(n, j) * second.value * at.node_velocities()(n, pair.row) * w;
   }
+}
+
+template <Scalar S>
+void Jacobian<S>::set_rows(const S* w, const Matrix<S>& F) {
+  block_.setZero();
+  if (method_.has_coefficients_of_lambda())
+    add_weighted(S(1), method_.projection, w, F);
+  else
+    for (Index j = 0; j < F.cols(); ++j)
+      for (Index n = 0; n < F.rows(); ++n) block_(n, j) = w[n] * F(n, j);
+}
+
+template <Scalar S>
+void Jacobian<S>::add_rows(Index constraint, Index coordinate, const S& factor) {
+  const Index s = method_.s;
+  for (Index j = 0; j < s; ++j)
+    for (Index i = 0; i < s; ++i)
+      matrix_.entry(of_multiplier(constraint) + i, of_coordinate(coordinate) + j) += block_(i, j) * factor;
 }
 
 template <Scalar S>

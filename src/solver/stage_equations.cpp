@@ -2,6 +2,7 @@
 
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/constant_count.hpp"
+#include "hbvm/linear/product.hpp"
 #include "hbvm/scalar/in_place.hpp"
 
 namespace hbvm {
@@ -29,7 +30,7 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
     : problem_(problem),
       method_(method),
       potential_(problem.potential, method.k),
-      gradient_(problem, method.s),
+      gradient_(problem, method.r),
       no_carry_(Vector<S>::Zero(problem.m())),
       I_centred_(centred(method.I_s), Parity::Nodes::rows, Parity::First::odd),
       I_hat_centred_(centred(method.I_hat), Parity::Nodes::rows, Parity::First::odd),
@@ -39,13 +40,20 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
       middle_(problem.m()),
       psi_rest_(Vector<S>::Zero(problem.m())),
       half_(S(1) / 2) {
-  const Index s = method.s, m = problem.m(), nu = problem.nu();
+  const Index s = method.s, r = method.r, m = problem.m(), nu = problem.nu();
   velocity_.resize(s, m);
   h_velocity_.resize(s, m);
-  u_.resize(s, m);
-  w_.resize(s, m);
+  u_.resize(r, m);
+  w_.resize(r, m);
   stage_.resize(s, m);
-  coupling_.resize(s, s);
+  pull_.resize(s, m);
+  coupling_.resize(r, r);
+  if (method.has_coefficients_of_lambda()) {
+    lambda_.resize(r, nu);
+    hidden_.resize(r);
+    right_.resize(r, s);
+    block_.resize(s, s);
+  }
   std::vector<std::pair<Index, Index>> entries;
   for (const auto& pair : gradient_.couplings()) entries.emplace_back(pair.a, pair.b);
   order_ = order_for_band(nu, entries);
@@ -64,7 +72,8 @@ void StageEquations<S>::measure_time() {
 
 template <Scalar S>
 void StageEquations<S>::describe_parts() {
-  const Index s = method_.s, k = method_.k, m = problem_.m();
+  const Index s = method_.s, k = method_.k, r = method_.r, m = problem_.m(), nu = problem_.nu();
+  const bool coefficients = method_.has_coefficients_of_lambda();
   parts_ = {{"velocity coefficients h M^-1 gamma (48)"},
             {"positions at constraint nodes (48)"},
             {"positions at quadrature nodes (48)"},
@@ -82,7 +91,7 @@ void StageEquations<S>::describe_parts() {
   parts_[velocities].per_call.add(Op::multiply, s * m + m);
   parts_[velocities].per_call.add(Op::add, 2 * m);
   parts_[constraint_nodes].per_call = I_centred_.operations(m);
-  parts_[constraint_nodes].per_call.add(Op::add, s * m);
+  parts_[constraint_nodes].per_call.add(Op::add, r * m);
   parts_[quadrature_nodes].per_call = I_hat_centred_.operations(m);
   parts_[quadrature_nodes].per_call.add(Op::add, k * m);
   if (potential_.has_varying_force()) parts_[projection].per_call = projection_hat_.operations(m);
@@ -93,13 +102,15 @@ void StageEquations<S>::describe_parts() {
   parts_[projection].per_call += exact_sum;
   parts_[gradients].per_call = gradient_.operations();
   for (const auto& pair : gradient_.couplings()) {
-    parts_[matrix].per_call.add_dots(s * s, pair.terms());
-    parts_[matrix].per_call.add(Op::multiply, s * s);
+    parts_[matrix].per_call.add_dots(r * r, pair.terms());
+    parts_[matrix].per_call.add(Op::multiply, r * r);
+    if (coefficients) parts_[matrix].per_call.add_dots((r + s) * s, r);
   }
   parts_[factors].per_call = system_.factor_operations();  // none of a single multiplier at a single stage
   parts_[solution].per_call = system_.solve_operations();
-  parts_[solution].per_call.add(Op::add, s * problem_.nu());
-  parts_[zetas].per_call.add_products(s * gradient_.stored());
+  parts_[solution].per_call.add(Op::add, s * nu);
+  parts_[zetas].per_call.add_products(r * gradient_.stored());
+  if (coefficients) parts_[zetas].per_call += P_.operations(nu);
   parts_[zetas].per_call += projection_.operations(m);
   OperationCounts& gamma = parts_[gammas].per_call;
   gamma.add(Op::subtract, s * m);
@@ -111,12 +122,12 @@ void StageEquations<S>::describe_parts() {
   gamma.add(Op::multiply, pulled);
   gamma.add(Op::add, 4 * pulled);
   OperationCounts hidden = P_.operations(m);
-  for (Index a = 0; a < problem_.nu(); ++a)
-    hidden.add_dots(s, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
+  for (Index a = 0; a < nu; ++a) hidden.add_dots(r, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
+  if (coefficients) hidden.add_dots(s * nu, r);
   parts_[constraint_residual].per_call = hidden;
   parts_[constraint_residual].per_call.add(Op::subtract, s * m);
   parts_[right_hand_side].per_call = gamma + stages * problem_.mass.operations() + hidden;
-  parts_[right_hand_side].per_call.add(Op::reciprocal, s * problem_.nu());
+  parts_[right_hand_side].per_call.add(Op::reciprocal, s * nu);
 }
 
 template <Scalar S>
@@ -130,7 +141,7 @@ OperationCounts StageEquations<S>::residual_operations() const {
         sum += static_cast<std::uint64_t>(method_.k) * potential_.counts()[t].per_evaluation;
   }
   if (problem_.nu() == 0) return sum;
-  if (method_.k != method_.s || !potential_.has_varying_force()) sum += parts_[constraint_nodes].per_call;
+  if (method_.k != method_.r || !potential_.has_varying_force()) sum += parts_[constraint_nodes].per_call;
   return sum + parts_[gradients].per_call + parts_[zetas].per_call;
 }
 
@@ -176,7 +187,7 @@ void StageEquations<S>::positions(Parity& integrals, Matrix<S>& u) {
 template <Scalar S>
 void StageEquations<S>::forces(Matrix<S>& psi) {
   if (potential_.has_varying_force()) {
-    Matrix<S>& u = method_.k == method_.s ? u_ : u_hat_;
+    Matrix<S>& u = method_.k == method_.r ? u_ : u_hat_;
     {
       const PartCall counted = call(quadrature_nodes);
       positions(I_hat_centred_, u);
@@ -198,8 +209,8 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
 
 template <Scalar S>
 void StageEquations<S>::move_constraints() {
-  // For k = s the nodes of the forces, just computed, are the constraints'.
-  if (method_.k != method_.s || !potential_.has_varying_force()) {
+  // For k = r the nodes of the forces, just computed, are the constraints'.
+  if (method_.k != method_.r || !potential_.has_varying_force()) {
     const PartCall counted = call(constraint_nodes);
     positions(I_centred_, u_);
   }
@@ -236,7 +247,8 @@ template <Scalar S>
 void StageEquations<S>::project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta) {
   const PartCall counted = call(zetas);
   set_zero(w_);
-  gradient_.add_times(lambda, lanes(w_));
+  if (method_.has_coefficients_of_lambda()) P_.times(lambda_, lambda);
+  gradient_.add_times(node_multipliers(lambda), lanes(w_));
   projection_.times(zeta, w_);
 }
 
@@ -250,6 +262,12 @@ bool StageEquations<S>::factor_matrix() {
     system_.set_zero();
     for (const auto& pair : gradient_.couplings()) {
       gradient_.coupling(pair, gradient_, coupling_.data());
+      if (method_.has_coefficients_of_lambda()) {
+        set_block();
+        for (Index j = 0; j < s; ++j)
+          for (Index i = 0; i < s; ++i) set(system_.entry(first(pair.a) + i, first(pair.b) + j), block_(i, j));
+        continue;
+      }
       for (Index j = 0; j < s; ++j)
         for (Index i = 0; i < s; ++i)
           set_product(system_.entry(first(pair.a) + i, first(pair.b) + j), coupling_(i, j), method_.A(i, j));
@@ -260,10 +278,25 @@ bool StageEquations<S>::factor_matrix() {
 }
 
 template <Scalar S>
+void StageEquations<S>::set_block() {
+  for (Index i = 0; i < coupling_.size(); ++i)
+    set_product(coupling_.data()[i], coupling_.data()[i], method_.A.data()[i]);
+  product<S>(right_, coupling_, method_.P_s);
+  product<S>(block_, method_.projection, right_);
+}
+
+template <Scalar S>
 template <class Out>
 void StageEquations<S>::hidden_constraints(const Matrix<S>& velocity, Out out) {
   P_.times(w_, velocity);
-  for (Index b = 0; b < problem_.nu(); ++b) gradient_.transposed_times(b, lanes(std::as_const(w_)), out(b));
+  for (Index b = 0; b < problem_.nu(); ++b) {
+    if (!method_.has_coefficients_of_lambda()) {
+      gradient_.transposed_times(b, lanes(std::as_const(w_)), out(b));
+      continue;
+    }
+    gradient_.transposed_times(b, lanes(std::as_const(w_)), hidden_.data());
+    set_times(out(b), method_.projection, hidden_.data(), 1);
+  }
 }
 
 template <Scalar S>
@@ -308,12 +341,12 @@ void StageEquations<S>::momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Mat
 template <Scalar S>
 void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
   auto pulled = pulled_.begin();
-  set_difference(w_, psi, zeta);
+  set_difference(pull_, psi, zeta);
   with_constant_count<S>(method_.s, [&](auto s) {
     const S* const X = method_.X_s.data();
     const auto at = [&](Index i, Index j) { return i + j * s; };
     for (Index n = 0; n < gamma.size(); n += s) {
-      const S* const w = w_.data() + n;
+      const S* const w = pull_.data() + n;
       for (Index i = 0; i < s; ++i) {
         S& sum = gamma.data()[n + i];
         if (i == 0)

@@ -1,5 +1,8 @@
 #include "hbvm/step/hbvm_method.hpp"
 
+#include <algorithm>
+
+#include "hbvm/problem/effect/trace.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
@@ -11,14 +14,23 @@ HbvmMethod::HbvmMethod(HbvmName name, std::optional<Perturbation> perturbation)
 }
 
 template <Scalar S>
-Hbvm<S> HbvmMethod::coefficients() const {
-  Hbvm<S> method = make_hbvm<S>(name_.k, name_.s);
+int HbvmMethod::constraint_nodes(const Problem<S>& problem) const {
+  if (name_.r != 0) return name_.r;
+  const int d = degree(problem.constraints);
+  return d == Trace<S>::not_polynomial ? std::max(name_.k, name_.s) : (d * name_.s + 1) / 2;
+}
+
+template <Scalar S>
+Hbvm<S> HbvmMethod::coefficients(int r) const {
+  if (name_.is_auto()) throw InputError("method " + text() + ": K is not chosen yet");
+  Hbvm<S> method = make_hbvm<S>(name_.k, name_.s, r);
   if (perturbation_) perturb(method, *perturbation_);
   return method;
 }
 
 std::string HbvmMethod::title() const {
-  return "HBVM(" + (name_.is_auto() ? "auto" : std::to_string(name_.k)) + "," + std::to_string(name_.s) + ")";
+  return "HBVM(" + (name_.is_auto() ? "auto" : std::to_string(name_.k)) + "," + std::to_string(name_.s) +
+         (name_.r == 0 ? "" : "," + std::to_string(name_.r)) + ")";
 }
 
 std::string HbvmMethod::key() const {
@@ -33,21 +45,26 @@ Kept HbvmMethod::kept() const {
 }
 
 Orders HbvmMethod::orders() const {
-  const auto [k, s] = name_;
+  const int k = name_.k, s = name_.s;
   const int r = s % 2 == 0 ? s : s + 1;
-  return {.p = r, .lambda = r - 1, .hidden = r, .energy = 2 * k, .angular_momentum = k == s ? 0 : 2 * s};
+  return {.p = r,
+          .lambda = r - 1,
+          .hidden = r,
+          .energy = 2 * k,
+          .angular_momentum = k == s ? 0 : 2 * s};
 }
 
 Constants HbvmMethod::parameters() const {
   Constants letters;
   letters.insert_or_assign("s", Expression::parse(std::to_string(name_.s)));
   if (!name_.is_auto()) letters.insert_or_assign("k", Expression::parse(std::to_string(name_.k)));
+  if (name_.r != 0) letters.insert_or_assign("r", Expression::parse(std::to_string(name_.r)));
   return letters;
 }
 
 template <Scalar S>
 StepperMaker<S> HbvmMethod::prepare_in(const Problem<S>& problem, SolverKind solver) const {
-  return [&problem, solver, method = std::make_shared<const Hbvm<S>>(coefficients<S>())] {
+  return [&problem, solver, method = std::make_shared<const Hbvm<S>>(coefficients<S>(constraint_nodes(problem)))] {
     return std::make_unique<HbvmStepper<S>>(problem, method, solver);
   };
 }
@@ -62,8 +79,9 @@ MethodPtr hbvm_method(std::string_view arguments) {
 
 const HbvmMethod* as_hbvm(const Method& method) { return dynamic_cast<const HbvmMethod*>(&method); }
 
-#define HBVM_DEFINE(S)                                  \
-  template Hbvm<S> HbvmMethod::coefficients<S>() const; \
+#define HBVM_DEFINE(S)                                                   \
+  template int HbvmMethod::constraint_nodes<S>(const Problem<S>&) const; \
+  template Hbvm<S> HbvmMethod::coefficients<S>(int) const;               \
   template StepperMaker<S> HbvmMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

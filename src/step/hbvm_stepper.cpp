@@ -30,7 +30,7 @@ long HbvmStepper<S>::step(State<S>& state, const S& h) {
   }
   for (Index a = 0; a < problem_.nu(); ++a) {
     set_zero(multiplier_[a]);
-    for (Index i = 0; i < method_.s; ++i) add_product(multiplier_[a], method_.lagrange_at_1[i], x.lambda(i, a), t_);
+    for (Index i = 0; i < method_.s; ++i) add_product(multiplier_[a], method_.lambda_at_1[i], x.lambda(i, a), t_);
   }
   return sweeps;
 }

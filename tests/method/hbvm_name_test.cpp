@@ -20,8 +20,15 @@ TEST(HbvmName, ReadsAuto) {
   EXPECT_EQ(name.s, 3);
 }
 
+TEST(HbvmName, ReadsTheNodesOfConstraints) {
+  EXPECT_EQ(HbvmName::parse("hbvm:5,3,7"), (HbvmName{5, 3, 7}));
+  EXPECT_EQ(HbvmName::parse("hbvm:auto,3,3"), (HbvmName{0, 3, 3}));
+  EXPECT_EQ(HbvmName::parse("hbvm:5,3").r, 0) << "left to the constraints";
+}
+
 TEST(HbvmName, TextReadsBack) {
-  for (const char* text : {"hbvm:1,1", "hbvm:5,3", "hbvm:1000,200", "hbvm:auto,1", "hbvm:auto,200"}) {
+  for (const char* text : {"hbvm:1,1", "hbvm:5,3", "hbvm:1000,200", "hbvm:auto,1", "hbvm:auto,200", "hbvm:5,3,3",
+                           "hbvm:3,3,1000", "hbvm:auto,2,9"}) {
     EXPECT_EQ(HbvmName::parse(text).text(), text);
     EXPECT_EQ(HbvmName::parse(HbvmName::parse(text).text()), HbvmName::parse(text));
   }
@@ -38,6 +45,11 @@ TEST(HbvmName, LimitsAreInclusive) {
   EXPECT_THROW((HbvmName{2, 0}.check()), InputError);
   EXPECT_THROW((HbvmName{0, 0}.check()), InputError);
   EXPECT_THROW((HbvmName{-3, 1}.check()), InputError);
+  EXPECT_NO_THROW((HbvmName{3, 3, 3}.check()));
+  EXPECT_NO_THROW((HbvmName{3, 3, max_k}.check()));
+  EXPECT_THROW((HbvmName{3, 3, 2}.check()), InputError);
+  EXPECT_THROW((HbvmName{3, 3, max_k + 1}.check()), InputError);
+  EXPECT_THROW((HbvmName{3, 3, -3}.check()), InputError);
 }
 
 class RefusedMethod : public ::testing::TestWithParam<const char*> {};
@@ -53,6 +65,7 @@ TEST_P(RefusedMethod, IsAnInputErrorThatQuotesIt) {
 
 INSTANTIATE_TEST_SUITE_P(Forms, RefusedMethod,
                          ::testing::Values("", "hbvm", "hbvm:", "hbvm:5", "hbvm:5,", "hbvm:,3", "hbvm:5,3,1",
+                                           "hbvm:5,3,", "hbvm:5,3,0", "hbvm:5,3,3,3", "hbvm:5,3,-3", "hbvm:5,3,auto",
                                            "hbvm:5,3 ", " hbvm:5,3", "hbvm: 5,3", "hbvm:5, 3", "hbvm:+5,3",
                                            "hbvm:5.0,3", "hbvm:5;3", "HBVM:5,3", "hbvm(5,3)", "gauss:3", "hbvm:five,3",
                                            "hbvm:auto", "hbvm:auto,", "hbvm:auto5,3", "hbvm:Auto,3",

@@ -55,7 +55,7 @@ Coefficients<S> all(const Hbvm<S>& m) {
           {"projection", m.projection},
           {"projection_hat", m.projection_hat},
           {"A", m.A},
-          {"lagrange_at_1", m.lagrange_at_1}};
+          {"lambda_at_1", m.lambda_at_1}};
 }
 
 /// |value - reference| in ulps of the value. What is 0 in the reference's digits may be anything below `nothing`.
@@ -108,7 +108,7 @@ TYPED_TEST(HbvmCoefficients, HaveTheirShapes) {
   EXPECT_EQ(shape(m.projection), square);
   EXPECT_EQ(shape(m.projection_hat), (std::pair<Index, Index>(3, 5)));
   EXPECT_EQ(shape(m.A), square);
-  EXPECT_EQ(m.lagrange_at_1.size(), 3);
+  EXPECT_EQ(m.lambda_at_1.size(), 3);
 }
 
 TYPED_TEST(HbvmCoefficients, NodesAreGauss) {
@@ -160,7 +160,7 @@ TYPED_TEST(HbvmCoefficients, OneStageIsTheMidpointRule) {
   EXPECT_EQ(m.I_s(0, 0), half);
   EXPECT_EQ(m.X_s(0, 0), half);
   EXPECT_EQ(m.projection(0, 0), 1);
-  EXPECT_EQ(m.lagrange_at_1[0], 1);
+  EXPECT_EQ(m.lambda_at_1[0], 1);
 }
 
 TYPED_TEST(HbvmCoefficients, TwoStagesHaveTheirClosedForm) {
@@ -175,8 +175,8 @@ TYPED_TEST(HbvmCoefficients, TwoStagesHaveTheirClosedForm) {
   expect_near(m.A(0, 1), "1/4-sqrt(3)/6");
   expect_near(m.A(1, 0), "1/4+sqrt(3)/6");
   expect_near(m.A(1, 1), "1/4");
-  expect_near(m.lagrange_at_1[0], "(1-sqrt(3))/2");
-  expect_near(m.lagrange_at_1[1], "(1+sqrt(3))/2");
+  expect_near(m.lambda_at_1[0], "(1-sqrt(3))/2");
+  expect_near(m.lambda_at_1[1], "(1+sqrt(3))/2");
   expect_near(m.X_s(1, 0), "1/(2*sqrt(3))");
   expect_near(m.X_s(0, 1), "-1/(2*sqrt(3))");
   expect_near(m.P_s(0, 1), "-1");
@@ -224,7 +224,7 @@ TYPED_TEST(HbvmCoefficients, LagrangeExtrapolatesPolynomialsToOne) {
     const auto m = make_hbvm<TypeParam>(k, s);
     for (int degree = 0; degree < s; ++degree) {
       TypeParam sum = 0;
-      for (int i = 0; i < s; ++i) sum += m.lagrange_at_1[i] * pow(m.c[i], degree);
+      for (int i = 0; i < s; ++i) sum += m.lambda_at_1[i] * pow(m.c[i], degree);
       EXPECT_LE(magnitude(TypeParam(sum - 1)), this->tolerance(s)) << "c^" << degree << ", s = " << s;
     }
   }

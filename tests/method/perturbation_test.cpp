@@ -64,7 +64,7 @@ class PerturbationTest : public ::testing::Test {
         {"projection", m.projection, before.projection},
         {"projection_hat", m.projection_hat, before.projection_hat},
         {"A", m.A, before.A},
-        {"lagrange_at_1", m.lagrange_at_1, before.lagrange_at_1}};
+        {"lambda_at_1", m.lambda_at_1, before.lambda_at_1}};
     for (const auto& [name, now, then] : computed) {
       if (named.contains(name))
         expect_differs(now, then, name);
@@ -82,7 +82,7 @@ class PerturbationTest : public ::testing::Test {
     expect_near(m.projection_hat, projection(m.P_hat, m.b_hat), "projection_hat");
     expect_near(m.A, m.I_s.lazyProduct(m.projection), "A");
     const Vector<S> end = Vector<S>::Constant(1, S(1));
-    expect_near(m.lagrange_at_1.transpose(), legendre_values<S>(end, m.s).lazyProduct(m.projection), "lagrange_at_1");
+    expect_near(m.lambda_at_1.transpose(), legendre_values<S>(end, m.s).lazyProduct(m.projection), "lambda_at_1");
   }
 
   static Matrix<S> without_row(Matrix<S> a, Index row) {
@@ -99,7 +99,7 @@ TYPED_TEST_SUITE(PerturbationTest, AllScalars, ScalarNames);
 TYPED_TEST(PerturbationTest, NodeTakesItsRowsAlong) {
   using S = TypeParam;
   const auto m = this->changed(this->method, mistake(Part::node, 1, 0, "1/8"));
-  this->expect_only({"c", "P_s", "I_s", "projection", "A", "lagrange_at_1"}, m, this->method);
+  this->expect_only({"c", "P_s", "I_s", "projection", "A", "lambda_at_1"}, m, this->method);
   this->expect_consistent(m);
   EXPECT_EQ(m.c[1], S(this->method.c[1] * 9 / 8));
   EXPECT_EQ(m.c[0], this->method.c[0]);
@@ -126,7 +126,7 @@ TYPED_TEST(PerturbationTest, NodeOfThePotentialLeavesTheConstraintsAlone) {
 TYPED_TEST(PerturbationTest, WeightChangesItsColumnOfTheProjection) {
   using S = TypeParam;
   const auto m = this->changed(this->method, mistake(Part::weight, 2, 0, "1/4"));
-  this->expect_only({"b", "projection", "A", "lagrange_at_1"}, m, this->method);
+  this->expect_only({"b", "projection", "A", "lambda_at_1"}, m, this->method);
   this->expect_consistent(m);
   EXPECT_EQ(m.b[2], S(this->method.b[2] * 5 / 4));
   EXPECT_EQ(m.b[0], this->method.b[0]);
@@ -150,7 +150,7 @@ TYPED_TEST(PerturbationTest, IntegralChangesItsRowOfA) {
   expected(2, 1) += expected(2, 1) / 2;
   this->expect_near(m.I_s, expected, "I_s");
   EXPECT_EQ(m.projection, this->method.projection) << "an integral is not in it";
-  EXPECT_EQ(m.lagrange_at_1, this->method.lagrange_at_1) << "an integral is not in it";
+  EXPECT_EQ(m.lambda_at_1, this->method.lambda_at_1) << "an integral is not in it";
   this->expect_near(this->without_row(m.A, 2), this->without_row(this->method.A, 2), "A");
 }
 
@@ -170,7 +170,7 @@ TYPED_TEST(PerturbationTest, XIsAlone) {
     EXPECT_EQ(m.projection, this->method.projection);
     EXPECT_EQ(m.projection_hat, this->method.projection_hat);
     EXPECT_EQ(m.A, this->method.A);
-    EXPECT_EQ(m.lagrange_at_1, this->method.lagrange_at_1);
+    EXPECT_EQ(m.lambda_at_1, this->method.lambda_at_1);
   }
 }
 
@@ -194,13 +194,13 @@ TYPED_TEST(PerturbationTest, LegendreCoefficientChangesItsColumn) {
     };
     expect_column(m.c, m.P_s, m.I_s, this->method.P_s, this->method.I_s);
     expect_column(m.c_hat, m.P_hat, m.I_hat, this->method.P_hat, this->method.I_hat);
-    this->expect_only({"P_s", "I_s", "P_hat", "I_hat", "projection", "projection_hat", "A", "lagrange_at_1"}, m,
+    this->expect_only({"P_s", "I_s", "P_hat", "I_hat", "projection", "projection_hat", "A", "lambda_at_1"}, m,
                       this->method);
     // The polynomial is another one at 1 too.
     const Matrix<S> P_at_1 = legendre_values<S>(Vector<S>::Constant(1, S(1)), 3);
     Matrix<S> expected = P_at_1;
     expected(0, 2) += change;
-    this->expect_near(m.lagrange_at_1.transpose(), expected.lazyProduct(m.projection), "lagrange_at_1");
+    this->expect_near(m.lambda_at_1.transpose(), expected.lazyProduct(m.projection), "lambda_at_1");
     this->expect_near(m.A, m.I_s.lazyProduct(m.projection), "A");
   }
 }
@@ -274,7 +274,7 @@ TYPED_TEST(PerturbationTest, TwentyFifthDigitIsOfMpfrAlone) {
   const auto expect = [&](const Hbvm<S>& m, const char* what) {
     const bool same = m.c == before.c && m.b == before.b && m.P_s == before.P_s && m.I_s == before.I_s &&
                       m.X_s == before.X_s && m.projection == before.projection && m.A == before.A &&
-                      m.lagrange_at_1 == before.lagrange_at_1;
+                      m.lambda_at_1 == before.lambda_at_1;
     const bool hats_same = m.c_hat == before.c_hat && m.b_hat == before.b_hat && m.P_hat == before.P_hat &&
                            m.I_hat == before.I_hat && m.projection_hat == before.projection_hat;
     EXPECT_EQ(same && hats_same, (std::same_as<S, double>)) << what;
@@ -293,7 +293,7 @@ TEST(PerturbationPrecision, RelativeChangeIsExactToTheDigitsOfTheScope) {
   const Mpfr before = m.b[0];
   perturb(m, mistake(Part::weight, 0, 0, "1e-25"));
   EXPECT_LE(magnitude(Mpfr(m.b[0] / before - 1 - literal<Mpfr>("1e-25"))), 4 * epsilon<Mpfr>());
-  for (const Mpfr& x : {m.b[0], m.A(0, 0), m.lagrange_at_1[0], m.projection(1, 0)})
+  for (const Mpfr& x : {m.b[0], m.A(0, 0), m.lambda_at_1[0], m.projection(1, 0)})
     EXPECT_EQ(mpfr_get_prec(raw(x)), mpfr_working_bits());
 }
 

@@ -39,7 +39,7 @@ TYPED_TEST_SUITE(CurvatureTest, AllScalars, ScalarNames);
 
 TYPED_TEST(CurvatureTest, NamesEachPairOnceAndBothOrders) {
   const Problem<TypeParam> problem = this->problem(3);
-  const Curvature<TypeParam> curvature(problem, 2);
+  const Curvature<TypeParam> curvature(problem, 2, 2);
   std::set<std::pair<Index, Index>> seen;
   for (const auto& pair : curvature.pairs()) EXPECT_TRUE(seen.emplace(pair.row, pair.column).second);
   for (const auto& [row, column] : seen) EXPECT_TRUE(seen.contains({column, row})) << row << ", " << column;
@@ -49,7 +49,7 @@ TYPED_TEST(CurvatureTest, OfConstraintsIsTheSecondDifference) {
   using S = TypeParam;
   for (const Index d : {2, 3}) {
     const Problem<S> problem = this->problem(d);
-    const Curvature<S> curvature(problem, 1);
+    const Curvature<S> curvature(problem, 1, 1);
     const Vector<S> q = this->random.vector(problem.m()), v = this->random.vector(problem.m());
     Vector<S> sums = Vector<S>::Zero(problem.nu());
     for (const auto& entry : curvature.constraints()) {
@@ -67,7 +67,7 @@ TYPED_TEST(CurvatureTest, OfThePotentialIsTheDifferenceOfForces) {
     const Problem<S> problem = this->problem(d);
     const Index nodes = 2, m = problem.m();
     const Matrix<S> q = this->random.matrix(nodes, m);
-    Curvature<S> curvature(problem, nodes);
+    Curvature<S> curvature(problem, nodes, 1);
     curvature.potential(lanes(q));  // what it was called for before does not shine through
     const Matrix<S>& values = curvature.potential(lanes(q));
     PotentialEvaluator<S> evaluator(problem.potential, nodes);

@@ -51,7 +51,7 @@ class FormulaScene : public ::testing::Test {
     Matrix<S> force(1, problem.m());
     discrete.evaluate(scene.q0, q, force);
     add(force);
-    Curvature<S> curvature(problem, 1);
+    Curvature<S> curvature(problem, 1, 1);
     const Matrix<S>& second = curvature.potential(lanes(q));
     Matrix<S> full = Matrix<S>::Zero(problem.m(), problem.m());
     for (std::size_t i = 0; i < curvature.pairs().size(); ++i)

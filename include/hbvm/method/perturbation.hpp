@@ -16,12 +16,12 @@ struct Perturbation {
     legendre   ///< the coefficient of c^j in P_i, and so column i of the values and integrals
   };
   Part part;
-  bool hat = false;  ///< of the k nodes of the potential's integrals, not of the s of the constraints
+  bool hat = false;  ///< of the k nodes of the potential's integrals, not of the r of the constraints
   int i = 0, j = 0;  ///< counted from 0
   Expression relative;
 };
 
-/// For k = s, where both sets of nodes are one, both are changed.
+/// For k = r, where both sets of nodes are one, both are changed.
 /// \throws InputError if there is no such number, or it is 0
 template <Scalar S>
 void perturb(Hbvm<S>& method, const Perturbation& perturbation);

@@ -7,7 +7,7 @@
 
 namespace hbvm {
 
-/// One component of g(q) = 0 of (gq), at most quadratic.
+/// One component of g(q) = 0 of (gq).
 template <Scalar S>
 struct Constraint {
   std::string name;  ///< for messages: "rod 'a'-'b'"
@@ -26,23 +26,32 @@ ConstraintValue<S> value(const Constraint<S>& constraint, Index dimension, const
 template <Scalar S>
 S gradient_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& q);
 
-/// The constant second derivative applied to v twice: (nabla^2 g)(v, v).
+/// Degree of g as a polynomial in q, 2 for all that are no formulas; Trace::not_polynomial if it is none.
 template <Scalar S>
-S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& v);
+int degree(const Constraint<S>& constraint);
+/// The greatest of them, at least 2, or Trace::not_polynomial.
+template <Scalar S>
+int degree(const std::vector<Constraint<S>>& constraints);
+
+/// The second derivative at q, constant if g is quadratic, applied to v twice: (nabla^2 g)(v, v).
+template <Scalar S>
+S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& q, const Vector<S>& v);
 /// The sum of the magnitudes of its terms in the coordinates of v.
 template <Scalar S>
-S curvature_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& v);
+S curvature_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& q, const Vector<S>& v);
 
 /// The constraint with all numbers rounded to double.
 template <Scalar S>
 Constraint<double> in_double(const Constraint<S>& constraint);
 
-#define HBVM_DECLARE(S)                                                                       \
-  extern template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);             \
-  extern template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&); \
-  extern template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);          \
-  extern template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&);              \
-  extern template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&);         \
+#define HBVM_DECLARE(S)                                                                                               \
+  extern template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                                     \
+  extern template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);                         \
+  extern template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);                                  \
+  extern template int degree<S>(const Constraint<S>&);                                                                \
+  extern template int degree<S>(const std::vector<Constraint<S>>&);                                                   \
+  extern template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);                    \
+  extern template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);               \
   extern template Constraint<double> in_double<S>(const Constraint<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

@@ -22,14 +22,6 @@ struct RedundantConstraint {
   Constraint<S> constraint;
 };
 
-/// A constraint of another degree than 2, by a formula: g with its derivatives as an effect has U, for one instance.
-template <Scalar S>
-struct GeneralConstraint {
-  Index place;  ///< its number among all of them, from 0
-  std::string name;
-  EffectTerm<S> g;
-};
-
 /// The constrained Hamiltonian problem (constrp)
 ///
 ///     H(q, p) = 1/2 p^T M^-1 p - U(q),   g(q) = 0 in R^nu,
@@ -44,8 +36,6 @@ struct Problem {
   Potential<S> potential;
   std::vector<SpaceBlock> blocks;
   std::vector<RedundantConstraint<S>> redundant = {};  ///< not among `constraints`, which are independent; ascending
-
-  std::vector<GeneralConstraint<S>> general = {};  ///< not among `constraints`; ascending
 
   Index m() const { return mass.m(); }
   Index nu() const { return static_cast<Index>(constraints.size()); }

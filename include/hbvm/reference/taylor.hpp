@@ -11,11 +11,12 @@ namespace hbvm {
 
 /// The motion by its Taylor series, in the digits of the scope: no quadrature, no stage equations, no basis, no
 /// iteration. In a unit of time h, about as long as the step, q' = h M^-1 p, p' = h (grad U(q) - grad g(q) lambda) and
-/// grad g is affine in q. Coefficient after coefficient,
+/// grad g is affine in q, or by a formula. Coefficient after coefficient,
 ///
 ///     (n+1) q_{n+1} = v_n,  v = h M^-1 p,  (n+1) p_{n+1} = h (F_n - sum_{i <= n} G_i lambda_{n-i})
 ///
-/// where F is grad U, by the program of its gradient, and G = grad g by its second derivatives and values; lambda_n by
+/// where F is grad U, by the program of its gradient, and G = grad g by its second derivatives and values, or by the
+/// program of its gradient, too; lambda_n by
 /// coefficient n + 1 of the hidden constraint G^T v = 0,
 ///
 ///     G_0^T M^-1 G_0 lambda_n = G_0^T M^-1 (F_n - sum_{0 < i <= n} G_i lambda_{n-i})
@@ -46,7 +47,8 @@ class TaylorMotion {
   double least_radius() const { return least_radius_; }
 
  private:
-  /// An affine form of q: a component of grad g, which several coordinates have but for the sign.
+  /// A component of grad g, which several coordinates have but for the sign: an affine form of q, or a sum of outputs
+  /// of a formula's gradient.
   struct Form {
     Mpfr constant;
     std::vector<std::pair<Index, Mpfr>> terms;
@@ -55,9 +57,14 @@ class TaylorMotion {
     /// Its terms are the columns times this, if it is not 0: then its velocity is its derivative over it.
     Mpfr factor = 0;
     AlignedSeries series, velocity;
+    struct Part {
+      std::size_t slope, output;
+      Mpfr weight;
+    };
+    std::vector<Part> parts = {};
   };
-  /// One instance of an effect.
-  struct Force {
+  /// The gradient of one instance of an effect, or of a constraint by a formula.
+  struct Slope {
     const EffectTerm<Mpfr>& term;
     Index instance;
     ProgramSeries series;
@@ -71,6 +78,11 @@ class TaylorMotion {
   Mpfr* lambda_series(Index a) { return &lambda_values_[static_cast<std::size_t>(a * (order_ + 2))]; }
 
   void collect_forms();
+  std::vector<Form> affine_forms(Index constraint) const;
+  std::vector<Form> formula_forms(Index constraint);
+  Slope slope_of(const EffectTerm<Mpfr>& term, Index instance) const;
+  /// Coefficient n of a slope from those of q up to n.
+  void advance(Slope& slope, Index n);
   void set_velocity(Index n);
   void set_forms(Index n);
   void factor_gram();
@@ -102,7 +114,7 @@ class TaylorMotion {
   const Problem<Mpfr>& problem_;
   Index order_;
   std::vector<Form> forms_;
-  std::deque<Force> forces_;
+  std::deque<Slope> forces_, constraint_slopes_;
   std::vector<Mpfr> q_values_, p_values_, v_values_, form_values_, form_velocities_, lambda_values_;
   Lu<Mpfr> gram_;
   Vector<Mpfr> F_, weighted_, rhs_, powers_;  ///< grad U less sum G_i lambda, M^-1 of it

@@ -53,7 +53,8 @@ class Continuation {
   std::vector<long> growth_;    ///< log2 of the greatest entry in the first columns of T, by their number
   ParityMatrix<S> P_, projection_;
   StageUnknowns<S> last_;
-  Matrix<S> coefficients_;  ///< s x nu
+  bool coefficients_known_;  ///< of lambda: they are its unknowns
+  Matrix<S> coefficients_;   ///< s x nu
   Vector<S> x_;
   bool known_ = false, timed_ = false;
   PartCount part_{"continuation of the last step"};

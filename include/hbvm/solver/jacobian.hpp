@@ -18,6 +18,8 @@ namespace hbvm {
 ///     d momentum_i   / d (h lambda_n)  = (X P^T Omega)_in grad g_n
 ///     d constraint_n / d gamma_j       = P_nj grad g_n^T W + h I_nj D_n^T W
 ///
+/// where lambda has coefficients, X P^T Omega diag(grad g) P and P^T Omega times the third.
+///
 /// It is factored with rows and columns brought to the size of velocities by powers of two, which depend on the masses
 /// and on the gradients alone: so that neither units nor a light body beside a heavy one change a pivot or a digit.
 ///
@@ -66,6 +68,10 @@ class Jacobian {
   /// block_ += factor sum_n X_in w_n I_nj.
   void add_weighted(const S& factor, const Matrix<S>& X, const S* w, const Matrix<S>& I);
   void assemble(const StageEquations<S>& at, const Matrix<S>& lambda);
+  /// block_ = projection diag(w) F, for w at the constraints' nodes.
+  void set_rows(const S* w, const Matrix<S>& F);
+  /// Adds block_ times what M^-1 makes of a column of coordinates, in the rows of a constraint.
+  void add_rows(Index constraint, Index coordinate, const S& factor);
   /// Exponents of the constraints' rows and columns from the gradients at hand.
   void choose_scales(const ConstraintGradient<S>& gradient);
   void scale();
@@ -84,6 +90,7 @@ class Jacobian {
   std::vector<S> row_factors_, column_factors_;  ///< of the unknowns in their order: 2^-exponent and 2^exponent
   Vector<S> x_;
   Matrix<S> block_, curved_, weighted_;
+  Vector<S> at_nodes_;  ///< r
   std::vector<PartCount> parts_;
   bool timed_ = false;
 };

@@ -9,7 +9,7 @@ namespace hbvm {
 /// roundings, and 4 for what they are passed through.
 template <Scalar S>
 long roundings_of_a_sweep(const Problem<S>& problem, const Hbvm<S>& method) {
-  return static_cast<long>(4 * (method.k + 3 * method.s + problem.m() + method.s * problem.nu()));
+  return static_cast<long>(4 * (method.k + 2 * method.s + method.r + problem.m() + method.s * problem.nu()));
 }
 
 }  // namespace hbvm

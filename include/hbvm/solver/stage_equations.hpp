@@ -17,13 +17,15 @@ struct StageUnknowns {
   Matrix<S> gamma;   ///< s x m: coefficients of v, (lim2)
   Matrix<S> psi;     ///< s x m: psi_hat, coefficients of grad U, (psij)
   Matrix<S> zeta;    ///< s x m: coefficients of grad g lambda, (lim2)
-  Matrix<S> lambda;  ///< s x nu: multipliers at the nodes c_i
+  Matrix<S> lambda;  ///< s x nu: multipliers at the nodes c_i, or their coefficients if there are more nodes than s
 };
 
 /// What is left of the stage equations at some unknowns, 0 at a solution:
 ///
 ///     momentum   = gamma - e_1 p0 - h X_s (psi_hat - zeta)          s x m, (dispro1)
 ///     constraint = grad g(u_i)^T M^-1 v_i, v_i = sum_j P_j(c_i) gamma_j   s x nu, (azzera), by (lam)
+///
+/// or, with r > s nodes for constraints that are not quadratic, the first s Legendre coefficients of the latter.
 template <Scalar S>
 struct StageResidual {
   Matrix<S> momentum, constraint;
@@ -91,8 +93,12 @@ class StageEquations {
 
   /// The last nodes: positions u(c_i h) and u(c_hat_i h), and velocities M^-1 v_i after residual().
   const Matrix<S>& node_positions() const { return u_; }
-  const Matrix<S>& quadrature_positions() const { return method_.k == method_.s ? u_ : u_hat_; }
+  const Matrix<S>& quadrature_positions() const { return method_.k == method_.r ? u_ : u_hat_; }
   const Matrix<S>& node_velocities() const { return w_; }
+  /// The multipliers at the nodes c_i, r x nu, as residual() or multipliers() had them last.
+  const Matrix<S>& node_multipliers(const Matrix<S>& lambda) const {
+    return method_.has_coefficients_of_lambda() ? lambda_ : lambda;
+  }
   const ConstraintGradient<S>& constraint_gradient() const { return gradient_; }
 
   /// What was done since construction: by effect, and by part (the forces' own work is in the effects').
@@ -131,7 +137,10 @@ class StageEquations {
   void project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta);
   /// The matrix of (lam) at the current nodes, factored.
   [[nodiscard]] bool factor_matrix();
-  /// What gamma leaves of the hidden constraints at the current nodes, grad g_i^T M^-1 v_i, in column b from out(b) on.
+  /// block_ = projection (A coupling_, entry by entry) P_s: takes a block at the nodes to one of coefficients.
+  void set_block();
+  /// What gamma leaves of the hidden constraints at the current nodes, grad g_i^T M^-1 v_i, or of its coefficients, in
+  /// column b from out(b) on.
   template <class Out>
   void hidden_constraints(const Matrix<S>& velocity, Out out);
 
@@ -154,8 +163,12 @@ class StageEquations {
   Vector<S> psi_rest_;                      // m: what rounding took from their psi_0 in the last forces()
   Matrix<S> velocity_, h_velocity_;         // s x m
   Matrix<S> u_hat_, force_;                 // k x m
-  Matrix<S> u_, w_, stage_;                 // s x m
-  Matrix<S> coupling_;                      // s x s
+  Matrix<S> u_, w_;                         // r x m
+  Matrix<S> stage_, pull_;                  // s x m
+  Matrix<S> coupling_;                      // r x r
+  Matrix<S> lambda_;                        // r x nu, if lambda has coefficients; as are the next two
+  Vector<S> hidden_;                        // r: one of the hidden constraints at the nodes
+  Matrix<S> right_, block_;                 // r x s and s x s: of the matrix of (lam)
   Vector<S> rhs_;                           // s nu
   S half_, h_half_ = 0, rest_, t_, x_, y_;  // the last three are scratch
   std::vector<PartCount> parts_;

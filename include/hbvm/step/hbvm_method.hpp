@@ -15,9 +15,18 @@ class HbvmMethod final : public MethodByTemplate<HbvmMethod> {
 
   const HbvmName& name() const { return name_; }
   const std::optional<Perturbation>& perturbation() const { return perturbation_; }
-  /// \throws InputError if k is not chosen
+  /// The number of nodes for the constraints of a problem: as named; or s, if g is at most quadratic; or, for g of
+  /// degree d, r >= d s/2, which keeps it exactly; or k.
   template <Scalar S>
-  Hbvm<S> coefficients() const;
+  int constraint_nodes(const Problem<S>& problem) const;
+  /// With so many nodes for the constraints. \throws InputError if k is not chosen
+  template <Scalar S>
+  Hbvm<S> coefficients(int r) const;
+  /// With as many as named, or s.
+  template <Scalar S>
+  Hbvm<S> coefficients() const {
+    return coefficients<S>(name_.r == 0 ? name_.s : name_.r);
+  }
 
   std::string text() const override { return name_.text(); }
   std::string title() const override;
@@ -47,8 +56,9 @@ MethodPtr hbvm_method(std::string_view arguments);
 /// The method as one of these, or null.
 const HbvmMethod* as_hbvm(const Method& method);
 
-#define HBVM_DECLARE(S)                                        \
-  extern template Hbvm<S> HbvmMethod::coefficients<S>() const; \
+#define HBVM_DECLARE(S)                                                          \
+  extern template int HbvmMethod::constraint_nodes<S>(const Problem<S>&) const; \
+  extern template Hbvm<S> HbvmMethod::coefficients<S>(int) const;               \
   extern template StepperMaker<S> HbvmMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

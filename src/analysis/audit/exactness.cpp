@@ -88,7 +88,7 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
   if (check && as_tableau(*claim.method) && !constrained) return proof_for_tableau(claim, *check, degree);
   if (!hbvm) return proof_by_construction(claim);
   if (!check) return {};
-  const auto [k, s] = hbvm->name();
+  const int k = hbvm->name().k, s = hbvm->name().s;
   switch (claim.quantity) {
     case Quantity::g:
       return "g is quadratic";

@@ -25,12 +25,13 @@ Vector<Mpfr> derivative(const Problem<Mpfr>& problem, const StepPolynomials& ste
   return velocity / pow(step.h, r);
 }
 
-/// (nabla^2 g)(v, w) of each constraint.
-Vector<Mpfr> second_derivative(const Problem<Mpfr>& problem, const Vector<Mpfr>& v, const Vector<Mpfr>& w) {
+/// (nabla^2 g)(v, w) of each constraint at q.
+Vector<Mpfr> second_derivative(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const Vector<Mpfr>& v,
+                               const Vector<Mpfr>& w) {
   Vector<Mpfr> result(problem.nu());
   for (Index a = 0; a < problem.nu(); ++a) {
     const auto of = [&](const Vector<Mpfr>& x) {
-      return curvature(problem.constraints[static_cast<std::size_t>(a)], problem.dimension, x);
+      return curvature(problem.constraints[static_cast<std::size_t>(a)], problem.dimension, q, x);
     };
     result[a] = (of(v + w) - of(v - w)) / 4;
   }
@@ -55,7 +56,7 @@ LeadingTerm leading_term(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, co
   const Vector<Mpfr> first = derivative(problem, motion.polynomials(), 1),
                      next = derivative(problem, motion.polynomials(), s + 1),
                      after = derivative(problem, motion.polynomials(), s + 2);
-  return {along(problem, q, next), second_derivative(problem, first, next) + along(problem, q, after)};
+  return {along(problem, q, next), second_derivative(problem, q, first, next) + along(problem, q, after)};
 }
 
 /// The hidden constraint at t = 1/4 in steps of 2^-8 over what its leading term says:

@@ -55,7 +55,8 @@ void HealthWatch<S>::report_energy(Health& health, const Method& method) {
   const S rounding = energy_.rounding() + h_ * hidden_.power();
   if (!method.kept().energy || !(error > walked_round_off<S>(steps_) * rounding)) return;
   const HbvmMethod* const hbvm = as_hbvm(method);
-  const auto [k, s] = hbvm ? hbvm->name() : HbvmName{};
+  const HbvmName of = hbvm ? hbvm->name() : HbvmName{};
+  const int k = of.k, s = of.s;
   const std::optional<int> degree = degree_of_U(problem_);
   const bool exact = !hbvm || (degree && 2 * k >= *degree * s);
   health.warnings.push_back(

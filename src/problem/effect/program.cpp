@@ -146,6 +146,49 @@ void apply(Op op, S& r, const S& a) {
   }
 }
 
+/// |dz/da| of z = op(a).
+template <Scalar S>
+S slope(Op op, const S& a, const S& z) {
+  using std::cos, std::cosh, std::sin, std::sinh;
+  // Of f(a)/a.
+  const auto of_ratio = [&](const S& slope_of_f) { return a == 0 ? S(0) : magnitude(S((slope_of_f - z) / a)); };
+  switch (op) {
+    case Op::negate:
+    case Op::abs:
+      return 1;
+    case Op::reciprocal:
+      return z * z;
+    case Op::sqrt:
+      return 1 / (2 * magnitude(z));
+    case Op::sin:
+      return magnitude(S(cos(a)));
+    case Op::cos:
+      return magnitude(S(sin(a)));
+    case Op::exp:
+      return magnitude(z);
+    case Op::log:
+      return 1 / magnitude(a);
+    case Op::sinh:
+      return cosh(a);
+    case Op::cosh:
+      return magnitude(S(sinh(a)));
+    case Op::tanh:
+      return magnitude(S(1 - z * z));
+    case Op::atan:
+      return 1 / (1 + a * a);
+    case Op::sinc:
+      return of_ratio(cos(a));
+    case Op::sinhc:
+      return of_ratio(cosh(a));
+    case Op::atanhc:
+      return of_ratio(1 / (1 - a * a));
+    case Op::atanc:
+      return of_ratio(1 / (1 + a * a));
+    default:
+      return 0;
+  }
+}
+
 /// r = f(a, b) in every lane; a constant operand is one number for all.
 template <Scalar S, class F>
 void binary(Index lanes, S* r, const S* a, bool a_constant, const S* b, bool b_constant, F f) {
@@ -223,6 +266,48 @@ const S& Program<S>::output(std::size_t i, Index lane, const Matrix<S>& register
       break;
   }
   return registers.data()[registers.rows() * x.index + lane];
+}
+
+template <Scalar S>
+std::vector<S> Program<S>::rounding_sizes(const std::vector<S>& inputs, const std::vector<S>& sizes) const {
+  struct Number {
+    S value = 0, size = 0;
+  };
+  std::vector<Number> registers(temporaries_);
+  const auto read = [&](const Operand& x) -> Number {
+    switch (x.bank) {
+      case Bank::input:
+        return {inputs[x.index], sizes[x.index]};
+      case Bank::constant:
+        return {constants_[x.index], magnitude(constants_[x.index])};
+      case Bank::temporary:
+        break;
+    }
+    return registers[x.index];
+  };
+  for (const Instruction& i : instructions_) {
+    const Number a = read(i.a), b = is_binary(i.op) ? read(i.b) : Number{};
+    Number z;
+    switch (i.op) {
+      case Op::add:
+        z = {a.value + b.value, a.size + b.size};
+        break;
+      case Op::subtract:
+        z = {a.value - b.value, a.size + b.size};
+        break;
+      case Op::multiply:
+        z = {a.value * b.value, magnitude(b.value) * a.size + magnitude(a.value) * b.size};
+        break;
+      default:
+        apply(i.op, z.value, a.value);
+        z.size = a.size == 0 ? S(0) : S(slope(i.op, a.value, z.value) * a.size);
+    }
+    if (i.op != Op::negate && i.op != Op::abs && i.op != Op::sign) z.size += magnitude(z.value);
+    registers[i.result] = std::move(z);
+  }
+  std::vector<S> result;
+  for (const Operand& x : outputs_) result.push_back(read(x).size);
+  return result;
 }
 
 #define HBVM_DEFINE(S) template class Program<S>;

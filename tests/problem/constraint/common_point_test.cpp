@@ -22,7 +22,7 @@ TYPED_TEST(CommonPointTest, IsAComponentOfADisplacement) {
   EXPECT_EQ(value(first, 2, q).g, 1 - 9 + 5);
   EXPECT_EQ(value(second, 2, q).g, 2 - 12 + 7);
   EXPECT_EQ(value(second, 2, q).size, 2 + 12 + 7);
-  EXPECT_EQ(curvature(second, 2, q), 0);
+  EXPECT_EQ(curvature(second, 2, q, q), 0);
   EXPECT_EQ(coordinates(first, 2), (std::vector<Index>{0, 4}));
   EXPECT_EQ(coordinates(second, 2), (std::vector<Index>{1, 5}));
 }

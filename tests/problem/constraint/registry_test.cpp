@@ -63,10 +63,10 @@ TYPED_TEST(EveryForm, HasItsSecondDerivative) {
   this->each([&](const std::string& kind, const Problem<S>& problem) {
     const Constraint<S>& constraint = problem.constraints[0];
     const Vector<S> q = this->random.vector(problem.m()), v = this->random.vector(problem.m());
-    const S expected = dense_curvature(problem, q, v)[0], found = curvature(constraint, problem.dimension, v);
+    const S expected = dense_curvature(problem, q, v)[0], found = curvature(constraint, problem.dimension, q, v);
     EXPECT_LE(magnitude(S(found - expected)), this->tolerance) << kind;
-    EXPECT_LE(magnitude(found), curvature_size(constraint, problem.dimension, v)) << kind;
-    Curvature<S> second(problem, 1);
+    EXPECT_LE(magnitude(found), curvature_size(constraint, problem.dimension, q, v)) << kind;
+    Curvature<S> second(problem, 1, 1);
     S sum = 0;
     for (const auto& entry : second.constraints()) {
       const auto& at = second.pairs()[static_cast<std::size_t>(entry.pair)];

@@ -8,6 +8,7 @@
 #include "hbvm/problem/constraint/common_point.hpp"
 #include "hbvm/problem/constraint/displacement_product.hpp"
 #include "hbvm/problem/constraint/form.hpp"
+#include "hbvm/problem/constraint/formula_constraint.hpp"
 #include "hbvm/problem/constraint/hinge.hpp"
 #include "hbvm/problem/constraint/plane.hpp"
 #include "hbvm/problem/constraint/quadric.hpp"
@@ -15,12 +16,13 @@
 
 namespace hbvm {
 
-/// Every form of constraint that a scene can name. A new one is its file, and one line here.
+/// Every form of constraint: those that a scene can name by their kinds, at most quadratic, and g by any other formula.
+/// A new one is its file, and one line here.
 template <Scalar S>
 using ConstraintForms = std::variant<Rod<S>,      //
                                      Quadric<S>,  //
                                      Plane<S>,    //
-                                     DisplacementProduct<S>, CommonPoint<S>>;
+                                     DisplacementProduct<S>, CommonPoint<S>, FormulaConstraint<S>>;
 
 /// What a scene can name besides: a kind and keys that stand for several g of those forms. A new one is its file, and
 /// its name here.
@@ -35,12 +37,15 @@ struct GradientsOf<std::variant<F...>> {
   using type = std::variant<typename F::Gradient...>;
 };
 
-/// Calls `f.operator()<Form>()` for every form in turn.
+/// Calls `f.operator()<Form>()` for every quadratic form in turn.
 template <Scalar S, class F>
 void for_each_constraint_form(F&& f) {
   [&]<class... Form>(std::variant<Form...>*) {
-    static_assert((ConstraintForm<Form, S> && ...));
-    (f.template operator()<Form>(), ...);
+    static_assert(((ConstraintForm<Form, S> || std::same_as<Form, FormulaConstraint<S>>)&&...));
+    const auto call = [&]<class One>() {
+      if constexpr (ConstraintForm<One, S>) f.template operator()<One>();
+    };
+    (call.template operator()<Form>(), ...);
   }(static_cast<ConstraintForms<S>*>(nullptr));
 }
 

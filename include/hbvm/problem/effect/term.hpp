@@ -41,4 +41,12 @@ void displace(const EffectTerm<S>& term, Index dimension, Lanes<const S> q, S* o
       displace(term.displacement(n, a), dimension, q, out + a * dimension * stride + n * q.count, stride);
 }
 
+/// The term with all numbers rounded to double.
+template <Scalar S>
+EffectTerm<double> in_double(const EffectTerm<S>& term);
+
+#define HBVM_DECLARE(S) extern template EffectTerm<double> in_double<S>(const EffectTerm<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
 }  // namespace hbvm

@@ -26,7 +26,7 @@ template <Scalar S>
 Exact coefficients_in(int k, int s) {
   const Hbvm<S> method = make_hbvm<S>(k, s);
   Exact all;
-  for (const Vector<S>* const v : {&method.c, &method.b, &method.c_hat, &method.b_hat, &method.lagrange_at_1})
+  for (const Vector<S>* const v : {&method.c, &method.b, &method.c_hat, &method.b_hat, &method.lambda_at_1})
     append(all, v->data(), v->size());
   for (const Matrix<S>* const a : {&method.P_s, &method.I_s, &method.P_hat, &method.I_hat, &method.X_s,
                                    &method.projection, &method.projection_hat, &method.A})
