@@ -77,10 +77,14 @@ std::vector<Claim> claims_of(const AuditArguments& o) {
   }
   if (o.claims && (o.claims->ends_with(".toml") || o.claims->find('/') != std::string::npos))
     throw InputError("--claims: there is no file '" + *o.claims + "'");
-  if (o.method)
+  if (o.method) {
     claims = claims_about(*o.method);
-  else
-    claims = paper_claims(o.full ? Extent::full : Extent::quick);
+  } else {
+    const Extent extent = o.full ? Extent::full : Extent::quick;
+    claims = paper_claims(extent);
+    const std::vector<Claim> general = general_claims(extent);
+    claims.insert(claims.end(), general.begin(), general.end());
+  }
   return o.claims ? filtered(std::move(claims), *o.claims) : claims;
 }
 

@@ -163,7 +163,7 @@ Hbvm<double> in_double(const Hbvm<S>& method) {
   return r;
 }
 
-#define HBVM_DEFINE(S)                     \
+#define HBVM_DEFINE(S)                          \
   template Hbvm<S> make_hbvm<S>(int, int, int); \
   template Hbvm<double> in_double<S>(const Hbvm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)

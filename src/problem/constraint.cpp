@@ -77,14 +77,14 @@ Constraint<double> in_double(const Constraint<S>& constraint) {
           std::visit([](const auto& form) -> ConstraintForms<double> { return form.in_double(); }, constraint.form)};
 }
 
-#define HBVM_DEFINE(S)                                                                              \
-  template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                          \
-  template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);              \
-  template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);                       \
-  template int degree<S>(const Constraint<S>&);                                                     \
-  template int degree<S>(const std::vector<Constraint<S>>&);                                        \
-  template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);         \
-  template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);    \
+#define HBVM_DEFINE(S)                                                                           \
+  template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                       \
+  template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);           \
+  template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);                    \
+  template int degree<S>(const Constraint<S>&);                                                  \
+  template int degree<S>(const std::vector<Constraint<S>>&);                                     \
+  template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);      \
+  template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&); \
   template Constraint<double> in_double<S>(const Constraint<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -20,8 +20,8 @@ Curvature<S>::Term::Term(const EffectTerm<S>& term, Index dimension, Index nodes
         const Index high = std::max(i, j), low = std::min(i, j);
         for (const auto& a : term.displacement(n, i / d).blocks)
           for (const auto& b : term.displacement(n, j / d).blocks)
-            targets.push_back({column(a.offset + i % d, b.offset + j % d), high * (high + 1) / 2 + low, n,
-                               S(a.weight * b.weight)});
+            targets.push_back(
+                {column(a.offset + i % d, b.offset + j % d), high * (high + 1) / 2 + low, n, S(a.weight * b.weight)});
       }
 }
 

@@ -31,7 +31,8 @@ Continuation<S>::Continuation(const Hbvm<S>& method, std::vector<Index> body, In
     for (Index i = 0; i <= l; ++i) growth_.back() = std::max(growth_.back(), binary_exponent(columns_(l, i)));
   }
   for (Index i = 0; i < s_; ++i) part_.per_call.add_dots(coordinates + multipliers, s_ - i);
-  if (multipliers > 0 && !coefficients_known_) part_.per_call += P_.operations(multipliers) + projection_.operations(multipliers);
+  if (multipliers > 0 && !coefficients_known_)
+    part_.per_call += P_.operations(multipliers) + projection_.operations(multipliers);
 }
 
 template <Scalar S>

@@ -142,8 +142,7 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
   const Matrix<S>* const curvatures = varying.empty() ? nullptr : &curvature_.varying(lanes(at.node_positions()));
   for (std::size_t e = 0; e < varying.size(); ++e)
     for (Index n = 0; n < r; ++n)
-      curved_(n, varying[e].pair) +=
-          (*curvatures)(n, static_cast<Index>(e)) * multipliers(n, varying[e].constraint);
+      curved_(n, varying[e].pair) += (*curvatures)(n, static_cast<Index>(e)) * multipliers(n, varying[e].constraint);
   for (std::size_t p = 0; p < curvature_.pairs().size(); ++p) {
     const auto& pair = curvature_.pairs()[p];
     const auto second = static_cast<Index>(p);

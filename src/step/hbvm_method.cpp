@@ -47,11 +47,7 @@ Kept HbvmMethod::kept() const {
 Orders HbvmMethod::orders() const {
   const int k = name_.k, s = name_.s;
   const int r = s % 2 == 0 ? s : s + 1;
-  return {.p = r,
-          .lambda = r - 1,
-          .hidden = r,
-          .energy = 2 * k,
-          .angular_momentum = k == s ? 0 : 2 * s};
+  return {.p = r, .lambda = r - 1, .hidden = r, .energy = 2 * k, .angular_momentum = k == s ? 0 : 2 * s};
 }
 
 Constants HbvmMethod::parameters() const {

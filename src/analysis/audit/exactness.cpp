@@ -78,26 +78,33 @@ double bits_of_the_weakest(const Claim& claim, int log2_scale) {
 std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
   std::optional<int> degree;
   bool constrained = false;
+  int of_g = 0, r = 0;  // degree, and nodes
+  const HbvmMethod* const hbvm = as_hbvm(*claim.method);
   {
     const PrecisionScope scope(30);
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
     degree = degree_of_U(scene.problem);
     constrained = scene.problem.nu() > 0;
+    of_g = hbvm::degree(scene.problem.constraints);
+    if (hbvm) r = hbvm->constraint_nodes(scene.problem);
   }
-  const HbvmMethod* const hbvm = as_hbvm(*claim.method);
   if (check && as_tableau(*claim.method) && !constrained) return proof_for_tableau(claim, *check, degree);
   if (!hbvm) return proof_by_construction(claim);
   if (!check) return {};
   const int k = hbvm->name().k, s = hbvm->name().s;
   switch (claim.quantity) {
     case Quantity::g:
-      return "g is quadratic";
+      if (of_g == 2 && r == s) return "g is quadratic";
+      return of_g >= 2 && of_g * s <= 2 * r
+                 ? "the nodes integrate the derivative of g, of degree " + std::to_string(of_g) + ", exactly"
+                 : "";
     case Quantity::reversal:
       return "the method is symmetric";
     case Quantity::H:
       return degree && *degree * s <= 2 * k ? "the nodes integrate U of degree " + std::to_string(*degree) + " exactly"
                                             : "";
     case Quantity::angular_momentum:
+      if (r > s) return {};
       if (k == s) return "k = s";
       return degree && *degree <= 2 ? "further nodes change nothing for U of degree " + std::to_string(*degree) : "";
     default:
@@ -108,8 +115,10 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
 int digits_to_show(const Claim& claim, int log2_scale) {
   constexpr double margin = 64;
   const HbvmMethod* const hbvm = as_hbvm(*claim.method);
-  const bool energy = claim.quantity == Quantity::H && hbvm;
-  const double order = energy ? 2 * hbvm->name().k + 1 : 2 * claim.method->stages() + 2;
+  const bool energy = claim.quantity == Quantity::H && hbvm, of_g = claim.quantity == Quantity::g && hbvm;
+  const double order = energy ? 2 * hbvm->name().k + 1
+                       : of_g ? 2 * std::max(hbvm->name().s, hbvm->name().r) + 1
+                              : 2 * claim.method->stages() + 2;
   const double bits = order * (3 + std::log2(order)) + margin + bits_of_the_weakest(claim, log2_scale);
   return static_cast<int>(std::ceil(bits * std::numbers::ln2 / std::numbers::ln10));
 }

@@ -125,7 +125,8 @@ class IntervalLadder {
     const Mpfr H0 = point_.energy(q, p);
     std::vector<MomentumValue<Mpfr>> momentum_0;
     for (const auto& component : momenta_) momentum_0.push_back(momentum(problem_, component, q, p));
-    const bool constrained = problem_.nu() > 0;
+    const bool constrained = problem_.nu() > 0, asks_for_g = constrained && cell_.asks_for(Quantity::g);
+    const Vector<Mpfr> g_0 = asks_for_g ? point_.constraints(q) : Vector<Mpfr>();
     trial.begin(start, h);
     for (long step = 1; step <= steps; ++step) {
       cell_.check_time();
@@ -136,6 +137,7 @@ class IntervalLadder {
         add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, before, p, h, cell_.subject().method->stages()),
             floors.divided);
       if (cell_.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point_.energy(q, p) - H0)), unit_ + sensitivity.H);
+      if (asks_for_g) add(Quantity::g, distance(point_.constraints(q), g_0), unit_ + sensitivity.g);
       if (constrained && cell_.asks_for(Quantity::hidden))
         add(Quantity::hidden, max_norm(point_.hidden_constraints(q, p)), unit_ + sensitivity.hidden);
       for (std::size_t c = 0; c < momenta_.size(); ++c)

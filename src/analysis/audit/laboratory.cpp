@@ -1,6 +1,7 @@
 #include "laboratory.hpp"
 
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "hbvm/step/hbvm_method.hpp"
+#include "hbvm/step/rattle.hpp"
 
 namespace hbvm {
 
@@ -18,9 +19,10 @@ std::optional<ExactPoint> Laboratory::known(const Start& start, const Mpfr& t) c
 }
 
 void Laboratory::walk(const Cell& cell) {
-  // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion.
-  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 4);
-  HbvmStepper<Mpfr> stepper(assembled_.problem, method, SolverKind::automatic);
+  // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion. If
+  // g is quadratic HBVM keeps it whatever the step, and RATTLE any other.
+  const MethodPtr method = degree(assembled_.problem.constraints) == 2 ? hbvm_of({4, 4}) : rattle_method({});
+  const std::unique_ptr<Stepper<Mpfr>> stepper = method->make_stepper(assembled_.problem, SolverKind::automatic);
   const Mpfr h = ldexp(Mpfr(1), cell.log2_scale - 3);
   State<Mpfr> state(assembled_.q0, assembled_.p0);
   const Starts& wanted = cell.starts;
@@ -28,7 +30,7 @@ void Laboratory::walk(const Cell& cell) {
     if (n >= wanted.lead && (n - wanted.lead) % wanted.stride == 0)
       starts_.push_back({state.q, point_->tangential(state.q, state.p)});
     if (static_cast<int>(starts_.size()) == wanted.count) return;
-    stepper.step(state, h);
+    stepper->step(state, h);
     cell.check_time();
   }
 }

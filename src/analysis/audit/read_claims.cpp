@@ -5,7 +5,7 @@
 #include "hbvm/method/method_spec.hpp"
 #include "hbvm/read_file.hpp"
 #include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/registry.hpp"
 #include "hbvm/step/tableau_method.hpp"
@@ -144,11 +144,19 @@ class ClaimReader {
     if (of_polynomials && !as_hbvm(*claim.method))
       reader_.fail("quantity '" + name + "' is of the polynomials of hbvm:K,S, and " + claim.method->text() +
                    " has none");
-    if (claim.form != Form::round_off && (q == Quantity::g || q == Quantity::reversal))
+    if (claim.form != Form::round_off && q == Quantity::g && !is_general(claim.problem))
+      reader_.fail("quantity 'g' is claimed with rate = \"round-off\": all constraints of " + claim.problem +
+                   " are quadratic");
+    if (claim.form != Form::round_off && q == Quantity::reversal)
       reader_.fail("quantity '" + name + "' is claimed with rate = \"round-off\"");
     if (q == Quantity::angular_momentum && claim.form != Form::round_off && claim.span == Span::step)
       reader_.fail("the angular momentum is looked at over an interval");
     checked([&] { static_cast<void>(load_scene(claim.problem)); });
+  }
+
+  /// Whether some constraint is not quadratic.
+  static bool is_general(const std::string& problem) {
+    return degree(assemble<double>(load_scene(problem)).problem.constraints) != 2;
   }
 
   TomlTable reader_;

@@ -86,6 +86,7 @@ Json json_of(const Finding& f) {
             {"method", c.method_text()},
             {"k", hbvm ? Json(hbvm->name().k) : Json(nullptr)},
             {"s", hbvm ? Json(hbvm->name().s) : Json(nullptr)},
+            {"r", hbvm && hbvm->name().r > 0 ? Json(hbvm->name().r) : Json(nullptr)},
             {"over", name_of(c.span)},
             {"form", name_of(c.form)},
             {"predicted", c.predicted},
@@ -127,12 +128,16 @@ Finding finding_of(const Json& j) {
 Table audit_table(const std::vector<Finding>& findings) {
   const bool named =
       std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return !as_hbvm(*f.claim.method); });
+  // Nodes for constraints are a column where a method says how many.
+  const bool with_r = !named && std::any_of(findings.begin(), findings.end(),
+                                            [](const Finding& f) { return as_hbvm(*f.claim.method)->name().r > 0; });
   Table table;
   table.caption = "Claims and what was measured";
   table.key_columns = {"problem"};
   table.columns = {"claim", "quantity", "over"};
   for (const char* const column : named ? std::vector{"method"} : std::vector{"k", "s"})
     table.columns.emplace_back(column);
+  if (with_r) table.columns.emplace_back("r");
   for (const char* const column : {"predicted", "measured", "+-", "precision", "coefficients to", "verdict"})
     table.columns.emplace_back(column);
   std::map<std::string, std::size_t> places;
@@ -144,11 +149,13 @@ Table audit_table(const std::vector<Finding>& findings) {
     const bool rate = (c.form == Form::at_least || c.form == Form::exactly) && c.problem != "tableau";
     std::vector<std::string> row{on_one_line(hbvm::readable(c.label)), std::string(readable(c.quantity)),
                                  rate ? std::string(name_of(c.span)) : ""};
-    if (named)
+    if (named) {
       row.push_back(on_one_line(c.method_text()));
-    else
-      for (const int number : {as_hbvm(*c.method)->name().k, as_hbvm(*c.method)->name().s})
-        row.push_back(std::to_string(number));
+    } else {
+      const HbvmName& name = as_hbvm(*c.method)->name();
+      for (const int number : {name.k, name.s}) row.push_back(std::to_string(number));
+      if (with_r) row.push_back(name.r > 0 ? std::to_string(name.r) : "");
+    }
     row.insert(row.end(), {predicted_text(c), short_text(f.measured), short_text(f.uncertainty), f.precision,
                            f.coefficients_to > 0 ? std::to_string(f.coefficients_to) : "---",
                            std::string(hbvm::name_of(f.verdict))});

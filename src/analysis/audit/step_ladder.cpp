@@ -62,6 +62,10 @@ class StepMeasurement {
     const double lambda_unit = unit_ + sensitivity.lambda,
                  divided = lambda_unit + std::max(cell_.log2_scale - log2_h, 0);
     const Mpfr hidden = max_norm(point.hidden_constraints(q, p));
+    if (cell_.asks_for(Quantity::g)) {
+      const Vector<Mpfr> g_0 = point.constraints(start.q);
+      add(Quantity::g, distance(point.constraints(q), g_0), unit_ + sensitivity.g);
+    }
     add(Quantity::tangential_p, distance(tangential, exact_p), std::max(p_unit, margin.p));
     add(Quantity::output_lambda, distance(output_lambda, exact_lambda), std::max(lambda_unit, margin.lambda));
     add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(divided, margin.lambda));

@@ -4,6 +4,7 @@
 #include "hbvm/method/runge_kutta.hpp"
 #include "hbvm/method/symmetry_defect.hpp"
 #include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "laboratory.hpp"
 #include "measurements.hpp"
@@ -26,13 +27,20 @@ Matrix<Mpfr> times(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b) { return a.lazy
 
 template <Scalar S>
 std::map<Quantity, double> tableau_defects(const Claim& subject) {
-  const Hbvm<S> method = as_hbvm(*subject.method)->coefficients<S>();
+  const HbvmMethod& audited = *as_hbvm(*subject.method);
+  const bool of_problem = subject.problem != "tableau" && audited.name().r == 0;
+  const Hbvm<S> method =
+      of_problem
+          ? audited.coefficients<S>(audited.constraint_nodes(assemble<double>(load_scene(subject.problem)).problem))
+          : audited.coefficients<S>();
   // Twice the digits show the rounding of each entry, and nothing of the sums.
   const PrecisionScope scope(2 * static_cast<unsigned>(digits10<S>()) + guard_digits);
-  const int k = method.k, s = method.s;
+  const int k = method.k, s = method.s, r = method.r;
   const Matrix<Mpfr> P = exact<S>(method.P_s), I = exact<S>(method.I_s), X = exact<S>(method.X_s),
                      projection = exact<S>(method.projection);
-  const RungeKutta<Mpfr> gauss{exact<S>(method.A), exact<S>(method.b), exact<S>(method.c)};
+  const Matrix<Mpfr> A = exact<S>(method.A);
+  // Of the r nodes of the constraints; for r = s Gauss's method.
+  const RungeKutta<Mpfr> gauss{r == s ? A : times(I, projection), exact<S>(method.b), exact<S>(method.c)};
   const Matrix<Mpfr> I_hat = exact<S>(method.I_hat), projection_hat = exact<S>(method.projection_hat);
   // The k-stage method that HBVM(k, s) is without constraints.
   const RungeKutta<Mpfr> hat{times(I_hat, projection_hat), exact<S>(method.b_hat), exact<S>(method.c_hat)};
@@ -43,20 +51,24 @@ std::map<Quantity, double> tableau_defects(const Claim& subject) {
     const auto [place, is_new] = result.try_emplace(quantity, size);
     if (!is_new) place->second = std::max(place->second, size);
   };
-  add(Quantity::B, condition_B(gauss, 2 * s));
+  add(Quantity::B, condition_B(gauss, 2 * r));
   add(Quantity::B, condition_B(hat, 2 * k));
   add(Quantity::C, condition_C(gauss, s));
   add(Quantity::C, condition_C(hat, s));
-  add(Quantity::D, condition_D(gauss, s));
+  add(Quantity::D, condition_D(gauss, r == s ? s : s - 1));
   add(Quantity::D, condition_D(hat, k == s ? s : s - 1));
-  add(Quantity::X, max_norm(Matrix<Mpfr>(I - times(P, X))));
+  // Of the integrals X has the coefficients below that of P_s, which vanishes at s nodes.
+  if (r == s)
+    add(Quantity::X, max_norm(Matrix<Mpfr>(I - times(P, X))));
+  else
+    add(Quantity::X, max_norm(Matrix<Mpfr>(times(projection, I) - X)));
   add(Quantity::X, max_norm(Matrix<Mpfr>(times(projection, P) - Matrix<Mpfr>::Identity(s, s))));
   add(Quantity::X,
       max_norm(Matrix<Mpfr>(times(projection_hat, exact<S>(method.P_hat)) - Matrix<Mpfr>::Identity(s, s))));
   // gamma = e_1 p_0 + … of (dispro1) takes P_0 for 1.
   for (const Matrix<Mpfr>& values : {P, exact<S>(method.P_hat)})
     for (Index i = 0; i < values.rows(); ++i) add(Quantity::X, abs(Mpfr(values(i, 0) - 1)));
-  add(Quantity::W, max_norm(Matrix<Mpfr>(times(times(projection, gauss.A), P) - X)));
+  add(Quantity::W, max_norm(Matrix<Mpfr>(times(times(projection, A), P) - X)));
   for (const RungeKutta<Mpfr>* const part : {&gauss, &hat}) {
     add(Quantity::symmetry, symmetry_defect(*part));
     for (Index i = 0; i < part->c.size(); ++i)

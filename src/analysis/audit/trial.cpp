@@ -1,6 +1,8 @@
 #include "trial.hpp"
 
 #include "hbvm/basis/gauss_legendre.hpp"
+#include "hbvm/basis/legendre.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 #include "linear/rounded.hpp"
 
 namespace hbvm {
@@ -9,6 +11,8 @@ template <Scalar S>
 Trial<S>::Trial(const Claim& subject, SolverKind solver)
     : digits_(static_cast<unsigned>(digits10<S>())), assembled_(assemble<S>(load_scene(subject.problem))) {
   make_stepper_ = subject.method->prepare(assembled_.problem, solver);
+  if (const HbvmMethod* const hbvm = as_hbvm(*subject.method))
+    coefficients_of_lambda_ = hbvm->constraint_nodes(assembled_.problem) > hbvm->name().s;
 }
 
 template <Scalar S>
@@ -49,7 +53,12 @@ template <Scalar S>
 void Trial<S>::unknowns(Matrix<Mpfr>* gamma, Matrix<Mpfr>* lambda) {
   const StageUnknowns<S>& x = *stepper_->unknowns();
   if (gamma) copy_exactly(*gamma, x.gamma);
-  if (lambda) copy_exactly(*lambda, x.lambda);
+  if (!lambda) return;
+  copy_exactly(*lambda, x.lambda);
+  if (!coefficients_of_lambda_) return;
+  const auto s = static_cast<int>(lambda->rows());
+  const Matrix<Mpfr> P = legendre_values<Mpfr>(gauss_legendre<Mpfr>(s).c, s);
+  *lambda = P.lazyProduct(Matrix<Mpfr>(*lambda));
 }
 
 template <Scalar S>

@@ -35,7 +35,8 @@ class Trial {
   void state(Vector<Mpfr>& q, Vector<Mpfr>& p) const;
   /// (lagmul) of the last step.
   void multiplier(Vector<Mpfr>& lambda) const;
-  /// Coefficients and multipliers of the last step, each if asked for; not for a method without polynomials.
+  /// Coefficients of the last step and its multipliers at the s Gauss nodes, each if asked for; not for a method
+  /// without polynomials.
   void unknowns(Matrix<Mpfr>* gamma, Matrix<Mpfr>* lambda);
   bool has_polynomials() const { return stepper_ && stepper_->unknowns(); }
 
@@ -45,6 +46,7 @@ class Trial {
   StepperMaker<S> make_stepper_;
   std::unique_ptr<Stepper<S>> stepper_;
   std::optional<State<S>> state_;
+  bool coefficients_of_lambda_ = false;  ///< are its unknowns
   S h_ = 0;
 };
 

@@ -18,6 +18,11 @@ enum class Extent {
 /// vanish).
 std::vector<Claim> paper_claims(Extent extent);
 
+/// Of HBVM(k, s) with r nodes for constraints that are not quadratic: the same orders of all components, symmetry, H at
+/// 2k and g at 2r or, where g is a polynomial of degree d and r >= d s/2, to round-off; angular momentum for k = r = s.
+/// s = 1 .. 6 for Extent::full, s = 1 and 2 else.
+std::vector<Claim> general_claims(Extent extent);
+
 /// What a Runge-Kutta method must show on the problems without constraints: the order that its author states (if none,
 /// that which its conditions show to ten digits, as a look in double would have it), the order of the energy error, and
 /// symmetry and conservation of angular momentum if its coefficients say so to ten digits.
