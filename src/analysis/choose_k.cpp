@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "hbvm/integrate/integrate.hpp"
+#include "hbvm/problem/effect/trace.hpp"
+#include "hbvm/problem/general_drift.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/step/quadrature_defect.hpp"
 
@@ -28,6 +30,7 @@ struct Trial {
   int k = 0, made = 0;
   S defect = 0;                         ///< the worst of the steps made
   S relative = 0;                       ///< the same, over the forces' size alone
+  S g_units = 0;                        ///< the most that one of them moved g that is to be kept, in units of round-off
   bool may_be_round_off = true;         ///< all of them
   std::optional<StageFailure> failure;  ///< of the step after those made
 
@@ -35,10 +38,12 @@ struct Trial {
 };
 
 template <Scalar S>
-Trial<S> try_nodes(const Assembled<S>& scene, int k, int s, const S& step, SolverKind solver) {
+Trial<S> try_nodes(const Assembled<S>& scene, const HbvmName& name, bool keeps_g, const S& step, SolverKind solver) {
+  const auto [k, s, r] = name;
   Trial<S> trial;
   trial.k = k;
-  const Hbvm<S> method = make_hbvm<S>(k, s);
+  const Hbvm<S> method = make_hbvm<S>(k, s, r);
+  GeneralDrift<S> drift(scene.problem);
   HbvmStepper<S> stepper(scene.problem, method, solver);
   QuadratureDefect<S> defect(scene.problem, k, s);
   State<S> state(scene.q0, scene.p0);
@@ -49,6 +54,11 @@ Trial<S> try_nodes(const Assembled<S>& scene, int k, int s, const S& step, Solve
       raise_to(trial.defect, defect.measure({q, p, step}, stepper.solver().unknowns()));
       raise_to(trial.relative, defect.relative());
       trial.may_be_round_off = defect.may_be_round_off();
+      if (!keeps_g) continue;
+      drift.start(q);
+      const S moved = drift.in_units(state.q);
+      raise_to(trial.g_units, moved);
+      trial.may_be_round_off = trial.may_be_round_off && moved * moved * epsilon<S>() < 1;
     }
   } catch (const StageFailure& failure) {
     trial.failure = failure;
@@ -69,23 +79,49 @@ S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, Solv
 }
 
 template <Scalar S>
-ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind solver) {
-  if (const auto degree = degree_of_U(scene.problem)) {
-    const int k = std::max(s, (*degree * s + 1) / 2);
-    HbvmName{k, s}.check();
-    return {k,
-            "U is a polynomial of degree " + std::to_string(*degree) +
-                (*degree <= 2 ? ": k = s" : ": k >= " + std::to_string(*degree) + "/2 s") + " conserves energy exactly",
-            true};
-  }
-  const auto attempt = [&](int k) { return try_nodes(scene, k, s, step, solver); };
+ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step, SolverKind solver) {
+  const int s = name.s;
+  const std::optional<int> of_U = degree_of_U(scene.problem);
+  const int of_g = degree(scene.problem.constraints);
+  const bool general = of_g != 2, tries_r = of_g == Trace<S>::not_polynomial && name.r == 0;
+  // What integrates a polynomial of this degree exactly along one of degree s.
+  const auto exact = [&](int degree) { return std::max(s, (degree * s + 1) / 2); };
+  const auto nodes = [&](int n) {
+    return HbvmName{of_U ? exact(*of_U) : n, s, name.r != 0 ? name.r : tries_r ? n : exact(of_g)};
+  };
+  const auto chosen = [&](int n, const std::string& why) {
+    const HbvmName of = nodes(n);
+    of.check();
+    std::string reason = why;
+    if (tries_r)
+      reason += "; g is not a polynomial: " + std::string(of_U ? "the least r" : "as many r, which are the least") +
+                " that keep it to round-off over these steps";
+    else if (general && name.r == 0)
+      reason += "; g is a polynomial of degree " + std::to_string(of_g) + ": r >= " + std::to_string(of_g) +
+                "/2 s keeps it exactly";
+    return ChosenK{of.k, reason, of_U && !tries_r, general || name.r != 0 ? of.r : 0,
+                   tries_r ? Raises::k_and_r : Raises::k};
+  };
+  const std::string of_polynomial = of_U ? "U is a polynomial of degree " + std::to_string(*of_U) +
+                                               (*of_U <= 2 ? ": k = s" : ": k >= " + std::to_string(*of_U) + "/2 s") +
+                                               " conserves energy exactly"
+                                         : "";
+  if (of_U && !tries_r) return chosen(s, of_polynomial);
+  const auto attempt = [&](int n) {
+    Trial<S> trial = try_nodes(scene, nodes(n), tries_r, step, solver);
+    trial.k = n;
+    return trial;
+  };
   // Doubling finds an upper bound, bisection the least: more nodes never do worse. A k whose steps fail is not enough;
   // if those of `patience` k in a row do and none came farther than the one before, all will. Where a defect that may
   // be round-off does not fall, it is: twice as much is then tolerated.
   constexpr int patience = 3;
   const int most = max_k - s;
-  S noise = 0;
-  const auto passes = [&](const Trial<S>& trial) { return trial.defect <= 1 || trial.relative <= noise; };
+  constexpr int roundings_of_g = 8;  // at either end, of the position as it is rounded, and of the sums of the step
+  S noise = 0, noise_of_g = roundings_of_g;
+  const auto passes = [&](const Trial<S>& trial) {
+    return (trial.defect <= 1 || trial.relative <= noise) && trial.g_units <= noise_of_g;
+  };
   const auto enough = [&](const Trial<S>& trial) { return trial.is_complete() && passes(trial); };
   Trial<S> trial = attempt(s);
   std::optional<Trial<S>> farthest;  // of those that end with a failure, and are sound before
@@ -102,8 +138,10 @@ ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind sol
     const Trial<S> last = trial;
     trial = attempt(high);
     count_failure();
-    if (trial.is_complete() && last.is_complete() && trial.relative * 2 > last.relative && !enough(trial)) {
+    if (trial.is_complete() && last.is_complete() && trial.relative * 2 > last.relative &&
+        trial.g_units * 2 > last.g_units && !enough(trial)) {
       noise = std::max(last.relative, trial.relative) * 2;
+      raise_to(noise_of_g, S(std::max(last.g_units, trial.g_units) * 2));
       low = s;
       high = last.k;
       trial = last;
@@ -111,12 +149,14 @@ ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind sol
   }
   if (!enough(trial)) {
     if (!trial.failure)
-      throw InputError("method hbvm:auto," + std::to_string(s) + ": no k up to " + std::to_string(most) +
-                       " reaches round-off; U is not smooth where the motion leads, or the step is too large");
+      throw InputError("method " + name.text() + ": no " + (of_U ? "r" : "k") + " up to " + std::to_string(most) +
+                       " reaches round-off; " + (of_U ? "g" : "U") +
+                       " is not smooth where the motion leads, or the step is too large");
     if (!farthest || farthest->made == 0)
       throw StepError(trial.made + 1, to_text(S(S(trial.made) * step)), *trial.failure);
-    return {farthest->k,
-            "U is not a polynomial, and no k makes more than the first " + std::to_string(farthest->made) + " steps"};
+    const char* const which = of_U ? "r" : "k";
+    return chosen(farthest->k, (of_U ? of_polynomial + "; no " : std::string("U is not a polynomial, and no ")) +
+                                   which + " makes more than the first " + std::to_string(farthest->made) + " steps");
   }
   while (low < high) {
     const int middle = (low + high) / 2;
@@ -125,15 +165,15 @@ ChosenK choose_k(const Assembled<S>& scene, int s, const S& step, SolverKind sol
     else
       low = middle + 1;
   }
-  return {high,
-          "U is not a polynomial: the least k whose force coefficients agree with those of k + s to round-off over the "
-          "first " +
-              std::to_string(first_steps) + " steps"};
+  return chosen(high, of_U ? of_polynomial
+                           : "U is not a polynomial: the least k whose force coefficients agree with those of k + s to "
+                             "round-off over the first " +
+                                 std::to_string(first_steps) + " steps");
 }
 
 #define HBVM_DEFINE(S)                                                                                 \
   template std::optional<int> degree_of_U<S>(const Problem<S>&);                                       \
-  template ChosenK choose_k<S>(const Assembled<S>&, int, const S&, SolverKind);                        \
+  template ChosenK choose_k<S>(const Assembled<S>&, const HbvmName&, const S&, SolverKind);            \
   template S quadrature_defect<S>(const Problem<S>&, int, int, const S&, SolverKind, const Vector<S>&, \
                                   const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)

@@ -117,12 +117,16 @@ std::string json_of(const RunRequest& request, const RunResult& result, const st
   j["cpu_seconds"] = result.cpu_seconds;
   if (result.nodes) {
     nlohmann::ordered_json raised = nlohmann::ordered_json::array();
-    for (const auto& raise : result.nodes->raised) raised.push_back({{"t", raise.t}, {"k", raise.k}});
+    for (const auto& raise : result.nodes->raised) {
+      raised.push_back({{"t", raise.t}, {"k", raise.k}});
+      if (raise.r > 0) raised.back()["r"] = raise.r;
+    }
     j["chosen"] = {{"k", result.nodes->k},
                    {"because", result.nodes->because},
                    {"raised", raised},
                    {"verified", result.nodes->verified},
                    {"verdict", result.nodes->verdict}};
+    if (result.nodes->r > 0) j["chosen"]["r"] = result.nodes->r;
   }
   if (result.halving) {
     const HalvingReport& halving = *result.halving;
@@ -216,13 +220,19 @@ void print_state(const Scene& scene, const RunResult& result) {
   fmt::print("{}", result.error ? to_text(*result.error) : "digits not assessed (--error)\n");
 }
 
+/// What was raised, and to how many.
+std::string nodes_of(const NodesReport::Raise& raise) {
+  return raise.r > 0 ? fmt::format("r = {}", raise.r) : fmt::format("{}", raise.k);
+}
+
 void print(const RunRequest& request, const RunResult& result) {
   if (result.nodes) {
-    fmt::print("k = {}: {}\n", result.nodes->k, result.nodes->because);
+    fmt::print("k = {}{}: {}\n", result.nodes->k, result.nodes->r > 0 ? fmt::format(", r = {}", result.nodes->r) : "",
+               result.nodes->because);
     const auto& raised = result.nodes->raised;
     if (!raised.empty())
-      fmt::print("raised to {}, {} times, first to {} in the step from t = {}\n", raised.back().k, raised.size(),
-                 raised.front().k, raised.front().t);
+      fmt::print("raised to {}, {} times, first to {} in the step from t = {}\n", nodes_of(raised.back()),
+                 raised.size(), nodes_of(raised.front()), raised.front().t);
     fmt::print("{}\n", result.nodes->verdict);
   }
   if (result.halving) {

@@ -215,15 +215,20 @@ template <Scalar S>
 bool SimplifiedNewton<S>::multipliers_run_wild() const {
   constexpr int much = 4;
   const ConstraintGradient<S>& gradient = equations_.constraint_gradient();
-  Matrix<S> changes = x_.lambda - start_.lambda;
-  if (method_.has_coefficients_of_lambda()) changes = method_.P_s.lazyProduct(Matrix<S>(changes));
+  const auto change_at_node = [&](Index i, Index a) {
+    if (!method_.has_coefficients_of_lambda()) return S(x_.lambda(i, a) - start_.lambda(i, a));
+    S sum = 0;
+    for (Index l = 0; l < method_.s; ++l) sum += method_.P_s(i, l) * (x_.lambda(l, a) - start_.lambda(l, a));
+    return sum;
+  };
   for (Index a = 0; a < x_.lambda.cols(); ++a) {
     const auto& pattern = gradient.pattern(a);
     for (std::size_t c = 0; c < pattern.coordinates.size(); ++c) {
       const Index column = pattern.first + static_cast<Index>(c);
       const S most = much * start_size_[pattern.coordinates[c]];
-      for (Index i = 0; i < changes.rows(); ++i)
-        if (!(magnitude(S(equations_.step() * gradient.values()(i, column) * changes(i, a))) <= most)) return true;
+      for (Index i = 0; i < method_.r; ++i)
+        if (!(magnitude(S(equations_.step() * gradient.values()(i, column) * change_at_node(i, a))) <= most))
+          return true;
     }
   }
   return false;

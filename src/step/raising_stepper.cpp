@@ -8,29 +8,34 @@
 namespace hbvm {
 
 template <Scalar S>
-RaisingStepper<S>::Nodes::Nodes(const Problem<S>& problem, int k, int s, SolverKind solver)
-    : method(make_hbvm<S>(k, s)), stepper(problem, method, solver), defect(problem, k, s) {}
+RaisingStepper<S>::Nodes::Nodes(const Problem<S>& problem, HbvmName name, SolverKind solver)
+    : method(make_hbvm<S>(name.k, name.s, name.r)), stepper(problem, method, solver), defect(problem, name.k, name.s) {}
 
 template <Scalar S>
-RaisingStepper<S>::RaisingStepper(const Problem<S>& problem, int k, int s, SolverKind solver, NodeLog& log,
-                                  OnShortage on_shortage)
+RaisingStepper<S>::RaisingStepper(const Problem<S>& problem, HbvmName name, SolverKind solver, NodeLog& log,
+                                  OnShortage on_shortage, Raises raises)
     : problem_(problem),
-      s_(s),
-      most_(on_shortage == OnShortage::keep ? max_k - s : std::min(max_k - s, 8 * k)),
+      s_(name.s),
+      most_(on_shortage == OnShortage::keep ? max_k - s_ : std::min(max_k - s_, 8 * std::max(name.k, name.r))),
       solver_(solver),
       log_(log),
       on_shortage_(on_shortage),
-      nodes_(make_nodes(k)),
+      nodes_(make_nodes(name.k, name.r == 0 ? name.s : name.r)),
       epsilon_(epsilon<S>()),
       nine_eighths_(S(9) / 8),
       energy_(problem),
       before_(Vector<S>::Zero(problem.m()), Vector<S>::Zero(problem.m())),
       after_(before_),
-      records_(Matrix<S>::Zero(static_cast<Index>(problem.blocks.size()), 2)) {}
+      records_(Matrix<S>::Zero(static_cast<Index>(problem.blocks.size()), 2)),
+      raises_r_(raises == Raises::k_and_r),
+      step_drift_(problem),
+      drift_(problem) {
+  raises_r_ = raises_r_ && !drift_.empty();
+}
 
 template <Scalar S>
-auto RaisingStepper<S>::make_nodes(int k) const -> std::unique_ptr<Nodes> {
-  auto nodes = std::make_unique<Nodes>(problem_, k, s_, solver_);
+auto RaisingStepper<S>::make_nodes(int k, int r) const -> std::unique_ptr<Nodes> {
+  auto nodes = std::make_unique<Nodes>(problem_, HbvmName{k, s_, r}, solver_);
   if (timed_) nodes->stepper.measure_time();
   return nodes;
 }
@@ -43,7 +48,9 @@ long RaisingStepper<S>::step(State<S>& state, const S& h) {
   if (!started_ || state.q != after_.q || state.p != after_.p) take_energy(state);
   if (!started_) set(first_H_, H_);
   started_ = true;
+  if (raises_r_ && made_ == 0) drift_.start(state.q);
   long sweeps = nodes_->stepper.step(state, h_);
+  if (raises_r_) sweeps += keep_constraints(state);
   ++made_;
   set(change_, H_);
   take_energy(state);
@@ -173,7 +180,7 @@ long RaisingStepper<S>::examine(State<S>& state, Look look) {
       if (enough) raise_to(noise_, S(2 * last.defect.relative()));
       break;
     }
-    std::unique_ptr<Nodes> next = make_nodes(next_k);
+    std::unique_ptr<Nodes> next = make_nodes(next_k, r());
     copy_state(repeated, before_);
     try {
       sweeps += next->stepper.step(repeated, h_);
@@ -206,7 +213,68 @@ long RaisingStepper<S>::examine(State<S>& state, Look look) {
   add_counts(past_, nodes_->stepper.counts(), problem_);
   nodes_ = std::move(more);
   exceeds_records(true);
-  log_.raised.push_back({log_.step, k()});
+  log_.raised.push_back({log_.step, k(), 0});
+  return sweeps;
+}
+
+template <Scalar S>
+long RaisingStepper<S>::keep_constraints(State<S>& state) {
+  using std::sqrt;
+  // Of g at either end, of the position as it is rounded, and of the sums of the step.
+  constexpr int roundings = 8;
+  step_drift_.start(before_.q);
+  S change = step_drift_.in_units(state.q);
+  bool drifts = false;
+  if (const S whole = drift_.in_units(state.q); whole > g_alarm_) {
+    g_alarm_ = roundings * sqrt(S(made_ + 1));
+    drifts = whole > g_alarm_;
+    if (drifts) g_alarm_ = 2 * whole;
+  }
+  const S limit = std::max(S(roundings), g_noise_);
+  if (change <= limit && !drifts) return 0;
+
+  // Rare, as in examine().
+  long sweeps = 0;
+  State<S> repeated = before_;
+  for (bool doubled = false; !(change <= limit) || drifts;) {
+    const int next = std::min(doubled ? 2 * r() : r() + std::max(1, r() / 4), most_);
+    if (next == r()) break;
+    std::unique_ptr<Nodes> more = make_nodes(k(), next);
+    copy_state(repeated, before_);
+    try {
+      sweeps += more->stepper.step(repeated, h_);
+    } catch (const StageFailure& failure) {
+      sweeps += failure.sweeps();
+      break;
+    }
+    const S with_more = step_drift_.in_units(repeated.q);
+    if (!(2 * with_more <= change)) {
+      add_counts(past_, more->stepper.counts(), problem_);
+      if (drifts || doubled) {
+        // More nodes do not make it smaller: it is rounding, or the step too large for any number of them.
+        if (change * change * epsilon_ < 1) raise_to(g_noise_, S(2 * change));
+        break;
+      }
+      doubled = true;
+      continue;
+    }
+    copy_state(state, repeated);
+    add_counts(past_, nodes_->stepper.counts(), problem_);
+    nodes_ = std::move(more);
+    log_.raised.push_back({log_.step, k(), r()});
+    change = with_more;
+    doubled = drifts = false;
+  }
+  if (!(change <= std::max(limit, g_noise_))) {
+    if (on_shortage_ == OnShortage::fail) {
+      copy_state(state, before_);
+      throw StageFailure(FailureCause::stage_equations_diverge,
+                         "no number of nodes up to " + std::to_string(most_) + " keeps the constraints to round-off",
+                         to_scientific(S(change * epsilon_), 3), sweeps);
+    }
+    if (log_.unresolved++ == 0) log_.first_unresolved = log_.step;
+    raise_to(g_noise_, S(2 * change));
+  }
   return sweeps;
 }
 
@@ -230,11 +298,11 @@ void RaisingStepper<S>::measure_time() {
 
 template <Scalar S>
 void RaisingStepper<S>::remember(Archive& archive) {
-  int k = this->k();
-  archive(k);
-  if (k != this->k()) nodes_ = make_nodes(k);
+  int k = this->k(), r = this->r();
+  archive(k, r);
+  if (k != this->k() || r != this->r()) nodes_ = make_nodes(k, r);
   archive(nodes_->stepper, past_, after_, H_, round_off_, started_, made_, since_, wait_, pause_, root_, first_H_,
-          alarm_, noise_, records_);
+          alarm_, noise_, records_, drift_, g_noise_, g_alarm_);
 }
 
 #define HBVM_DEFINE(S) template class RaisingStepper<S>;

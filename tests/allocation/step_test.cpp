@@ -120,7 +120,7 @@ void expect_none_where_nodes_may_be_raised_and_steps_divided(const char* name) {
   NodeLog log;
   const S h = S(1) / 100;
   HalvingStepper<S> stepper([&](int) {
-    return std::make_unique<RaisingStepper<S>>(scene.problem, std::same_as<S, double> ? 16 : 40, 2,
+    return std::make_unique<RaisingStepper<S>>(scene.problem, HbvmName{std::same_as<S, double> ? 16 : 40, 2},
                                                SolverKind::fixed_point, log);
   });
   State<S> state(scene.q0, scene.p0);

@@ -54,7 +54,7 @@ class ChooseK : public ::testing::Test {
   PrecisionScope digits{50};
 
   static ChosenK chosen(const Assembled<S>& scene, int s, const char* step) {
-    return choose_k<S>(scene, s, literal<S>(step), SolverKind::fixed_point);
+    return choose_k<S>(scene, HbvmName{0, s}, literal<S>(step), SolverKind::fixed_point);
   }
   static S energy_error(const Assembled<S>& scene, int k, int s, const char* step, const char* until) {
     return simulate(scene, make_hbvm<S>(k, s), SolverKind::fixed_point,
@@ -113,7 +113,7 @@ TYPED_TEST(ChooseK, OfALargePolynomialIsRefused) {
 TEST(ChooseK, WhereNoKIsEnoughSaysSo) {
   const auto scene = assembled<double>({spring("3", "0.9")}, "[-1, \"1/100\"]");
   try {
-    choose_k<double>(scene, 2, 0.25, SolverKind::fixed_point);
+    choose_k<double>(scene, HbvmName{0, 2}, 0.25, SolverKind::fixed_point);
     ADD_FAILURE() << "a k was found";
   } catch (const InputError& error) {
     for (const char* word : {"hbvm:auto,2", "998", "not smooth"})
@@ -212,7 +212,7 @@ TEST(ChooseK, TakesAmplifiedRoundOffForWhatItIs) {
                                           std::string(stiffness) + "\"\nrest_length = 1"},
                                          "[\"1/100\", \"1/3\"]");
     const double step = 1 / std::sqrt(literal<double>(stiffness)) / 4;
-    EXPECT_LE(choose_k<double>(scene, 2, step, SolverKind::automatic).k, 12) << stiffness;
+    EXPECT_LE(choose_k<double>(scene, HbvmName{0, 2}, step, SolverKind::automatic).k, 12) << stiffness;
   }
 }
 

@@ -32,7 +32,7 @@ struct Raised {
       : Raised(read_scene(toml, "test"), k, s, step, kind) {}
   Raised(const Scene& text, int k, int s, const S& step, SolverKind kind = SolverKind::fixed_point)
       : scene(assemble<S>(text)),
-        stepper(scene.problem, k, s, kind, log),
+        stepper(scene.problem, HbvmName{k, s}, kind, log),
         state(scene.q0, scene.p0),
         drift(scene.problem),
         scale(scene.problem),
@@ -198,7 +198,7 @@ TEST(RaisingWhereNoNumberIsEnough, IsLogged) {
 TEST(RaisingWhereNoNumberIsEnough, FailsIfAskedTo) {
   const Assembled<double> scene = assemble<double>(read_scene(cubic, "cubic"));
   NodeLog log;
-  RaisingStepper<double> stepper(scene.problem, 8, 2, SolverKind::fixed_point, log, OnShortage::fail);
+  RaisingStepper<double> stepper(scene.problem, HbvmName{8, 2}, SolverKind::fixed_point, log, OnShortage::fail);
   State<double> state(scene.q0, scene.p0);
   try {
     for (int n = 0; n < 8; ++n) stepper.step(state, 1.0 / 4);

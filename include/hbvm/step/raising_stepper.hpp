@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hbvm/problem/energy_terms.hpp"
+#include "hbvm/problem/general_drift.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
 #include "hbvm/step/quadrature_defect.hpp"
 
@@ -14,7 +15,8 @@ struct NodeLog {
   struct Raise {
     long step = 0;  ///< steps of the grid made before
     int k = 0;
-    void remember(Archive& archive) { archive(step, k); }
+    int r = 0;  ///< nodes for constraints, if these were raised, or 0
+    void remember(Archive& archive) { archive(step, k, r); }
   };
   long step = 0;  ///< steps of the grid made: set by whoever counts them
   std::vector<Raise> raised;
@@ -33,6 +35,9 @@ enum class OnShortage {
   fail   ///< it fails, as one does whose stage equations cannot be solved: who divides it needs fewer nodes
 };
 
+/// Which numbers of nodes are raised.
+enum class Raises { k, k_and_r };
+
 /// Steps of HBVM(k, s) whose k is raised where it no longer suffices, and never falls. As long as it suffices the
 /// digits are those of HbvmStepper.
 ///
@@ -43,6 +48,9 @@ enum class OnShortage {
 /// is repeated from its start; and so on until a repeated step passes. A defect that more nodes do not make smaller is
 /// round-off, and tolerated from then on.
 ///
+/// Likewise the number r of nodes for constraints that are not quadratic, which is enough where a step moves g by
+/// round-off: the defect of theirs is what g moves by.
+///
 /// If no number of nodes is enough, or steps with more nodes fail, the step is too large for the motion. Where such
 /// steps fail, eight times as many nodes as at first are the most. Where they are kept, that is logged, the step is
 /// as it was (unless more nodes reduce the change of its energy by 2^10), and none is examined for a while, each time
@@ -52,9 +60,10 @@ class RaisingStepper final : public Stepper<S> {
  public:
   static constexpr long interval = 16;
 
-  /// Starts with k nodes. The problem and the log must outlive it.
-  RaisingStepper(const Problem<S>& problem, int k, int s, SolverKind solver, NodeLog& log,
-                 OnShortage on_shortage = OnShortage::keep);
+  /// Starts with k nodes, and r for the constraints: s if the name does not say it. The problem and the log must
+  /// outlive it.
+  RaisingStepper(const Problem<S>& problem, HbvmName name, SolverKind solver, NodeLog& log,
+                 OnShortage on_shortage = OnShortage::keep, Raises raises = Raises::k);
 
   const Problem<S>& problem() const override { return problem_; }
   long step(State<S>& state, const S& h) override;
@@ -65,27 +74,30 @@ class RaisingStepper final : public Stepper<S> {
   void remember(Archive& archive) override;
 
   int k() const { return nodes_->method.k; }
+  int r() const { return nodes_->method.r; }
 
  private:
-  /// All that depends on k.
+  /// All that depends on k and r.
   struct Nodes {
     Hbvm<S> method;
     HbvmStepper<S> stepper;
     QuadratureDefect<S> defect;
-    Nodes(const Problem<S>& problem, int k, int s, SolverKind solver);
+    Nodes(const Problem<S>& problem, HbvmName name, SolverKind solver);
   };
 
   /// How closely a step is looked at: by QuadratureDefect's own measure, or, where the energy shows an error, by what
   /// rounding makes of a mean of k + s terms.
   enum class Look { usual, strict };
 
-  std::unique_ptr<Nodes> make_nodes(int k) const;
+  std::unique_ptr<Nodes> make_nodes(int k, int r) const;
   /// Takes the energy at the state.
   void take_energy(const State<S>& state);
   /// Takes the round-off of the energy at the start and at the end of the step just made.
   void take_round_off(const State<S>& state);
   /// Whether the energy shows an error: in the step just made, or since the first.
   bool energy_changed(const State<S>& state);
+  /// Raises r where the step just made has moved g, and repeats it. \return the sweeps of that
+  long keep_constraints(State<S>& state);
   /// Whether a body's psi or gamma is greater by 1/8 than its record; with `keep`, makes it the record.
   bool exceeds_records(bool keep);
 
@@ -119,6 +131,9 @@ class RaisingStepper final : public Stepper<S> {
   S first_H_ = 0, alarm_ = 0;  ///< the energy before the first step, and the change since that is looked at next
   S noise_ = 0;                ///< relative defect that counts as round-off
   Matrix<S> records_;          ///< bodies x 2: the greatest force and momentum examined
+  bool raises_r_;
+  GeneralDrift<S> step_drift_, drift_;  ///< of g in a step, and since the first
+  S g_noise_ = 0, g_alarm_ = 0;         ///< what counts as round-off in a step, and what is looked at since the first
 };
 
 #define HBVM_DECLARE(S) extern template class RaisingStepper<S>;

@@ -57,8 +57,9 @@ class CostRun {
       return made;
     }
     if (chosen_->exact) return method_->make_stepper(assembled_.problem, SolverKind::automatic);
-    return std::make_unique<RaisingStepper<S>>(assembled_.problem, chosen_->k, method_->stages(), SolverKind::automatic,
-                                               log_, OnShortage::keep);
+    const HbvmName name{chosen_->k, method_->stages(), chosen_->r};
+    return std::make_unique<RaisingStepper<S>>(assembled_.problem, name, SolverKind::automatic, log_, OnShortage::keep,
+                                               chosen_->raises);
   }
 
   /// The first run, which says what came out.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hbvm/analysis/choose_k.hpp"
+#include "hbvm/problem/effect/trace.hpp"
 #include "hbvm/problem/momenta.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/problem/regularity.hpp"
@@ -46,6 +47,11 @@ std::string describe_in(const Scene& scene) {
     if (std::none_of(problem.redundant.begin(), problem.redundant.end(), here))
       line(fmt::format("  g_{}", place + 1), problem.constraints[static_cast<std::size_t>(listed++)].name);
   }
+  const int of_g = degree(problem.constraints);
+  if (of_g == Trace<S>::not_polynomial)
+    line("g", "not a polynomial: kept to O(h^(2r)) by hbvm:K,S,R; hbvm:auto,S takes the r that reaches round-off");
+  else if (of_g > 2)
+    line("g", fmt::format("polynomial of degree {}: r >= {}/2 s nodes keep it exactly", of_g, of_g));
   for (const Redundancy& redundancy : assembled.redundant) line("  redundant", to_text(redundancy));
   if (problem.nu() > 0) line("Gram matrix", fmt::format("condition {:.3g} at the start", gram_condition(problem, q)));
   if (problem.potential.terms.empty()) line("effects", "none");
@@ -76,7 +82,8 @@ std::string describe_in(const Scene& scene) {
     line(component.name(), to_text(momentum(problem, component, q, p).value) +
                                (!kept                   ? ""
                                 : component.is_linear() ? "  conserved"
-                                                        : "  conserved by the motion, and by k = s"));
+                                : of_g == 2             ? "  conserved by the motion, and by k = s"
+                                                        : "  conserved by the motion, and by k = r = s"));
   }
   return text;
 }

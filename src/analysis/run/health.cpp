@@ -32,6 +32,7 @@ HealthWatch<S>::HealthWatch(const Problem<S>& problem, const Method& method, con
       q_(problem.m()),
       v_(problem.m()),
       energy_(problem),
+      drift_(problem),
       angles_(problem),
       hidden_(problem, grid.steps()),
       decay_(problem, std::max(s_, 1), grid.step()) {}
@@ -42,6 +43,11 @@ void HealthWatch<S>::observe(const Snapshot<S>& snapshot) {
   q_ = snapshot.q;
   energy_.observe(v_, snapshot);
   if (problem_.nu() == 0) return;
+  if (!drift_.empty()) {
+    if (!seen_) drift_.start(snapshot.q);
+    seen_ = true;
+    raise_to(moved_, drift_.in_units(snapshot.q));
+  }
   gradient_.update(lanes(snapshot.q));
   angles_.observe(gradient_, snapshot);
   hidden_.observe(gradient_, v_, snapshot);
@@ -67,6 +73,22 @@ void HealthWatch<S>::report_energy(Health& health, const Method& method) {
            exact
                ? "the method conserves it exactly: take more digits or a smaller step"
                : fmt::format("k = {} nodes do not conserve it: take more, or hbvm:auto,{}, or a smaller step", k, s))});
+}
+
+template <Scalar S>
+void HealthWatch<S>::report_drift(Health& health, const Method& method) {
+  const S limit = walked_round_off<S>(steps_) / epsilon<S>();
+  if (!(moved_ > limit)) return;
+  const HbvmMethod* const hbvm = as_hbvm(method);
+  const int r = hbvm ? hbvm->constraint_nodes(problem_) : 0;
+  health.warnings.push_back(
+      {"constraints_lost",
+       fmt::format("a constraint moved by {} of its terms, more than rounding explains ({}); {}",
+                   to_scientific(S(moved_ * epsilon<S>()), 3), to_scientific(S(limit * epsilon<S>()), 1),
+                   hbvm ? fmt::format("r = {} nodes do not keep it: take more, hbvm:{},{},R, or hbvm:auto,{}, or a "
+                                      "smaller step",
+                                      r, hbvm->name().k, s_, s_)
+                        : std::string("take a smaller step"))});
 }
 
 template <Scalar S>
@@ -128,6 +150,7 @@ template <Scalar S>
 Health HealthWatch<S>::report(const Method& method) {
   Health health;
   report_energy(health, method);
+  report_drift(health, method);
   report_constraints(health);
   report_hidden(health);
   report_steps(health);

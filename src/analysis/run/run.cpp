@@ -43,8 +43,10 @@ NodesReport report_nodes(const RunStepper<S>& stepper, const TimeGrid<S>& grid, 
   const NodeLog& log = stepper.nodes();
   NodesReport report;
   report.k = stepper.chosen()->k;
+  report.r = stepper.chosen()->r;
   report.because = stepper.chosen()->reason;
-  for (const NodeLog::Raise& raise : log.raised) report.raised.push_back({to_text(grid.time(raise.step)), raise.k});
+  for (const NodeLog::Raise& raise : log.raised)
+    report.raised.push_back({to_text(grid.time(raise.step)), raise.k, raise.r});
   const long substeps = stepper.halving() ? stepper.halving()->substeps : 0;
   const bool conserved = e_H <= scale.round_off(grid.steps() + substeps);
   report.verified = conserved && log.unresolved == 0;
@@ -53,7 +55,7 @@ NodesReport report_nodes(const RunStepper<S>& stepper, const TimeGrid<S>& grid, 
                                    to_scientific(S(e_H / scale.size()), 3) + " of the terms of H";
   if (log.unresolved > 0)
     report.verdict += std::string(conserved ? ", but" : ";") + " from t = " + to_text(grid.time(log.first_unresolved)) +
-                      " on there are steps whose forces no k integrates to round-off: take a smaller step";
+                      " on there are steps that no number of nodes integrates to round-off: take a smaller step";
   else if (!conserved)
     report.verdict += "; more nodes do not help: take a smaller step";
   return report;

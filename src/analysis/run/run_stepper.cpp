@@ -17,10 +17,10 @@ namespace {
 
 /// Of the given step, or of the first of its halves for which there is one.
 template <Scalar S>
-ChosenK choose_k_of_halves(const Assembled<S>& scene, int s, S step, SolverKind solver) {
+ChosenK choose_k_of_halves(const Assembled<S>& scene, const HbvmName& name, S step, SolverKind solver) {
   for (int depth = 0;; ++depth, step /= 2) {
     try {
-      return choose_k(scene, s, step, solver);
+      return choose_k(scene, name, step, solver);
     } catch (const Error&) {
       if (depth == HalvingStepper<S>::deepest) throw;
     }
@@ -35,10 +35,10 @@ RunStepper<S>::RunStepper(const Assembled<S>& scene, MethodPtr method, const S& 
     : method_(std::move(method)) {
   const bool halve = on_failure == OnFailure::halve;
   const HbvmMethod* const hbvm = as_hbvm(*method_);
-  const int s = hbvm ? hbvm->name().s : 0;
+  const HbvmName name = hbvm ? hbvm->name() : HbvmName{};
   if (hbvm && hbvm->name().is_auto()) {
-    chosen_ = halve ? choose_k_of_halves(scene, s, step, solver) : choose_k(scene, s, step, solver);
-    method_ = hbvm_of({chosen_->k, s});
+    chosen_ = halve ? choose_k_of_halves(scene, name, step, solver) : choose_k(scene, name, step, solver);
+    method_ = hbvm_of({chosen_->k, name.s, chosen_->r});
   }
   const bool raise = chosen_ && !chosen_->exact;
   StepperMaker<S> plain;
@@ -47,8 +47,8 @@ RunStepper<S>::RunStepper(const Assembled<S>& scene, MethodPtr method, const S& 
     // The smallest parts of a step are kept as they are.
     const bool divisible = halve && depth < HalvingStepper<S>::deepest;
     if (raise)
-      return std::make_unique<RaisingStepper<S>>(problem, chosen_->k, s, solver, nodes_,
-                                                 divisible ? OnShortage::fail : OnShortage::keep);
+      return std::make_unique<RaisingStepper<S>>(problem, HbvmName{chosen_->k, name.s, chosen_->r}, solver, nodes_,
+                                                 divisible ? OnShortage::fail : OnShortage::keep, chosen_->raises);
     return plain();
   };
   if (halve) {

@@ -17,7 +17,7 @@ Conservation conservation_in(const ConservationRequest& request) {
   Conservation result;
   result.method = {request.s, request.s};
   if (request.nodes == Nodes::more) {
-    const int k = choose_k(scene, request.s, grid.step(), SolverKind::automatic).k;
+    const int k = choose_k(scene, HbvmName{0, request.s}, grid.step(), SolverKind::automatic).k;
     result.method.k = k > request.s ? k : 2 * request.s;
   }
   const Hbvm<S> method = make_hbvm<S>(result.method.k, result.method.s);

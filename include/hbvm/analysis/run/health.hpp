@@ -8,6 +8,7 @@
 #include "hbvm/integrate/energy_balance.hpp"
 #include "hbvm/integrate/hidden_cosines.hpp"
 #include "hbvm/integrate/time_grid.hpp"
+#include "hbvm/problem/general_drift.hpp"
 #include "hbvm/step/method.hpp"
 
 namespace hbvm {
@@ -32,6 +33,9 @@ struct Health {
 /// rounding q changes H by, plus what the constraint forces could do in a step. A few roundings a step, of either sign,
 /// add up by the square root (Brouwer's law); 64 leaves room for the sums within a step.
 ///
+/// constraints_lost: a constraint that is not quadratic moved by more than 64 sqrt(N) units of its round-off: with that
+/// many nodes the method does not keep it.
+///
 /// hidden_constraint_large: worst_hidden exceeds 1/100, and the output state is no small correction of the propagated
 /// one.
 ///
@@ -50,7 +54,9 @@ class HealthWatch final : public Observer<S> {
 
   void observe(const Snapshot<S>& snapshot) override;
   /// What decay() has seen is the stepper's to remember, which shows it.
-  void remember(Archive& archive) override { archive(q_, v_, energy_, angles_, hidden_, condition_); }
+  void remember(Archive& archive) override {
+    archive(q_, v_, energy_, drift_, moved_, seen_, angles_, hidden_, condition_);
+  }
   CoefficientDecay<S>& decay() { return decay_; }
 
   /// With the method of the run in the end: its k decides what is said of a lost energy.
@@ -58,6 +64,7 @@ class HealthWatch final : public Observer<S> {
 
  private:
   void report_energy(Health& health, const Method& method);
+  void report_drift(Health& health, const Method& method);
   void report_constraints(Health& health);
   void report_hidden(Health& health);
   void report_steps(Health& health);
@@ -72,6 +79,9 @@ class HealthWatch final : public Observer<S> {
   ConstraintGradient<S> gradient_;
   Vector<S> q_, v_;  ///< of the last mesh point
   EnergyBalance<S> energy_;
+  GeneralDrift<S> drift_;
+  S moved_ = 0;        ///< the most it showed, in units
+  bool seen_ = false;  ///< the start
   ConstraintAngles<S> angles_;
   HiddenCosines<S> hidden_;
   CoefficientDecay<S> decay_;

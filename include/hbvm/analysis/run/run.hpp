@@ -27,9 +27,9 @@ struct Observed {
 struct NodesReport {
   struct Raise {
     std::string t;
-    int k;
+    int k, r;  ///< r is 0 if that of the constraints was not raised
   };
-  int k = 0;                  ///< that was chosen
+  int k = 0, r = 0;           ///< that were chosen; r is 0 if all constraints are quadratic
   std::string because;        ///< why
   std::vector<Raise> raised;  ///< where it had to be raised
   bool verified = false;      ///< the energy is conserved to round-off over the run, and k was enough in all of it
