@@ -117,7 +117,7 @@ ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step,
   // be round-off does not fall, it is: twice as much is then tolerated.
   constexpr int patience = 3;
   const int most = max_k - s;
-  constexpr int roundings_of_g = 8;  // at either end, of the position as it is rounded, and of the sums of the step
+  constexpr int roundings_of_g = 1;  // a unit of the sizes of g and of q at either end
   S noise = 0, noise_of_g = roundings_of_g;
   const auto passes = [&](const Trial<S>& trial) {
     return (trial.defect <= 1 || trial.relative <= noise) && trial.g_units <= noise_of_g;
@@ -139,7 +139,7 @@ ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step,
     trial = attempt(high);
     count_failure();
     if (trial.is_complete() && last.is_complete() && trial.relative * 2 > last.relative &&
-        trial.g_units * 2 > last.g_units && !enough(trial)) {
+        2 * trial.g_units >= last.g_units && !enough(trial)) {
       noise = std::max(last.relative, trial.relative) * 2;
       raise_to(noise_of_g, S(std::max(last.g_units, trial.g_units) * 2));
       low = s;

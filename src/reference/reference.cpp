@@ -150,7 +150,7 @@ Reference compute_reference(const ReferenceRequest& request) {
   MotionNature nature = nature_of(request.scene, request.times, [&](double part) {
     if (request.progress) request.progress(part);
   });
-  constexpr int rounds = 3, first_guard = 12, more_guard = 8;
+  constexpr int rounds = 3, first_guard = 10, more_guard = 8;
   Reference result{.scene = request.scene.name,
                    .title = request.scene.title,
                    .scene_hash = scene_hash(request.scene),

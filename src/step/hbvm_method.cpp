@@ -41,13 +41,14 @@ std::string HbvmMethod::key() const {
 }
 
 Kept HbvmMethod::kept() const {
-  return {.energy = true, .momenta = name_.k == name_.s, .constraints = true, .hidden = false, .reversal = true};
+  const bool gauss = name_.k == name_.s && (name_.r == 0 || name_.r == name_.s);
+  return {.energy = true, .momenta = gauss, .constraints = true, .hidden = false, .reversal = true};
 }
 
 Orders HbvmMethod::orders() const {
   const int k = name_.k, s = name_.s;
   const int r = s % 2 == 0 ? s : s + 1;
-  return {.p = r, .lambda = r - 1, .hidden = r, .energy = 2 * k, .angular_momentum = k == s ? 0 : 2 * s};
+  return {.p = r, .lambda = r - 1, .hidden = r, .energy = 2 * k, .angular_momentum = kept().momenta ? 0 : 2 * s};
 }
 
 Constants HbvmMethod::parameters() const {

@@ -220,8 +220,8 @@ long RaisingStepper<S>::examine(State<S>& state, Look look) {
 template <Scalar S>
 long RaisingStepper<S>::keep_constraints(State<S>& state) {
   using std::sqrt;
-  // Of g at either end, of the position as it is rounded, and of the sums of the step.
-  constexpr int roundings = 8;
+  // A unit of the sizes of g and of q at either end, which allows for what the sums of the step round.
+  constexpr int roundings = 1;
   step_drift_.start(before_.q);
   S change = step_drift_.in_units(state.q);
   bool drifts = false;

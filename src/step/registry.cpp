@@ -16,7 +16,10 @@ namespace {
 
 std::vector<MethodFamily>& all_families() {
   static std::vector<MethodFamily> families{
-      {"hbvm", "hbvm:K,S with whole numbers K >= S >= 1, e.g. hbvm:5,3, or hbvm:auto,S; hbvm:K,S,R with R nodes for constraints that are not quadratic", hbvm_method},
+      {"hbvm",
+       "hbvm:K,S with whole numbers K >= S >= 1, e.g. hbvm:5,3, or hbvm:auto,S; hbvm:K,S,R with R nodes for "
+       "constraints that are not quadratic",
+       hbvm_method},
       {"projected_hbvm", "projected_hbvm:K,S", projected_hbvm_method},
       {"restored_hbvm", "restored_hbvm:K,S", restored_hbvm_method},
       {"energy_momentum", "energy_momentum", energy_momentum_method},

@@ -3,6 +3,7 @@
 #include "hbvm/analysis/run/run.hpp"
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/problem/general_drift.hpp"
 #include "hbvm/step/registry.hpp"
 #include "printing.hpp"
 #include "scene/scene_text.hpp"
@@ -100,6 +101,51 @@ TYPED_TEST(ChooseK, ForAPolynomialConservesEnergyAndOneNodeLessDoesNot) {
     const int k = this->chosen(scene, s, "1/8").k;
     EXPECT_LE(this->energy_error(scene, k, s, "1/8", "2"), 1'000 * epsilon<TypeParam>()) << exponent << " " << s;
     EXPECT_GT(this->energy_error(scene, k - 1, s, "1/8", "2"), literal<TypeParam>("1e-11")) << exponent << " " << s;
+  }
+}
+
+/// r >= d s/2 for g of degree d, and none to be chosen if all are quadratic.
+TYPED_TEST(ChooseK, OfPolynomialConstraintsIsTheLeastOfTheTheory) {
+  using S = TypeParam;
+  for (const int s : {1, 3}) {
+    const ChosenK quartic = this->chosen(assemble<S>(load_scene("bead_on_quartic")), s, "1/16");
+    EXPECT_EQ(quartic.r, 2 * s);
+    EXPECT_EQ(quartic.raises, Raises::k);
+    EXPECT_NE(quartic.reason.find("g is a polynomial of degree 4"), std::string::npos) << quartic.reason;
+    const ChosenK rods = this->chosen(assemble<S>(load_scene("double_pendulum")), s, "1/16");
+    EXPECT_EQ(rods.r, 0);
+    EXPECT_EQ(rods.reason.find("g is"), std::string::npos) << rods.reason;
+  }
+}
+
+/// With r nodes 16 steps move g by a unit of round-off at most, with one less some by more.
+TYPED_TEST(ChooseK, OfOtherConstraintsIsTheLeastThatKeepsThem) {
+  using S = TypeParam;
+  const S step = literal<S>("1/8");
+  for (const char* name : {"bead_on_torus", "bead_on_helix", "rope_over_two_pegs"}) {
+    const auto scene = assemble<S>(load_scene(name));
+    const ChosenK chosen = this->chosen(scene, 2, "1/8");
+    EXPECT_EQ(chosen.k, 2) << "U is linear, or 0";
+    EXPECT_FALSE(chosen.exact);
+    EXPECT_EQ(chosen.raises, Raises::k_and_r);
+    ASSERT_GT(chosen.r, 2) << name;
+    for (const int r : {chosen.r, chosen.r - 1}) {
+      const Hbvm<S> method = make_hbvm<S>(2, 2, r);
+      HbvmStepper<S> stepper(scene.problem, method, SolverKind::fixed_point);
+      State<S> state(scene.q0, scene.p0);
+      GeneralDrift<S> drift(scene.problem);
+      S greatest = 0;
+      for (int n = 0; n < 16; ++n) {
+        drift.start(state.q);
+        stepper.step(state, step);
+        raise_to(greatest, drift.in_units(state.q));
+      }
+      EXPECT_EQ(greatest <= 1, r == chosen.r) << name << ' ' << r << ' ' << greatest;
+    }
+    // What the name says is not chosen.
+    const ChosenK named = choose_k<S>(scene, HbvmName{0, 2, 3}, step, SolverKind::fixed_point);
+    EXPECT_EQ(named.r, 3);
+    EXPECT_EQ(named.raises, Raises::k);
   }
 }
 

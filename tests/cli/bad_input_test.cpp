@@ -95,7 +95,7 @@ TEST(BadMethod, IsRefused) {
   expect_refused(run_with("--method", "hbvm:0,0"), {"hbvm:0,0"});
   expect_refused(run_with("--method", "hbvm:3,-1"), {"hbvm:3,-1"});
   expect_refused(run_with("--method", "hbvm:100000,1"), {"hbvm:100000,1"});
-  for (const char* method : {"", "gauss", "hbvm", "hbvm:", "hbvm:2", "hbvm:2,", "hbvm:,2", "hbvm:2,2,2", "hbvm:2.5,2",
+  for (const char* method : {"", "gauss", "hbvm", "hbvm:", "hbvm:2", "hbvm:2,", "hbvm:,2", "hbvm:2,2,1", "hbvm:2.5,2",
                              "hbvm: 2,2", "HBVM:2,2", "hbvm:2,2 ", "hbvm:99999999999999999999,1", "hbvm:a,b"})
     expect_refused(run_with("--method", method), {"method"});
 }

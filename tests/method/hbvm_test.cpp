@@ -1,6 +1,7 @@
 #include "hbvm/method/hbvm.hpp"
 
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "hbvm/basis/gauss_legendre.hpp"
@@ -248,6 +249,43 @@ TEST(HbvmInMpfr, CoefficientsHaveTheDigitsOfTheScope) {
     for (Index i = 0; i < values.size(); ++i)
       EXPECT_EQ(mpfr_get_prec(raw(values.data()[i])), mpfr_working_bits()) << name;
   EXPECT_EQ(Mpfr::thread_default_precision(), 37u);
+}
+
+/// With more nodes for the constraints than stages the multipliers have coefficients.
+TYPED_TEST(HbvmCoefficients, OfMoreNodesForTheConstraints) {
+  using S = TypeParam;
+  for (const auto& [k, s, r] : {std::tuple(1, 1, 2), {3, 2, 3}, {3, 3, 9}, {9, 6, 9}, {20, 10, 40}}) {
+    const Hbvm<S> m = make_hbvm<S>(k, s, r), few = make_hbvm<S>(k, s);
+    const S tolerance = this->tolerance(r);
+    ASSERT_EQ(m.r, r);
+    EXPECT_TRUE(m.has_coefficients_of_lambda());
+    EXPECT_FALSE(few.has_coefficients_of_lambda());
+    EXPECT_EQ(m.P_s.rows(), r);
+    EXPECT_EQ(m.projection.cols(), r);
+    EXPECT_LE(max_norm(defect_from_identity(times(m.projection, m.P_s))), tolerance);
+    EXPECT_LE(max_norm(Matrix<S>(times(m.projection, m.I_s) - m.X_s)), tolerance) << "but for the part of P_s";
+    EXPECT_LE(max_norm(Matrix<S>(m.A - times(m.P_s, times(m.X_s, m.projection)))), tolerance);
+    for (int l = 0; l < s; ++l) {
+      using std::sqrt;
+      EXPECT_LE(magnitude(S(m.lambda_at_1[l] - sqrt(S(2 * l + 1)))), tolerance);
+    }
+    // The rest does not know of them.
+    EXPECT_EQ(m.X_s, few.X_s);
+    EXPECT_EQ(m.P_hat, few.P_hat);
+    EXPECT_EQ(m.I_hat, few.I_hat);
+    EXPECT_EQ(m.projection_hat, few.projection_hat);
+    const Hbvm<double> rounded = in_double(m);
+    EXPECT_EQ(rounded.r, r);
+    EXPECT_EQ(rounded.A.rows(), r);
+  }
+  EXPECT_THROW(make_hbvm<S>(3, 3, 2), InputError);
+  EXPECT_THROW(make_hbvm<S>(3, 3, max_k + 1), InputError);
+}
+
+TYPED_TEST(HbvmCoefficients, WithAsManyAsStagesAreThePapers) {
+  using S = TypeParam;
+  const auto with = all(make_hbvm<S>(5, 3, 3)), without = all(make_hbvm<S>(5, 3));
+  for (std::size_t i = 0; i < with.size(); ++i) EXPECT_EQ(with[i].second, without[i].second) << with[i].first;
 }
 
 }  // namespace

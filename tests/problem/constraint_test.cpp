@@ -20,8 +20,9 @@ TYPED_TEST(ConstraintTest, CurvatureIsTheSecondDifference) {
     const auto q = this->random.vector(problem.m()), v = this->random.vector(problem.m());
     const auto expected = dense_curvature(problem, q, v);
     for (Index a = 0; a < problem.nu(); ++a)
-      EXPECT_LE(magnitude(TypeParam(curvature(problem.constraints[static_cast<std::size_t>(a)], d, q, v) - expected[a])),
-                512 * epsilon<TypeParam>())
+      EXPECT_LE(
+          magnitude(TypeParam(curvature(problem.constraints[static_cast<std::size_t>(a)], d, q, v) - expected[a])),
+          512 * epsilon<TypeParam>())
           << a;
   }
 }

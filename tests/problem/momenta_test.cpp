@@ -483,7 +483,8 @@ TEST_F(MomentaBySampling, OfEveryConstraintAlone) {
 TEST_F(MomentaBySampling, OfTheScenes) {
   for (const auto& [name, text] : built_in_scenes()) {
     const auto scene = assemble<double>(read_scene(text, name));
-    if (scene.problem.m() <= 12) expect_same(scene.problem, name);
+    // Differences of other constraints than quadratic ones are not exact.
+    if (scene.problem.m() <= 12 && degree(scene.problem.constraints) == 2) expect_same(scene.problem, name);
   }
 }
 

@@ -174,13 +174,39 @@ TEST(FormulaScenes, AreRefusedIfTheyDoNotSayWhatTheyActOn) {
             std::string::npos);
 }
 
-TEST(FormulaScenes, WithConstraintsThatAreNotQuadraticAreRefused) {
-  EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 + y^2) - 1"),
-            "test.toml: constraint 1 (formula of 'a') is not quadratic: no polynomial; general constraints are not yet "
-            "integrated");
-  EXPECT_NE(refused_in_double("x^2 + y^2 - 1", "x^3 + y^2 - 1").find("of degree 3"), std::string::npos);
+TYPED_TEST(FormulaScene, HasConstraintsThatAreNotQuadratic) {
+  using S = TypeParam;
+  for (const auto& [g, of_degree] : {std::pair("sqrt(x^2 + y^2) - 1", Trace<S>::not_polynomial),
+                                     {"(x^2 + y^2)^2 - 1", 4},
+                                     {"x^3 + y^2*x + (x^2 + y^2 - 1)*y - x", 3}}) {
+    const Assembled<S> scene = this->assembled(changed(pendulum_by_formulas, "x^2 + y^2 - 1", g));
+    ASSERT_EQ(scene.problem.nu(), 2);
+    EXPECT_TRUE(std::holds_alternative<FormulaConstraint<S>>(scene.problem.constraints[0].form)) << g;
+    EXPECT_TRUE(std::holds_alternative<Rod<S>>(scene.problem.constraints[1].form)) << g;
+    EXPECT_EQ(degree(scene.problem.constraints), of_degree) << g;
+  }
+}
+
+TEST(FormulaScenes, WithAConstraintThatTheStartMissesAreRefused) {
+  EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 + y^2) - 2").substr(0, 80),
+            "test.toml: the initial position is not consistent with constraint 1 (formula of ");
+  EXPECT_NE(refused_in_double("x^2 + y^2 - 1", "x^3 - (3/5)^3").find("the initial velocity is not consistent"),
+            std::string::npos);
   EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "log(x^2 - 9/25) + y^2 - 1").substr(0, 70),
             "test.toml:28: constraint 1 (formula): 'g', line 31, column 6: logarith");
+}
+
+/// Clairaut's integral is recognised.
+TEST(FormulaScenes, WithASurfaceOfRevolutionConserveItsMomentum) {
+  const PrecisionScope digits(50);
+  const auto names = [](const char* scene) {
+    std::string all;
+    for (const auto& component : conserved_momenta(assemble<Mpfr>(load_scene(scene)).problem)) all += component.name();
+    return all;
+  };
+  EXPECT_EQ(names("bead_on_torus"), "L_z");
+  EXPECT_EQ(names("bead_on_quartic"), "");
+  EXPECT_EQ(names("rope_over_two_pegs"), "");
 }
 
 TEST(FormulaScenes, ReadBackAsTheyAreWritten) {

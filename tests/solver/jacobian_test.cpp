@@ -44,10 +44,10 @@ void round_to_double(const Matrix<S>& from, Matrix<double>& to) {
 }
 
 /// J takes any direction to the derivative of the residual along it: by central differences with 60 digits.
-void expect_derivative(const Scene& text, int k, int s, bool banded) {
+void expect_derivative(const Scene& text, int k, int s, bool banded, int r = 0) {
   const PrecisionScope digits(60);
   const Assembled<Mpfr> scene = assemble<Mpfr>(text, Consistency::unchecked);
-  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
+  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s, std::max(r, s));
   const Mpfr h = Mpfr(1) / 8;
   const Index m = scene.problem.m(), nu = scene.problem.nu();
   std::mt19937 random(17);
@@ -75,7 +75,7 @@ void expect_derivative(const Scene& text, int k, int s, bool banded) {
   round_to_double<Mpfr>((r[0].constraint - r[1].constraint) / (2 * small), derivative.constraint);
 
   const Problem<double> problem = in_double(scene.problem);
-  const Hbvm<double> rounded = make_hbvm<double>(k, s);
+  const Hbvm<double> rounded = make_hbvm<double>(k, s, std::max(r, s));
   StageEquations<double> at(problem, rounded);
   StageUnknowns<double> at_x = at.make_unknowns();
   round_to_double(x.gamma, at_x.gamma);
@@ -99,6 +99,15 @@ void expect_derivative(const Scene& text, int k, int s, bool banded) {
   EXPECT_LE(max_norm(Matrix<double>(derivative.momentum - expected)), tolerance) << text.name << " " << k << "," << s;
   round_to_double<Mpfr>(lambda_way * h, expected);
   EXPECT_LE(max_norm(Matrix<double>(derivative.constraint - expected)), tolerance) << text.name << " " << k << "," << s;
+}
+
+/// With constraints of any kind, at as many nodes as stages and at more.
+TEST(Jacobian, IsTheDerivativeOfTheResidualOfAnyConstraint) {
+  for (const auto& [k, s] : {std::pair(1, 1), {2, 2}, {5, 3}})
+    for (const int r : {s, s + 1, s + 3})
+      for (const char* name : {"bead_on_torus", "bead_on_quartic", "bead_on_helix", "bead_on_cycloid",
+                               "rope_over_two_pegs", "rod_on_two_curves", "heavy_top"})
+        expect_derivative(load_scene(name), k, s, false, r);
 }
 
 TEST(Jacobian, IsTheDerivativeOfTheResidual) {

@@ -1,6 +1,10 @@
 #include "hbvm/solver/stage_equations.hpp"
 
+#include "hbvm/basis/gauss_legendre.hpp"
+#include "hbvm/basis/legendre.hpp"
 #include "hbvm/linear/product.hpp"
+#include "hbvm/method/hbvm_name.hpp"
+#include "hbvm/problem/point.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 #include "solver/stage_formulas.hpp"
@@ -132,6 +136,68 @@ INSTANTIATE_TEST_SUITE_P(Methods, StageMaps,
                          ::testing::Values(std::tuple(1, 1), std::tuple(3, 1), std::tuple(2, 2), std::tuple(5, 3),
                                            std::tuple(5, 5), std::tuple(9, 6)));
 
+/// The residual and the multipliers of any constraint at r nodes, node by node from their definitions.
+TEST(StageEquations, OfAnyConstraintAreItsLegendreCoefficients) {
+  const PrecisionScope digits(50);
+  const Mpfr h = Mpfr(1) / 10, tolerance = 1'000'000 * epsilon<Mpfr>();
+  for (const char* name : {"bead_on_torus", "rope_over_two_pegs", "rod_on_two_curves", "heavy_top"})
+    for (const HbvmName& n : {HbvmName{1, 1, 2}, {3, 2, 4}, {4, 3, 4}, {5, 3, 7}}) {
+      const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
+      const Problem<Mpfr>& problem = scene.problem;
+      const Hbvm<Mpfr> method = make_hbvm<Mpfr>(n.k, n.s, n.r);
+      StageEquations<Mpfr> equations(problem, method);
+      StageUnknowns<Mpfr> x = equations.make_unknowns();
+      for (Index i = 0; i < x.gamma.size(); ++i) x.gamma.data()[i] = Mpfr((i * 13 + 29) % 31 - 15) / 170;
+      for (Index i = 0; i < x.lambda.size(); ++i) x.lambda.data()[i] = Mpfr((i * 17 + 5) % 31 - 15) / 17;
+      x.gamma.row(0) += scene.p0.transpose();
+      StageResidual<Mpfr> residual{x.gamma, x.lambda};
+      equations.start({scene.q0, scene.p0, h});
+      equations.residual(x, residual);
+
+      const Quadrature<Mpfr> gauss = gauss_legendre<Mpfr>(n.r);
+      const Matrix<Mpfr> P = legendre_values<Mpfr>(gauss.c, n.s), I = legendre_integrals<Mpfr>(gauss.c, n.s);
+      Point<Mpfr> point(problem);
+      ConstraintGradient<Mpfr> gradient(problem, 1);
+      const auto coefficients = [&](const Matrix<Mpfr>& of_v, Matrix<Mpfr>& zeta, Matrix<Mpfr>& hidden) {
+        zeta.setZero(n.s, problem.m());
+        hidden.setZero(n.s, problem.nu());
+        for (Index i = 0; i < n.r; ++i) {
+          const Vector<Mpfr> moved = Matrix<Mpfr>(I.row(i).lazyProduct(x.gamma)).transpose();
+          Vector<Mpfr> u(problem.m());
+          problem.mass.velocity(lanes(moved), lanes(u));
+          u = scene.q0 + h * u;
+          const Vector<Mpfr> v = Matrix<Mpfr>(P.row(i).lazyProduct(of_v)).transpose();
+          const Matrix<Mpfr> lambda = P.row(i).lazyProduct(x.lambda);
+          Vector<Mpfr> pull = Vector<Mpfr>::Zero(problem.m());
+          gradient.update(lanes(std::as_const(u)));
+          gradient.add_times(lambda, lanes(pull));
+          const Vector<Mpfr> w = point.hidden_constraints(u, v);
+          for (Index j = 0; j < n.s; ++j) {
+            zeta.row(j) += gauss.b[i] * P(i, j) * pull.transpose();
+            hidden.row(j) += gauss.b[i] * P(i, j) * w.transpose();
+          }
+        }
+      };
+      Matrix<Mpfr> zeta, hidden;
+      coefficients(x.gamma, zeta, hidden);
+      EXPECT_LE(max_norm(Matrix<Mpfr>(x.zeta - zeta)), tolerance) << name << ' ' << n.text();
+      EXPECT_LE(max_norm(Matrix<Mpfr>(residual.constraint - hidden)), tolerance) << name << ' ' << n.text();
+      Matrix<Mpfr> momentum = x.gamma - h * method.X_s.lazyProduct(Matrix<Mpfr>(x.psi - zeta));
+      momentum.row(0) -= scene.p0.transpose();
+      EXPECT_LE(max_norm(Matrix<Mpfr>(residual.momentum - momentum)), tolerance) << name << ' ' << n.text();
+
+      // With the new multipliers the momenta have no hidden constraint in those coefficients.
+      equations.move(x.gamma);
+      equations.forces(x.psi);
+      ASSERT_TRUE(equations.multipliers(x.psi, x.lambda, x.zeta));
+      Matrix<Mpfr> gamma = x.gamma;
+      equations.momenta(x.psi, x.zeta, gamma);
+      coefficients(gamma, zeta, hidden);
+      EXPECT_LE(max_norm(Matrix<Mpfr>(x.zeta - zeta)), tolerance) << name << ' ' << n.text();
+      EXPECT_LE(max_norm(hidden), tolerance) << name << ' ' << n.text();
+    }
+}
+
 TEST(StageEquations, WithoutConstraintsHaveNoMultipliers) {
   const PrecisionScope digits(50);
   const Assembled<Mpfr> scene = assemble<Mpfr>(
@@ -159,10 +225,11 @@ TEST(StageEquations, ReportASingularSystem) {
 
 /// What is announced is what is counted.
 TEST(StageEquationsCost, OfAResidualIsTheSumOfItsParts) {
-  for (const char* name : {"modified_pendulum", "kepler", "tethered_satellites", "double_pendulum"})
-    for (const auto& [k, s] : {std::pair(2, 2), {5, 3}}) {
+  for (const char* name :
+       {"modified_pendulum", "kepler", "tethered_satellites", "double_pendulum", "bead_on_torus", "rope_over_two_pegs"})
+    for (const auto& [k, s, nodes] : {HbvmName{2, 2, 2}, {5, 3, 3}, {2, 2, 3}, {5, 3, 5}}) {
       const Assembled<double> scene = assemble<double>(load_scene(name));
-      const Hbvm<double> method = make_hbvm<double>(k, s);
+      const Hbvm<double> method = make_hbvm<double>(k, s, nodes);
       StageEquations<double> equations(scene.problem, method);
       StageUnknowns<double> x = equations.make_unknowns();
       StageResidual<double> r{x.gamma, x.lambda};

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "hbvm/error.hpp"
+#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 
 namespace hbvm {
@@ -26,6 +27,26 @@ TEST(HbvmMethods, SayWhatTheyAre) {
   }
   EXPECT_FALSE(method.kept().momenta);
   EXPECT_TRUE(gauss.kept().momenta);
+}
+
+TEST(HbvmMethods, HaveAsManyNodesForConstraintsAsTheseTake) {
+  const auto nodes = [](const char* scene, const HbvmName& name) {
+    return HbvmMethod(name).constraint_nodes(assemble<double>(load_scene(scene)).problem);
+  };
+  EXPECT_EQ(nodes("double_pendulum", {7, 3}), 3);
+  EXPECT_EQ(nodes("kepler", {7, 3}), 3);
+  EXPECT_EQ(nodes("bead_on_quartic", {3, 3}), 6) << "of degree 4";
+  EXPECT_EQ(nodes("bead_on_quartic", {9, 1}), 2);
+  EXPECT_EQ(nodes("bead_on_torus", {7, 3}), 7) << "no polynomial: as many as for the potential";
+  EXPECT_EQ(nodes("bead_on_torus", {3, 3, 4}), 4);
+  EXPECT_EQ(nodes("double_pendulum", {3, 3, 4}), 4);
+  const HbvmMethod named({3, 3, 5});
+  EXPECT_EQ(named.text(), "hbvm:3,3,5");
+  EXPECT_EQ(named.title(), "HBVM(3,3,5)");
+  EXPECT_EQ(named.parameters().at("r").text(), "5");
+  EXPECT_EQ(named.coefficients<double>().r, 5);
+  EXPECT_FALSE(named.kept().momenta) << "r > s";
+  EXPECT_TRUE(HbvmMethod({3, 3, 3}).kept().momenta);
 }
 
 TEST(HbvmMethods, OfAnOpenKHaveNoCoefficients) {

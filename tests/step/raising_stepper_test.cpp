@@ -2,6 +2,7 @@
 
 #include "hbvm/integrate/drift.hpp"
 #include "hbvm/integrate/energy_scale.hpp"
+#include "hbvm/problem/general_drift.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 
@@ -207,6 +208,35 @@ TEST(RaisingWhereNoNumberIsEnough, FailsIfAskedTo) {
     EXPECT_NE(std::string(failure.what()).find("no number of nodes up to 64"), std::string::npos) << failure.what();
   }
   EXPECT_EQ(log.unresolved, 0);
+}
+
+/// The bead on the helix falls ever faster, and more nodes keep it on the wire.
+TYPED_TEST(Raising, OfConstraintNodesKeepsTheConstraints) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("bead_on_helix"));
+  const int r = std::same_as<S, double> ? 5 : 8, steps = 112;
+  for (const Raises raises : {Raises::k, Raises::k_and_r}) {
+    NodeLog log;
+    RaisingStepper<S> stepper(scene.problem, HbvmName{3, 3, r}, SolverKind::automatic, log, OnShortage::keep, raises);
+    State<S> state(scene.q0, scene.p0);
+    GeneralDrift<S> drift(scene.problem);
+    drift.start(state.q);
+    S greatest = 0;
+    for (log.step = 0; log.step < steps; ++log.step) {
+      stepper.step(state, S(S(1) / 8));
+      raise_to(greatest, drift.in_units(state.q));
+    }
+    EXPECT_EQ(stepper.k(), 3) << "U is linear";
+    EXPECT_EQ(log.unresolved, 0);
+    if (raises == Raises::k) {
+      EXPECT_EQ(stepper.r(), r);
+      EXPECT_GT(greatest, 64);
+    } else {
+      EXPECT_GT(stepper.r(), r);
+      EXPECT_EQ(log.raised.back().r, stepper.r());
+      EXPECT_LE(greatest, 64);
+    }
+  }
 }
 
 TEST(RaisingOfAStepThatFails, LeavesTheStateAsItWas) {

@@ -241,5 +241,17 @@ TEST(Audit, GivesTheSameOnSeveralThreads) {
   }
 }
 
+/// A weight or node of the constraints' quadrature off by 1e-25 is seen where the nodes keep g.
+TEST(Teeth, OfTheConstraintQuadrature) {
+  using Part = Perturbation::Part;
+  const HbvmName method{2, 2, 4};
+  const std::vector<Claim> claims{claim(Quantity::g, "bead_on_quartic", method, Span::interval, Form::round_off, 0),
+                                  claim(Quantity::H, "bead_on_torus", method, Span::interval, Form::round_off, 0)};
+  AuditOptions options = one_start();
+  EXPECT_EQ(count(audit(claims, options), Verdict::holds), 2);
+  for (const Part part : {Part::weight, Part::node, Part::integral})
+    EXPECT_GE(failures({claims[0]}, {part, false, 1, 0, Expression::parse("1e-25")}), 1) << static_cast<int>(part);
+}
+
 }  // namespace
 }  // namespace hbvm

@@ -28,7 +28,7 @@ Matrix<Mpfr> times(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b) { return a.lazy
 template <Scalar S>
 std::map<Quantity, double> tableau_defects(const Claim& subject) {
   const HbvmMethod& audited = *as_hbvm(*subject.method);
-  const bool of_problem = subject.problem != "tableau" && audited.name().r == 0;
+  const bool of_problem = !subject.problem.empty() && subject.problem != "tableau" && audited.name().r == 0;
   const Hbvm<S> method =
       of_problem
           ? audited.coefficients<S>(audited.constraint_nodes(assemble<double>(load_scene(subject.problem)).problem))

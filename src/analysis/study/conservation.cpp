@@ -1,5 +1,7 @@
 #include "hbvm/analysis/study/conservation.hpp"
 
+#include <algorithm>
+
 #include "hbvm/analysis/choose_k.hpp"
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/integrate/momentum_drift.hpp"
@@ -16,11 +18,13 @@ Conservation conservation_in(const ConservationRequest& request) {
   const Problem<S>& problem = scene.problem;
   Conservation result;
   result.method = {request.s, request.s};
+  int r = request.s;
   if (request.nodes == Nodes::more) {
-    const int k = choose_k(scene, HbvmName{0, request.s}, grid.step(), SolverKind::automatic).k;
-    result.method.k = k > request.s ? k : 2 * request.s;
+    const ChosenK chosen = choose_k(scene, HbvmName{0, request.s}, grid.step(), SolverKind::automatic);
+    result.method.k = chosen.k > request.s ? chosen.k : 2 * request.s;
+    r = std::max(r, chosen.r);
   }
-  const Hbvm<S> method = make_hbvm<S>(result.method.k, result.method.s);
+  const Hbvm<S> method = make_hbvm<S>(result.method.k, result.method.s, r);
   MomentumDrift<S> momenta(problem, conserved_momenta(problem));
   const Simulated<S> run = simulate(scene, method, SolverKind::automatic, grid, {&momenta});
   result.steps = grid.steps();

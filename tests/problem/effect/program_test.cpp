@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
@@ -142,6 +143,55 @@ TYPED_TEST(ProgramTest, CountsItsInstructions) {
   expected.add(Op::add, 2);
   expected.add(Op::sqrt, 1);
   EXPECT_EQ(code.operations(), expected);
+}
+
+/// Of every operation: no more than the numbers on the way, rounded by a unit each, and the slope by the inputs.
+TYPED_TEST(ProgramTest, TellsWhatRoundingMakesOfItsOutputs) {
+  using S = TypeParam;
+  using std::cos, std::exp, std::sin;
+  using Code = Program<S>;
+  const auto sizes = [](Op op, const S& a, const S& b, const S& of_a, const S& of_b) {
+    const Code code({}, {{op, {Bank::input, 0}, {Bank::input, 1}, 0}}, {{Bank::temporary, 0}}, 1);
+    return code.rounding_sizes({a, b}, {of_a, of_b}).front();
+  };
+  const S near = 64 * epsilon<S>();
+  const auto expect = [&](Op op, const S& a, const S& expected) {
+    EXPECT_LE(magnitude(S(sizes(op, a, S(3), S(2), S(5)) - expected)), near * magnitude(expected)) << name_of(op);
+  };
+  const S half = S(1) / 2;
+  expect(Op::add, half, 2 + 5 + half + 3);
+  expect(Op::subtract, half, 2 + 5 + 3 - half);
+  expect(Op::multiply, half, 3 * 2 + half * 5 + 3 * half);
+  expect(Op::negate, half, 2);
+  expect(Op::abs, S(-half), 2);
+  expect(Op::sign, half, 0);
+  expect(Op::reciprocal, half, 4 * 2 + 2);
+  expect(Op::sqrt, S(4), S(2) / 4 + 2);
+  expect(Op::sin, half, 2 * cos(half) + sin(half));
+  expect(Op::cos, half, 2 * sin(half) + cos(half));
+  expect(Op::exp, half, 3 * exp(half));
+  // Those without a formula here: by differences.
+  const S step = power_of_two<S>(-significand_bits<S>() / 3);
+  for (const Op op : {Op::log, Op::sinh, Op::cosh, Op::tanh, Op::atan, Op::sinc, Op::sinhc, Op::atanhc, Op::atanc}) {
+    const auto value = [&](const S& a) {
+      this->x(0, 0) = a;
+      return S(this->run(op)[0]);
+    };
+    const S slope = (value(half + step) - value(half - step)) / (2 * step);
+    const S expected = 2 * magnitude(slope) + magnitude(value(half));
+    EXPECT_LE(magnitude(S(sizes(op, half, S(0), S(2), S(0)) - expected)), 64 * step * step) << name_of(op);
+  }
+}
+
+/// cos x - 1 near 0: a value near 0, with the round-off of 1.
+TYPED_TEST(ProgramTest, TellsTheRoundOffOfWhatCancels) {
+  using S = TypeParam;
+  const Program<S> code(
+      {S(1)}, {{Op::cos, {Bank::input, 0}, {}, 0}, {Op::subtract, {Bank::temporary, 0}, {Bank::constant, 0}, 0}},
+      {{Bank::temporary, 0}}, 1);
+  const S x = power_of_two<S>(-20), size = code.rounding_sizes({x}, {x}).front();
+  EXPECT_GE(size, 1);
+  EXPECT_LE(size, 3);
 }
 
 }  // namespace

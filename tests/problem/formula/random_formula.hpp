@@ -11,25 +11,29 @@ namespace hbvm {
 
 /// A number with its first and second derivatives by some variables, for formulas evaluated forwards by the rules of
 /// the second order: what a trace, which is differentiated backwards, is held against.
-template <Scalar S>
+template <class S>
 struct Jet {
+  using Row = std::vector<S>;
   S value;
-  Vector<S> first;
-  Matrix<S> second;
+  Row first;
+  std::vector<Row> second;
 
-  static Jet number(const S& value, Index n) { return {value, Vector<S>::Zero(n), Matrix<S>::Zero(n, n)}; }
-  static Jet variable(const S& value, Index i, Index n) {
+  static Jet number(const S& value, std::size_t n) {
+    const Row zeros(n, S(0));
+    return {value, zeros, std::vector<Row>(n, zeros)};
+  }
+  static Jet variable(const S& value, std::size_t i, std::size_t n) {
     Jet result = number(value, n);
-    result.first[i] = 1;
+    result.first[i] = S(1);
     return result;
   }
 
   /// f(this), with the derivatives of f there.
   Jet through(const S& f, const S& df, const S& ddf) const {
     Jet r = number(f, first.size());
-    for (Index i = 0; i < first.size(); ++i) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
       r.first[i] = df * first[i];
-      for (Index j = 0; j < first.size(); ++j) r.second(i, j) = df * second(i, j) + ddf * first[i] * first[j];
+      for (std::size_t j = 0; j < first.size(); ++j) r.second[i][j] = df * second[i][j] + ddf * first[i] * first[j];
     }
     return r;
   }
@@ -40,21 +44,22 @@ struct Jet {
 
   friend Jet operator*(const Jet& a, const Jet& b) {
     Jet r = number(a.value * b.value, a.first.size());
-    for (Index i = 0; i < r.first.size(); ++i) {
+    for (std::size_t i = 0; i < r.first.size(); ++i) {
       r.first[i] = a.first[i] * b.value + a.value * b.first[i];
-      for (Index j = 0; j < r.first.size(); ++j)
-        r.second(i, j) =
-            a.second(i, j) * b.value + a.first[i] * b.first[j] + a.first[j] * b.first[i] + a.value * b.second(i, j);
+      for (std::size_t j = 0; j < r.first.size(); ++j)
+        r.second[i][j] =
+            a.second[i][j] * b.value + a.first[i] * b.first[j] + a.first[j] * b.first[i] + a.value * b.second[i][j];
     }
     return r;
   }
   /// a + sign b.
   static Jet sum(const Jet& a, const Jet& b, int sign) {
     Jet r = a;
-    r.value += sign * b.value;
-    for (Index i = 0; i < r.first.size(); ++i) {
-      r.first[i] += sign * b.first[i];
-      for (Index j = 0; j < r.first.size(); ++j) r.second(i, j) += sign * b.second(i, j);
+    const auto add = [&](S& to, const S& part) { to = sign > 0 ? S(to + part) : S(to - part); };
+    add(r.value, b.value);
+    for (std::size_t i = 0; i < r.first.size(); ++i) {
+      add(r.first[i], b.first[i]);
+      for (std::size_t j = 0; j < r.first.size(); ++j) add(r.second[i][j], b.second[i][j]);
     }
     return r;
   }
@@ -140,11 +145,11 @@ class RandomFormula {
 
   const std::string& text() const { return text_; }
 
-  template <Scalar S>
+  template <class S>
   Jet<S> jet(const std::vector<Jet<S>>& variables) const {
     using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
     using J = Jet<S>;
-    const Index n = variables.front().first.size();
+    const std::size_t n = variables.front().first.size();
     const auto plus = [&](const J& a, int number) { return J::sum(a, J::number(S(number), n), 1); };
     const auto sine = [](const J& a) { return a.through(sin(a.value), cos(a.value), S(-sin(a.value))); };
     const auto cosine = [](const J& a) { return a.through(cos(a.value), S(-sin(a.value)), S(-cos(a.value))); };

@@ -20,7 +20,7 @@ std::vector<Claim> paper_claims(Extent extent);
 
 /// Of HBVM(k, s) with r nodes for constraints that are not quadratic: the same orders of all components, symmetry, H at
 /// 2k and g at 2r or, where g is a polynomial of degree d and r >= d s/2, to round-off; angular momentum for k = r = s.
-/// s = 1 .. 6 for Extent::full, s = 1 and 2 else.
+/// s = 1 .. 6, and 8 with 200 digits, for Extent::full; s = 1 and 2 else.
 std::vector<Claim> general_claims(Extent extent);
 
 /// What a Runge-Kutta method must show on the problems without constraints: the order that its author states (if none,

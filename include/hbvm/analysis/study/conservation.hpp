@@ -29,8 +29,8 @@ struct Conservation {
 };
 
 enum class Nodes {
-  s,    ///< k = s
-  more  ///< the k of hbvm:auto,S; where that is s, 2 s
+  s,    ///< k = s, and r = s for constraints that are not quadratic
+  more  ///< the k and r of hbvm:auto,S; where k is s, 2 s
 };
 
 struct ConservationRequest {

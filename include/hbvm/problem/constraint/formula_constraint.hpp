@@ -13,7 +13,7 @@
 namespace hbvm {
 
 /// g by a formula of a scene that is not quadratic: its second derivative depends on q. What other forms say of
-/// themselves (ConstraintForm) follows here from the trace of the formula, which `term` holds for one instance.
+/// themselves as ConstraintForm follows here from the trace of the formula, which `term` holds for one instance.
 template <Scalar S>
 struct FormulaConstraint {
   EffectTerm<S> term;
