@@ -162,13 +162,14 @@ class Planner {
 
   void improve() {
     constexpr int most_runs = 24;
-    // A prediction is not as sure as a measurement.
-    constexpr double doubt = double{23} / 20;
+    // A prediction is not as sure as a measurement, least of all that of a short run, which it costs nothing to make.
+    constexpr double usual_doubt = double{23} / 20, doubt_of_short = 2, short_seconds = double{1} / 100;
     while (runs_ < most_runs) {
       report((1 + runs_ / double{most_runs}) / 2);
       Trial* const trial = most_promising();
       if (!trial) break;
       const PlannedSetting* const best = quickest();
+      const double doubt = best && *best->seconds < short_seconds ? doubt_of_short : usual_doubt;
       if (best && trial->setting.predicted_seconds > doubt * *best->seconds) break;
       run(*trial);
     }

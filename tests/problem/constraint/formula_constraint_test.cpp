@@ -2,7 +2,9 @@
 
 #include "hbvm/problem/constraint_gradient.hpp"
 #include "hbvm/problem/curvature.hpp"
+#include "hbvm/problem/effect/trace.hpp"
 #include "hbvm/problem/in_double.hpp"
+#include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
@@ -11,19 +13,20 @@ namespace hbvm {
 namespace {
 
 /// Of one body, of a pair, of a group with a fixed point, and of points of rigid bodies, whose weights are not 1.
-const char* const of_one = R"(
+const char* const of_one = R"--(
 dimension = 2
-body = [{ name = "a", mass = 2, position = [1, 2], velocity = [0, 0] },
-        { name = "b", mass = 3, position = [-1, 1], velocity = [0, 0] }]
+body = [
+  { name = "a", mass = 2, position = [1, 2], velocity = [0, 0] },
+  { name = "b", mass = 3, position = [-1, 1], velocity = [0, 0] },
+]
 point = [{ name = "O", position = ["1/3", "-1/5"] }]
 constraint = [
-  { kind = "formula", on = "a", g = "exp(x/3)*y^3 - cos(x*y)"
-},
+  { kind = "formula", on = "a", g = "exp(x/3)*y^3 - cos(x*y)" },
   { kind = "formula", between = ["a", "b"], g = "r + sin(x) - x1*y2" },
   { kind = "formula", of = ["a", "b", "O"], g = "sqrt((a.x - O.x)^2 + (a.y - O.y)^2) + b.y^4/7" },
 ]
-)";
-const char* const of_rigid = R"(
+)--";
+const char* const of_rigid = R"--(
 dimension = 3
 [[rigid_body]]
 name = "bar"
@@ -43,7 +46,7 @@ at = ["1/2", "-1/3", "2/7"]
 kind = "formula"
 on = "tip"
 g = "atan(x*y) + z^3 - sinh(x)/3"
-)";
+)--";
 
 template <class S>
 class FormulaConstraintTest : public ::testing::Test {

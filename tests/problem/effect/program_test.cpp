@@ -149,9 +149,8 @@ TYPED_TEST(ProgramTest, CountsItsInstructions) {
 TYPED_TEST(ProgramTest, TellsWhatRoundingMakesOfItsOutputs) {
   using S = TypeParam;
   using std::cos, std::exp, std::sin;
-  using Code = Program<S>;
   const auto sizes = [](Op op, const S& a, const S& b, const S& of_a, const S& of_b) {
-    const Code code({}, {{op, {Bank::input, 0}, {Bank::input, 1}, 0}}, {{Bank::temporary, 0}}, 1);
+    const Program<S> code({}, {{op, {Bank::input, 0}, {Bank::input, 1}, 0}}, {{Bank::temporary, 0}}, 1);
     return code.rounding_sizes({a, b}, {of_a, of_b}).front();
   };
   const S near = 64 * epsilon<S>();
@@ -189,7 +188,7 @@ TYPED_TEST(ProgramTest, TellsTheRoundOffOfWhatCancels) {
   const Program<S> code(
       {S(1)}, {{Op::cos, {Bank::input, 0}, {}, 0}, {Op::subtract, {Bank::temporary, 0}, {Bank::constant, 0}, 0}},
       {{Bank::temporary, 0}}, 1);
-  const S x = power_of_two<S>(-20), size = code.rounding_sizes({x}, {x}).front();
+  const S a = power_of_two<S>(-20), size = code.rounding_sizes({a}, {a}).front();
   EXPECT_GE(size, 1);
   EXPECT_LE(size, 3);
 }
