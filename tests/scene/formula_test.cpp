@@ -5,6 +5,7 @@
 
 #include "hbvm/problem/curvature.hpp"
 #include "hbvm/problem/discrete_force.hpp"
+#include "hbvm/problem/effect/trace.hpp"
 #include "hbvm/problem/energy_terms.hpp"
 #include "hbvm/problem/momenta.hpp"
 #include "hbvm/problem/point.hpp"
@@ -176,7 +177,7 @@ TEST(FormulaScenes, AreRefusedIfTheyDoNotSayWhatTheyActOn) {
 
 TYPED_TEST(FormulaScene, HasConstraintsThatAreNotQuadratic) {
   using S = TypeParam;
-  for (const auto& [g, of_degree] : {std::pair("sqrt(x^2 + y^2) - 1", Trace<S>::not_polynomial),
+  for (const auto& [g, of_degree] : {std::pair("sqrt(x^2 + y^2) - 1", static_cast<int>(Trace<S>::not_polynomial)),
                                      {"(x^2 + y^2)^2 - 1", 4},
                                      {"x^3 + y^2*x + (x^2 + y^2 - 1)*y - x", 3}}) {
     const Assembled<S> scene = this->assembled(changed(pendulum_by_formulas, "x^2 + y^2 - 1", g));

@@ -44,10 +44,10 @@ void round_to_double(const Matrix<S>& from, Matrix<double>& to) {
 }
 
 /// J takes any direction to the derivative of the residual along it: by central differences with 60 digits.
-void expect_derivative(const Scene& text, int k, int s, bool banded, int r = 0) {
+void expect_derivative(const Scene& text, int k, int s, bool banded, int nodes = 0) {
   const PrecisionScope digits(60);
   const Assembled<Mpfr> scene = assemble<Mpfr>(text, Consistency::unchecked);
-  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s, std::max(r, s));
+  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s, std::max(nodes, s));
   const Mpfr h = Mpfr(1) / 8;
   const Index m = scene.problem.m(), nu = scene.problem.nu();
   std::mt19937 random(17);
@@ -75,7 +75,7 @@ void expect_derivative(const Scene& text, int k, int s, bool banded, int r = 0) 
   round_to_double<Mpfr>((r[0].constraint - r[1].constraint) / (2 * small), derivative.constraint);
 
   const Problem<double> problem = in_double(scene.problem);
-  const Hbvm<double> rounded = make_hbvm<double>(k, s, std::max(r, s));
+  const Hbvm<double> rounded = make_hbvm<double>(k, s, std::max(nodes, s));
   StageEquations<double> at(problem, rounded);
   StageUnknowns<double> at_x = at.make_unknowns();
   round_to_double(x.gamma, at_x.gamma);

@@ -6,6 +6,7 @@
 #include "hbvm/reference/reference.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scene/assemble.hpp"
+#include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/registry.hpp"
 #include "printing.hpp"
 

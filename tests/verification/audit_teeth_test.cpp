@@ -243,7 +243,6 @@ TEST(Audit, GivesTheSameOnSeveralThreads) {
 
 /// A weight or node of the constraints' quadrature off by 1e-25 is seen where the nodes keep g.
 TEST(Teeth, OfTheConstraintQuadrature) {
-  using Part = Perturbation::Part;
   const HbvmName method{2, 2, 4};
   const std::vector<Claim> claims{claim(Quantity::g, "bead_on_quartic", method, Span::interval, Form::round_off, 0),
                                   claim(Quantity::H, "bead_on_torus", method, Span::interval, Form::round_off, 0)};

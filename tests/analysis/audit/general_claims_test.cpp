@@ -49,16 +49,19 @@ TEST(GeneralClaims, AreAboutConstraintsThatAreNotQuadratic) {
 TEST(GeneralClaims, SayWhatTheNodesKeep) {
   for (const Claim& claim : general_claims(Extent::full)) {
     const auto [k, s, r] = as_hbvm(*claim.method)->name();
-    if (claim.quantity == Quantity::g && claim.form == Form::at_least)
+    if (claim.quantity == Quantity::g && claim.form == Form::at_least) {
       EXPECT_EQ(claim.predicted, 2 * r + (claim.span == Span::step ? 1 : 0));
+    }
     if (claim.quantity == Quantity::g && claim.form == Form::round_off) {
       EXPECT_EQ(claim.problem, "bead_on_quartic");
       EXPECT_GE(2 * r, 4 * s);
     }
-    if (claim.quantity == Quantity::H && claim.form == Form::at_least)
+    if (claim.quantity == Quantity::H && claim.form == Form::at_least) {
       EXPECT_EQ(claim.predicted, 2 * k + (claim.span == Span::step ? 1 : 0));
-    if (claim.quantity == Quantity::angular_momentum)
+    }
+    if (claim.quantity == Quantity::angular_momentum) {
       EXPECT_EQ(claim.form == Form::round_off, k == s && r == s) << claim.method_text();
+    }
   }
 }
 
