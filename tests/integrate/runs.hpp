@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "hbvm/integrate/integrate.hpp"
@@ -24,10 +25,11 @@ struct SceneRun {
   HbvmStepper<S> stepper;
   State<S> state;
 
+  /// r nodes for the constraints, s if it is less.
   SceneRun(const Scene& text, int k, int s, const char* step, const char* until,
-           SolverKind kind = SolverKind::fixed_point)
+           SolverKind kind = SolverKind::fixed_point, int r = 0)
       : scene(assemble<S>(text)),
-        method(make_hbvm<S>(k, s)),
+        method(make_hbvm<S>(k, s, std::max(r, s))),
         grid(Expression::parse(step), Expression::parse(until)),
         stepper(scene.problem, method, kind),
         state(scene.q0, scene.p0) {}

@@ -287,6 +287,96 @@ TYPED_TEST(PerturbationTest, TwentyFifthDigitIsOfMpfrAlone) {
   expect(this->changed(before, mistake(Part::node, 0, 0, "1e-25", true)), "node of the potential");
 }
 
+/// More nodes for the constraints than stages: A = P X P^T Omega, and lambda has coefficients, whose sum at 1 no node
+/// and no weight enters.
+template <class S>
+class PerturbationOfCoefficients : public PerturbationTest<S> {
+ protected:
+  const Hbvm<S> general = make_hbvm<S>(5, 3, 7);
+
+  void expect_follows(const Hbvm<S>& m) const {
+    const Matrix<S> weights = m.b.asDiagonal(), projection = m.P_s.transpose().lazyProduct(weights);
+    this->expect_near(m.projection, projection, "projection");
+    const Matrix<S> right = m.X_s.lazyProduct(projection);
+    this->expect_near(m.A, m.P_s.lazyProduct(right), "A");
+  }
+};
+TYPED_TEST_SUITE(PerturbationOfCoefficients, AllScalars, ScalarNames);
+
+TYPED_TEST(PerturbationOfCoefficients, NodesAndWeightsOfTheConstraintsLeaveTheRestAlone) {
+  using S = TypeParam;
+  const auto node = this->changed(this->general, mistake(Part::node, 5, 0, "-1/8"));
+  this->expect_only({"c", "P_s", "I_s", "projection", "A"}, node, this->general);
+  this->expect_follows(node);
+  EXPECT_EQ(node.c[5], S(this->general.c[5] * 7 / 8));
+  const Vector<S> at = Vector<S>::Constant(1, node.c[5]);
+  this->expect_near(node.P_s.row(5), legendre_values<S>(at, 3), "P_s");
+  this->expect_near(node.I_s.row(5), legendre_integrals<S>(at, 3), "I_s");
+  EXPECT_EQ(this->without_row(node.P_s, 5), this->without_row(this->general.P_s, 5));
+
+  const auto weight = this->changed(this->general, mistake(Part::weight, 6, 0, "1"));
+  this->expect_only({"b", "projection", "A"}, weight, this->general);
+  this->expect_follows(weight);
+  EXPECT_EQ(weight.b[6], S(2 * this->general.b[6]));
+  this->expect_near(this->without_column(weight.projection, 6), this->without_column(this->general.projection, 6),
+                    "projection");
+
+  const auto integral = this->changed(this->general, mistake(Part::integral, 6, 2, "1"));
+  this->expect_only({"I_s"}, integral, this->general);
+  for (const auto& m : {node, weight, integral}) EXPECT_EQ(m.lambda_at_1, this->general.lambda_at_1);
+}
+
+TYPED_TEST(PerturbationOfCoefficients, ThoseOfThePotentialLeaveTheConstraintsAlone) {
+  for (const auto& [part, named] :
+       {std::pair(Part::node, std::set<std::string>{"c_hat", "P_hat", "I_hat", "projection_hat"}),
+        {Part::weight, {"b_hat", "projection_hat"}},
+        {Part::integral, {"I_hat"}}}) {
+    const auto m = this->changed(this->general, mistake(part, 4, 1, "1/2", true));
+    this->expect_only(named, m, this->general);
+    this->expect_follows(m);
+  }
+}
+
+TYPED_TEST(PerturbationOfCoefficients, LegendreCoefficientIsThatOfLambdaToo) {
+  using S = TypeParam;
+  const auto m = this->changed(this->general, mistake(Part::legendre, 2, 1, "1/16"));
+  this->expect_only({"P_s", "I_s", "P_hat", "I_hat", "projection", "projection_hat", "A", "lambda_at_1"}, m,
+                    this->general);
+  this->expect_follows(m);
+  // P_2 = sqrt(5) (6 c^2 - 6 c + 1)
+  Vector<S> expected = this->general.lambda_at_1;
+  expected[2] -= literal<S>("6*sqrt(5)/16");
+  this->expect_near(Matrix<S>(m.lambda_at_1), Matrix<S>(expected), "lambda_at_1");
+}
+
+TYPED_TEST(PerturbationOfCoefficients, AsManyNodesForBothAreOneSet) {
+  using S = TypeParam;
+  const Hbvm<S> equal = make_hbvm<S>(7, 3, 7);
+  for (const bool hat : {false, true})
+    for (const Part part : {Part::node, Part::weight, Part::integral, Part::legendre}) {
+      const auto m = this->changed(equal, mistake(part, 2, 1, "1/8", hat));
+      EXPECT_EQ(m.c_hat, m.c);
+      EXPECT_EQ(m.b_hat, m.b);
+      EXPECT_EQ(m.P_hat, m.P_s);
+      EXPECT_EQ(m.I_hat, m.I_s);
+      this->expect_near(m.projection_hat, m.projection, "projection_hat");
+      this->expect_follows(m);
+      // What is compared is what changed.
+      this->expect_differs(part == Part::weight ? m.projection : m.I_s,
+                           part == Part::weight ? equal.projection : equal.I_s, "the number");
+    }
+}
+
+TYPED_TEST(PerturbationOfCoefficients, ThereAreAsManyNumbersAsNodes) {
+  for (const Part part : {Part::node, Part::weight, Part::integral}) {
+    EXPECT_NO_THROW(this->changed(this->general, mistake(part, 6, 0, "1")));
+    EXPECT_THROW(this->changed(this->general, mistake(part, 7, 0, "1")), InputError);
+    EXPECT_THROW(this->changed(this->general, mistake(part, 5, 0, "1", true)), InputError) << "the potential has five";
+  }
+  EXPECT_THROW(this->changed(this->general, mistake(Part::integral, 0, 3, "1")), InputError);
+  EXPECT_THROW(this->changed(this->general, mistake(Part::X, 3, 2, "1")), InputError);
+}
+
 TEST(PerturbationPrecision, RelativeChangeIsExactToTheDigitsOfTheScope) {
   const PrecisionScope digits(50);
   Hbvm<Mpfr> m = make_hbvm<Mpfr>(2, 2);

@@ -8,6 +8,7 @@
 #include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
+#include "reference/wire_motion.hpp"
 
 namespace hbvm {
 namespace {
@@ -147,6 +148,27 @@ TEST_F(ReferenceMotionTest, PolynomialsFollowTheMotion) {
   };
   const double rate = (worst("1/64", 4) - worst("1/1024", 4)) / 4;
   EXPECT_NEAR(rate, 7, double{1} / 2) << "six stages";
+}
+
+/// Gauss's steps on constraints by formulas: to round-off, and errors that are no less than the true ones on the way.
+TEST(ReferenceMotionOnAWire, ComesToItsClosedForm) {
+  const PrecisionScope digits(60);
+  for (const char* name : {"bead_on_helix", "bead_on_cycloid"}) {
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
+    const Mpfr duration = literal<Mpfr>("3/4");
+    const WireMotion exact = wire_motion(name, duration);
+    ReferenceMotion m(scene.problem, scene.q0, scene.p0, duration, 2, 4);
+    const double few = 14.0 - mpfr_working_bits();
+    int runs = 0;
+    do {
+      ASSERT_LT(++runs, 60);
+      EXPECT_LE(log2_of(distance(m.q(), exact.q)), std::max(m.errors().q, few)) << name;
+      EXPECT_LE(log2_of(distance(m.p(), exact.p)), std::max(m.errors().p, few)) << name;
+      EXPECT_LE(log2_of(distance(m.lambda(), exact.lambda)), std::max(m.errors().lambda, few)) << name;
+    } while (m.refine());
+    EXPECT_GE(runs, 3) << name;
+    EXPECT_LE(greatest_error(m), few) << name;
+  }
 }
 
 TEST(Log2, IsOfTheMagnitude) {

@@ -5,6 +5,7 @@
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
+#include "reference/wire_motion.hpp"
 
 namespace hbvm {
 namespace {
@@ -33,6 +34,26 @@ TEST(Taylor, FollowsClosedForms) {
         expect_near(motion.p(), exact.p, tolerance, what);
         Point<Mpfr> point(scene.problem);
         expect_near(motion.lambda(), point.multiplier(exact.q, exact.p), tolerance, what);
+      }
+    }
+}
+
+/// Constraints by formulas: position, momentum and multipliers, by Newton's second law, of the bead on the helix and of
+/// that over the cycloid.
+TEST(Taylor, FollowsWiresInClosedForm) {
+  for (const unsigned digits : {25U, 60U, 150U})
+    for (const char* name : {"bead_on_helix", "bead_on_cycloid"}) {
+      const PrecisionScope scope(digits);
+      const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
+      TaylorMotion motion(scene.problem, scene.q0, scene.p0);
+      for (const char* time : {"1/1000", "1", "5/2", "10"}) {
+        motion.advance_to(literal<Mpfr>(time));
+        const WireMotion exact = wire_motion(name, literal<Mpfr>(time));
+        const std::string what = std::string(name) + " at " + time + " in " + std::to_string(digits) + " digits";
+        const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
+        expect_near(motion.q(), exact.q, tolerance, what);
+        expect_near(motion.p(), exact.p, tolerance, what);
+        expect_near(motion.lambda(), exact.lambda, tolerance, what);
       }
     }
 }

@@ -210,6 +210,73 @@ TEST(FormulaScenes, WithASurfaceOfRevolutionConserveItsMomentum) {
   EXPECT_EQ(names("rope_over_two_pegs"), "");
 }
 
+/// Of two free bodies, or of the first of them and a second that nothing holds.
+TYPED_TEST(FormulaScene, KeepsTheMomentaOfAnyConstraint) {
+  const auto names = [](const std::string& constraint) {
+    const std::string text =
+        "dimension = 3\nbody = [{ name = \"a\", mass = 1, position = [\"1/2\", \"1/3\", \"-1/4\"], velocity = [1, 0, "
+        "0] "
+        "}, { name = \"b\", mass = 3, position = [-1, \"2/3\", \"1/5\"], velocity = [0, 0, 0] }]\n"
+        "[[constraint]]\nkind = \"formula\"\n" +
+        constraint + "\"\n";
+    std::string all;
+    for (const auto& component :
+         conserved_momenta(assemble<TypeParam>(read_scene(text, "test.toml"), Consistency::unchecked).problem))
+      all += component.name() + " ";
+    return all;
+  };
+  const std::string pair = "between = [\"a\", \"b\"]\ng = \"", all = "P_x P_y P_z L_x L_y L_z ";
+  EXPECT_EQ(names(pair + "sinh(r) - sinh(1)"), all);
+  EXPECT_EQ(names(pair + "exp((x1 - x2)^2 + (y1 - y2)^2 + (z1 - z2)^2) - 2"), all);
+  EXPECT_EQ(names(pair + "cos(x1 - x2) + (y1 - y2)^4 + z1 - z2"), "P_x P_y P_z ");
+  EXPECT_EQ(names(pair + "cos(x1 - x2) + (y1 - y2)^4 + z1^3 - z2"), "P_x P_y ");
+  EXPECT_EQ(names(pair + "sqrt((x1 - x2)^2 + (y1 - y2)^2) + (z1 - z2)^4"), "P_x P_y P_z L_z ");
+  EXPECT_EQ(names(pair + "sqrt(x1^2 + y1^2 + z1^2) + sqrt(x2^2 + y2^2 + z2^2) - 2"), "L_x L_y L_z ");
+  EXPECT_EQ(names(pair + "x1*y2 - x2*y1 + z1^4"), "L_z ");
+  const std::string one = "on = \"a\"\ng = \"";
+  EXPECT_EQ(names(one + "(x^2 + y^2)^2 + z^4 - 1"), "L_z ");
+  EXPECT_EQ(names(one + "(x^2 + 1.0000001*y^2)^2 + z^4 - 1"), "");
+  EXPECT_EQ(names(one + "(x^2 + y^2 + z^2)^2 - 1"), "L_x L_y L_z ");
+  EXPECT_EQ(names(one + "x^4 + y^4 + z^4 + 2*(x^2*y^2 + y^2*z^2 + x^2*z^2) - 1"), "L_x L_y L_z ");
+  EXPECT_EQ(names(one + "exp(z) - x^3"), "P_y ");
+  EXPECT_EQ(names(one + "x - cos(z)"), "P_y ");
+}
+
+/// One that follows from others is set aside, of whatever kind they are; one that does so at the start alone is
+/// refused, by its second derivative.
+TYPED_TEST(FormulaScene, SetsRedundantConstraintsAside) {
+  using S = TypeParam;
+  const auto scene = [&](const std::string& second) {
+    return this->assembled(
+        "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = "
+        "1, position = [\"3/5\", \"4/5\"], velocity = [\"-4/5\", \"3/5\"] }]\n[[constraint]]\nkind = "
+        "\"rod\"\nbetween = [\"O\", \"a\"]\nlength = 1\n[[constraint]]\nkind = \"formula\"\non = "
+        "\"a\"\ng = \"" +
+        second + "\"\n");
+  };
+  for (const char* second : {"sqrt(x^2 + y^2) - 1", "log(x^2 + y^2)", "1/(x^2 + y^2) - 1", "x^4 - (1 - y^2)^2"}) {
+    const Assembled<S> assembled = scene(second);
+    EXPECT_EQ(assembled.problem.nu(), 1) << second;
+    EXPECT_EQ(assembled.problem.redundant.size(), 1u) << second;
+  }
+  for (const char* second : {"3*x/5 + 4*y/5 - 1 + (x - 3/5)^4", "sqrt(x^2 + y^2) - 1 + (4*x - 3*y)^2*sin(x)"}) {
+    try {
+      scene(second);
+      ADD_FAILURE() << second;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("second derivative"), std::string::npos) << error.what();
+    }
+  }
+}
+
+/// A gradient that vanishes, and g that has none, at the start.
+TEST(FormulaScenes, WithoutAGradientAreRefused) {
+  for (const char* g : {"(sqrt(x^2 + y^2) - 1)^2", "exp(x) - exp(x)", "0*x"})
+    EXPECT_NE(refused_in_double("x^2 + y^2 - 1", g).find("its gradient vanishes"), std::string::npos) << g;
+  EXPECT_NE(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 - 9/25) + y - 4/5").find("test.toml:28: constraint 1"),
+            std::string::npos);
+}
+
 TEST(FormulaScenes, ReadBackAsTheyAreWritten) {
   const std::string group = changed(pendulum_by_formulas, "center = \"pivot\"\non = [\"b\"]\nU = \"-2/2*r^2\"",
                                     "of = [\"a\", \"b\"]\nU = '''\n a.x*b.y\n - m2*k'''");

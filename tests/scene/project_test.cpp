@@ -51,6 +51,22 @@ TYPED_TEST(Project, ConvergesSlowlyToRoundOff) {
   EXPECT_LE(magnitude(S(evaluate<S>(scene.bodies[0].position[1]) - literal<S>("4/5"))), 24 * epsilon<S>());
 }
 
+/// Onto constraints by formulas: the circle by its radius, and a torus, whose nearest point is that of its tube.
+TYPED_TEST(Project, OntoSurfacesByFormulas) {
+  const auto formula = [](const char* g) {
+    return std::string("[[constraint]]\nkind = \"formula\"\non = \"a\"\ng = \"") + g + "\"\n";
+  };
+  const Scene circle =
+      this->projected("dimension = 2\n" + body("a", "3", "[0.75, 1]", "[1, 0]") + formula("sqrt(x^2 + y^2) - 1"));
+  this->expect_near(circle.bodies[0].position, {"3/5", "4/5"}, "position");
+  this->expect_near(circle.bodies[0].velocity, {"16/25", "-12/25"}, "velocity");
+  // 5/4 (3/5, 4/5) off the circle of centres; the velocity along the axis loses what is across the tube.
+  const Scene torus = this->projected("dimension = 3\n" + body("a", "2", "[2.75, 0, 1]", "[0, 7, 5]") +
+                                      formula("(sqrt(x^2 + y^2) - 2)^2 + z^2 - 1"));
+  this->expect_near(torus.bodies[0].position, {"13/5", "0", "4/5"}, "position");
+  this->expect_near(torus.bodies[0].velocity, {"-12/5", "7", "9/5"}, "velocity");
+}
+
 TYPED_TEST(Project, HasAllDigitsOfThePrecision) {
   const Scene scene = this->projected(plane_with_origin + body("a", "1", "[0.7, 0.7]") + rod("O", "a", "1"));
   this->expect_near(scene.bodies[0].position, {"sqrt(1/2)", "sqrt(1/2)"}, "position");

@@ -57,6 +57,47 @@ TYPED_TEST(ContinuationTest, FollowsPolynomialsBeyondTheStep) {
     }
 }
 
+/// With more nodes for the constraints than stages the multipliers have coefficients, as the momenta have.
+TYPED_TEST(ContinuationTest, FollowsCoefficientsOfMultipliers) {
+  using S = TypeParam;
+  const Hbvm<S> general = make_hbvm<S>(this->s, this->s, this->s + 2);
+  const StageUnknowns<S> last = this->polynomials(2, 3, 0);
+  Continuation<S> continuation(general, {0, 0}, 3), at_nodes(this->method, {0, 0}, 3);
+  continuation.keep(last);
+  StageUnknowns<S> x = last;
+  continuation.predict(x);
+  const Vector<S>&c = general.c, later = c.array() + S(1);
+  const Matrix<S> now = legendre_values<S>(c, this->s), beyond = legendre_values<S>(later, this->s);
+  const S tolerance = S(1000) * max_norm(beyond) * epsilon<S>();
+  for (const auto& [found, before] : {std::pair(&x.lambda, &last.lambda), {&x.gamma, &last.gamma}}) {
+    const Matrix<S> values = now.lazyProduct(*found), expected = beyond.lazyProduct(*before);
+    EXPECT_LE(max_norm(Matrix<S>(values - expected)), tolerance);
+  }
+  // The same polynomials by their values.
+  StageUnknowns<S> nodal = last;
+  nodal.lambda = this->method.P_s.lazyProduct(last.lambda);
+  at_nodes.keep(nodal);
+  at_nodes.predict(nodal);
+  const Matrix<S> same = this->method.P_s.lazyProduct(x.lambda);
+  EXPECT_LE(max_norm(Matrix<S>(nodal.lambda - same)), 100 * tolerance);
+  EXPECT_EQ(nodal.gamma, x.gamma);
+}
+
+/// Of momenta that are a polynomial of degree 2 but for rounding, multipliers of higher degree are left out, too.
+TYPED_TEST(ContinuationTest, LeavesOutWhatIsRoundingOfCoefficientsToo) {
+  using S = TypeParam;
+  const Hbvm<S> general = make_hbvm<S>(this->s, this->s, this->s + 2);
+  StageUnknowns<S> last = this->polynomials(2, 1, 0);
+  for (Index i = 3; i < this->s; ++i) last.gamma.row(i) *= epsilon<S>();
+  Continuation<S> continuation(general, {0, 0}, 1);
+  continuation.keep(last);
+  StageUnknowns<S> x = last;
+  continuation.predict(x);
+  EXPECT_EQ(max_norm(Matrix<S>(x.gamma.bottomRows(this->s - 3))), 0);
+  EXPECT_EQ(max_norm(Matrix<S>(x.lambda.bottomRows(this->s - 3))), 0);
+  EXPECT_GT(max_norm(x.lambda), 0);
+}
+
 /// Seven terms grow by 2^13; coefficients that fall by 2^-10 each leave 2^-50 of the last but one.
 TYPED_TEST(ContinuationTest, KnowsWhatTheGrowthLeaves) {
   using S = TypeParam;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <random>
 
 #include "hbvm/scene/assemble.hpp"
@@ -57,9 +58,9 @@ struct RandomScene {
 };
 
 template <Scalar S>
-State<S> end_of(const Scene& text, int k, int s, SolverKind kind) {
+State<S> end_of(const Scene& text, int k, int s, SolverKind kind, int r = 0) {
   const Assembled<S> scene = assemble<S>(text);
-  const Hbvm<S> method = make_hbvm<S>(k, s);
+  const Hbvm<S> method = make_hbvm<S>(k, s, std::max(r, s));
   HbvmStepper<S> stepper(scene.problem, method, kind);
   State<S> state(scene.q0, scene.p0);
   for (int step = 0; step < 6; ++step) stepper.step(state, S(S(1) / 20));
@@ -86,6 +87,26 @@ TYPED_TEST(SolversAgree, OnFiftyRandomScenesAndMethods) {
       const S bound = 2000 * epsilon<S>();
       EXPECT_LE(max_norm(Vector<S>(end.q - expected.q)), bound) << seed << " " << name_of(kind) << " " << k << "," << s;
       EXPECT_LE(max_norm(Vector<S>(end.p - expected.p)), bound) << seed << " " << name_of(kind) << " " << k << "," << s;
+    }
+  }
+}
+
+/// Of constraints by any formula, with nodes of their own or without; and of quadratic ones at more nodes than they
+/// take.
+TYPED_TEST(SolversAgree, OnConstraintsOfAnyKind) {
+  using S = TypeParam;
+  for (const char* name : {"bead_on_torus", "bead_on_quartic", "bead_on_helix", "bead_on_cycloid", "rod_on_two_curves",
+                           "rope_over_two_pegs", "heavy_top"}) {
+    const Scene text = load_scene(name);
+    for (const auto& [k, s, r] : {HbvmName{1, 1, 1}, {1, 1, 3}, {2, 2, 2}, {3, 2, 5}, {4, 4, 4}, {4, 4, 5}}) {
+      const State<S> expected = end_of<S>(text, k, s, SolverKind::paper, r);
+      for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::newton, SolverKind::automatic}) {
+        const State<S> end = end_of<S>(text, k, s, kind, r);
+        const S bound = 2000 * epsilon<S>();
+        const std::string what = fmt::format("{} {} {},{},{}", name, name_of(kind), k, s, r);
+        EXPECT_LE(max_norm(Vector<S>(end.q - expected.q)), bound) << what;
+        EXPECT_LE(max_norm(Vector<S>(end.p - expected.p)), bound) << what;
+      }
     }
   }
 }

@@ -231,6 +231,36 @@ TEST_F(ReadClaims, RefusesRatesOfWhatIsRoundOff) {
     expect_refusal(changed("\"raw_p\"", "\"" + std::string(quantity) + "\""), 1, {"claim 1", quantity, "round-off"});
 }
 
+/// Of constraints that are not quadratic g has an order, that of their nodes.
+TEST_F(ReadClaims, TakesRatesOfGOfAnyConstraint) {
+  const std::string perturbation =
+      "perturb = { part = \"integral\", i = 3, j = 2, hat = true, relative = \"1e-25\" }\n";
+  const auto of_g = [&](const std::string& problem, const std::string& method) {
+    std::string text = good_claims;
+    for (const auto& [from, to] : {std::pair<std::string, std::string>("\"raw_p\"", "\"g\""),
+                                   {"double_pendulum", problem},
+                                   {"hbvm:3,2", method},
+                                   {"2*s+k-1", "2*r+1"},
+                                   {perturbation, ""}})
+      text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  for (const char* const problem : {"bead_on_torus", "bead_on_quartic", "rod_on_two_curves"}) {
+    const Claim c = read(of_g(problem, "hbvm:3,2,5"))[0];
+    EXPECT_EQ(c.quantity, Quantity::g);
+    EXPECT_EQ(c.form, Form::exactly);
+    EXPECT_EQ(c.predicted, 11) << "of 5 nodes";
+    EXPECT_EQ(as_hbvm(*c.method)->name(), (HbvmName{3, 2, 5}));
+  }
+  expect_refusal(of_g("heavy_top", "hbvm:3,2,5"), 1, {"claim 1", "'g'", "round-off", "heavy_top", "quadratic"});
+  expect_refusal(of_g("own.toml", "hbvm:3,2,5"), 1, {"claim 1", "'g'", "round-off"});
+  expect_refusal(of_g("bead_on_torus", "hbvm:3,2"), 6, {"claim 1", "r"});
+  // In a file beside the claims, too.
+  std::ofstream(folder_ / "own.toml")
+      << own_scene << "constraint = [{ kind = \"formula\", on = \"a\", g = \"cosh(x) - cosh(1)\" }]\n";
+  EXPECT_NO_THROW(read(of_g("own.toml", "hbvm:3,2,5")));
+}
+
 TEST_F(ReadClaims, RefusesQuantitiesThatHaveNoRate) {
   for (const char* const quantity : {"hidden constant", "hidden drift", "sweeps", "order conditions", "B", "W"})
     expect_refusal(changed("\"raw_p\"", "\"" + std::string(quantity) + "\""), 1, {"claim 1", quantity, "no rate"});

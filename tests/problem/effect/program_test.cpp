@@ -1,5 +1,6 @@
 #include "hbvm/problem/effect/program.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -131,6 +132,102 @@ TYPED_TEST(ProgramTest, OutputsComeFromEveryBank) {
     EXPECT_EQ(code.output(1, i, registers, this->inputs), 5);
     EXPECT_EQ(code.output(2, i, registers, this->inputs), -this->x(i, 1));
   }
+}
+
+/// Straight-line code whose inputs are wrong by up to half a unit, with every number rounded on the way, against itself
+/// in twice the digits with the exact inputs.
+template <Scalar S>
+class RoundingBound {
+ public:
+  RoundingBound(std::vector<S> constants, std::vector<Instruction> code, std::uint32_t temporaries)
+      : constants_(std::move(constants)),
+        code_(std::move(code)),
+        temporaries_(temporaries),
+        program_(constants_, code_, {{Bank::temporary, temporaries - 1}}, temporaries) {}
+
+  /// The error over what rounding_sizes allows, a unit each, at inputs x and exact ones x (1 + epsilon u).
+  double share(const std::vector<S>& x, const std::vector<double>& u) const {
+    std::vector<S> sizes;
+    for (const S& value : x) sizes.push_back(magnitude(value));
+    const S unit = epsilon<S>(), bound = program_.rounding_sizes(x, sizes).front() * unit, rounded = run(program_, x);
+    const PrecisionScope scope(2 * static_cast<unsigned>(digits10<S>()) + 20);
+    std::vector<Mpfr> constants, exact_x;
+    for (const S& value : constants_) constants.push_back(exact(value));
+    for (std::size_t i = 0; i < x.size(); ++i) exact_x.push_back(exact(x[i]) * (1 + exact(unit) * Mpfr(u[i]) / 2));
+    const Program<Mpfr> program(constants, code_, program_.output_operands(), temporaries_);
+    return approximately(Mpfr(abs(Mpfr(exact(rounded) - run(program, exact_x))) / exact(bound)));
+  }
+
+ private:
+  template <Scalar T>
+  static T run(const Program<T>& program, const std::vector<T>& x) {
+    std::vector<const T*> inputs;
+    for (const T& value : x) inputs.push_back(&value);
+    Matrix<T> registers = program.make_registers(1);
+    program.run(registers, inputs);
+    return program.output(0, 0, registers, inputs);
+  }
+  static Mpfr exact(const S& x) { return rounded_to<Mpfr>(raw(exactly(x))); }
+
+  std::vector<S> constants_;
+  std::vector<Instruction> code_;
+  std::uint32_t temporaries_;
+  Program<S> program_;
+};
+
+/// Every operation, on inputs that have been computed: no error is above the bound, and some are not far below.
+TYPED_TEST(ProgramTest, BoundsWhatEveryOperationRounds) {
+  using S = TypeParam;
+  for (std::size_t n = 0; n < op_count; ++n) {
+    const auto op = static_cast<Op>(n);
+    if (op == Op::sign) continue;  // it has no error, away from 0
+    const RoundingBound<S> bound({}, {{op, {Bank::input, 0}, {Bank::input, 1}, 0}}, 1);
+    double worst = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      std::vector<S> at{this->random.value(), this->random.value()};
+      if (op == Op::sqrt || op == Op::log) at[0] = magnitude(at[0]);
+      const double share = bound.share(at, {approximately(this->random.value()), approximately(this->random.value())});
+      // The functions of double and Quad are right to a unit, of which a quotient is rounded once more.
+      const bool is_ratio = op >= Op::sinc;
+      EXPECT_LE(share, is_ratio ? 2 : 1) << name_of(op) << " at " << at[0] << ", " << at[1];
+      worst = std::max(worst, share);
+    }
+    EXPECT_GE(worst, 1 / double{64}) << name_of(op);
+  }
+}
+
+/// Twelve operations one after another on earlier results, of which some cancel.
+TYPED_TEST(ProgramTest, BoundsWhatAProgramRounds) {
+  using S = TypeParam;
+  const Op ops[] = {Op::add,  Op::subtract, Op::multiply, Op::sin,  Op::cos,      Op::tanh,
+                    Op::atan, Op::negate,   Op::multiply, Op::sinc, Op::subtract, Op::sinh};
+  double greatest = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<Instruction> code;
+    constexpr std::uint32_t length = 12;
+    for (std::uint32_t n = 0; n < length; ++n) {
+      const auto operand = [&]() -> Operand {
+        const auto from = static_cast<std::uint32_t>(this->random.whole(0, n + 2));
+        if (from < 2) return {Bank::input, from};
+        if (from == 2) return {Bank::constant, 0};
+        return {Bank::temporary, from - 3};
+      };
+      // The last takes the one before, so that the chain has a length.
+      const Operand first = n > 0 && n % 2 == 1 ? Operand{Bank::temporary, n - 1} : operand();
+      code.push_back({ops[this->random.whole(0, 11)], first, operand(), n});
+    }
+    const RoundingBound<S> bound({S(this->random.value())}, code, length);
+    double worst = 0;
+    for (int point = 0; point < 8; ++point) {
+      const double share = bound.share({this->random.value(), this->random.value()},
+                                       {approximately(this->random.value()), approximately(this->random.value())});
+      if (!(share >= 0)) continue;  // 0 by 0: the program is a constant 0
+      EXPECT_LE(share, 1) << trial;
+      worst = std::max(worst, share);
+    }
+    greatest = std::max(greatest, worst);
+  }
+  EXPECT_GE(greatest, 1 / double{16});
 }
 
 TYPED_TEST(ProgramTest, CountsItsInstructions) {
