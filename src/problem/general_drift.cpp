@@ -6,7 +6,7 @@ template <Scalar S>
 GeneralDrift<S>::GeneralDrift(const Problem<S>& problem) : problem_(problem), epsilon_(epsilon<S>()) {
   for (const Constraint<S>& constraint : problem.constraints)
     if (degree(constraint) != 2) constraints_.push_back(&constraint);
-  start_ = start_size_ = Vector<S>::Zero(static_cast<Index>(constraints_.size()));
+  start_ = size_ = Vector<S>::Zero(static_cast<Index>(constraints_.size()));
 }
 
 template <Scalar S>
@@ -14,7 +14,7 @@ void GeneralDrift<S>::start(const Vector<S>& q) {
   for (Index a = 0; a < start_.size(); ++a) {
     const ConstraintValue<S> there = value(*constraints_[static_cast<std::size_t>(a)], problem_.dimension, q);
     start_[a] = there.g;
-    start_size_[a] = there.size;
+    size_[a] = there.size;
   }
 }
 
@@ -24,7 +24,8 @@ const S& GeneralDrift<S>::in_units(const Vector<S>& q) {
   for (Index a = 0; a < start_.size(); ++a) {
     const ConstraintValue<S> here = value(*constraints_[static_cast<std::size_t>(a)], problem_.dimension, q);
     const S change = magnitude(S(here.g - start_[a]));
-    if (!(change <= 0)) raise_to(units_, S(change / (epsilon_ * (start_size_[a] + here.size))));
+    if (here.size > size_[a]) size_[a] = here.size;
+    if (!(change <= 0)) raise_to(units_, S(change / (2 * epsilon_ * size_[a])));
   }
   return units_;
 }

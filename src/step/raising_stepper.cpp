@@ -248,9 +248,11 @@ long RaisingStepper<S>::keep_constraints(State<S>& state) {
       break;
     }
     const S with_more = step_drift_.in_units(repeated.q);
-    if (!(2 * with_more <= change)) {
+    // What adds up over many steps is too small to be told from rounding in one.
+    const bool only_drifts = drifts && change <= limit;
+    if (!(2 * with_more <= change) && !only_drifts) {
       add_counts(past_, more->stepper.counts(), problem_);
-      if (drifts || doubled) {
+      if (doubled) {
         // More nodes do not make it smaller: it is rounding, or the step too large for any number of them.
         if (change * change * epsilon_ < 1) raise_to(g_noise_, S(2 * change));
         break;

@@ -16,19 +16,19 @@ class GeneralDrift {
   /// True if all constraints are quadratic.
   bool empty() const { return constraints_.empty(); }
   void start(const Vector<S>& q);
-  /// The greatest |g(q) - g(start)| over epsilon times the sizes of g that its round-off is proportional to, at both
-  /// ends: 1 is what rounding once makes of it.
+  /// The greatest |g(q) - g(start)| over twice epsilon times the greatest size of g, which its round-off is proportional
+  /// to, of all q that were looked at since the start: 1 is what rounding once at either end makes of it.
   const S& in_units(const Vector<S>& q);
 
   template <class Archive>
   void remember(Archive& archive) {
-    archive(start_, start_size_);
+    archive(start_, size_);
   }
 
  private:
   const Problem<S>& problem_;
   std::vector<const Constraint<S>*> constraints_;
-  Vector<S> start_, start_size_;
+  Vector<S> start_, size_;
   S epsilon_, units_ = 0;
 };
 
