@@ -84,10 +84,8 @@ ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step,
   const std::optional<int> of_U = degree_of_U(scene.problem);
   const int of_g = degree(scene.problem.constraints);
   const bool general = of_g != 2, tries_r = of_g == Trace<S>::not_polynomial && name.r == 0;
-  // What integrates a polynomial of this degree exactly along one of degree s.
-  const auto exact = [&](int degree) { return std::max(s, (degree * s + 1) / 2); };
   const auto nodes = [&](int n) {
-    return HbvmName{of_U ? exact(*of_U) : n, s, name.r != 0 ? name.r : tries_r ? n : exact(of_g)};
+    return HbvmName{of_U ? exact_nodes(*of_U, s) : n, s, name.r != 0 ? name.r : tries_r ? n : exact_nodes(of_g, s)};
   };
   const auto chosen = [&](int n, const std::string& why) {
     const HbvmName of = nodes(n);

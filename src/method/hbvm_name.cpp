@@ -1,5 +1,6 @@
 #include "hbvm/method/hbvm_name.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <iterator>
 
@@ -19,6 +20,15 @@ void HbvmName::check() const {
   if (k > max_k) throw InputError("method " + text() + ": K must be at most " + std::to_string(max_k));
   if (r != 0 && r < s) throw InputError("method " + text() + ": R must be at least S");
   if (r > max_k) throw InputError("method " + text() + ": R must be at most " + std::to_string(max_k));
+}
+
+int exact_nodes(int degree, int s) {
+  const long long nodes = std::max<long long>(s, (static_cast<long long>(degree) * s + 1) / 2);
+  if (nodes > max_k)
+    throw InputError("a polynomial of degree " + std::to_string(degree) + " along a curve of degree S = " +
+                     std::to_string(s) + " takes " + std::to_string(nodes) + " nodes to be exact, more than " +
+                     std::to_string(max_k) + ": take a smaller S, or name all of K, S, R as in hbvm:K,S,R");
+  return static_cast<int>(nodes);
 }
 
 HbvmName HbvmName::parse(std::string_view text) {

@@ -118,6 +118,7 @@ void perturb(Hbvm<S>& method, const Perturbation& p) {
   if (p.part == Part::X) {
     check(p.i < method.s && p.j < method.s);
     change(method.X_s(p.i, p.j), relative);
+    if (method.has_coefficients_of_lambda() && relative != 0) follow(method, p, relative);
     return;
   }
   Hbvm<S> m = method;

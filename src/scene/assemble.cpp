@@ -70,13 +70,15 @@ class Assembler : private FormulaPlaces<S> {
   Problem<S>& problem() { return result_.problem; }
 
   /// Errors from within say where in the scene they arose.
-  void at_line(std::size_t line, const std::string& what, const std::function<void()>& work) const {
+  void at_line(std::size_t line, const std::string& what, const std::function<void()>& work) {
     try {
       work();
     } catch (const InputError& error) {
-      throw InputError(scene_.name + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what + ": " + error.what());
+      throw InputError(at(line) + ": " + what + ": " + error.what());
     }
+    lines_.resize(result_.problem.constraints.size(), line);
   }
+  std::string at(std::size_t line) const { return scene_.name + (line > 0 ? ":" + std::to_string(line) : ""); }
 
   S number(const Expression& e) const { return evaluate<S>(e, scene_.constants); }
   std::optional<S> number(const std::optional<Expression>& e) const {
@@ -535,6 +537,8 @@ class Assembler : private FormulaPlaces<S> {
     for (const Dependence<S>& dependence : independence.redundant) check_agreement(dependence);
     ConstraintGradient<S> gradient(p, 1);
     gradient.update(lanes(result_.q0));
+    Matrix<S> gram;
+    gradient.gram(gram);
     for (Index a = 0; a < p.nu(); ++a) {
       const Constraint<S>& constraint = p.constraints[static_cast<std::size_t>(a)];
       const auto at_start = value(constraint, d_, result_.q0);
@@ -542,6 +546,7 @@ class Assembler : private FormulaPlaces<S> {
       S w;
       gradient.transposed_times(a, lanes(v), &w);
       report(a, "velocity", w, S(tolerance * speed * gradient_size(constraint, d_, result_.q0)));
+      check_range(a, gram(a, a), gradient_size(constraint, d_, result_.q0));
     }
     for (const Dependence<S>& dependence : independence.redundant) check_bending(dependence);
     check_angle(independence);
@@ -551,6 +556,8 @@ class Assembler : private FormulaPlaces<S> {
     set_aside(problem(), independence);
   }
 
+  /// The file and the line that made a constraint.
+  std::string where(Index a) const { return at(lines_[static_cast<std::size_t>(a)]); }
   std::string name(Index a) const {
     return "constraint " + std::to_string(a + 1) + " (" +
            result_.problem.constraints[static_cast<std::size_t>(a)].name + ")";
@@ -568,7 +575,7 @@ class Assembler : private FormulaPlaces<S> {
 
   /// Contradictory constraints leave no state at all, and one whose gradient vanishes has no multiplier.
   void check_agreement(const Dependence<S>& dependence) const {
-    const std::string who = scene_.name + ": " + name(dependence.constraint) + " is ",
+    const std::string who = where(dependence.constraint) + ": " + name(dependence.constraint) + " is ",
                       why = ": at the start its gradient " +
                             (dependence.others.empty() ? std::string("vanishes")
                                                        : "is a combination of those of " + list(dependence.others));
@@ -586,7 +593,7 @@ class Assembler : private FormulaPlaces<S> {
   /// A motion that the others allow must not leave the constraint at once.
   void check_bending(const Dependence<S>& dependence) const {
     if (magnitude(dependence.bending) <= dependence.round_off) return;
-    throw InputError(scene_.name + ": " + name(dependence.constraint) +
+    throw InputError(where(dependence.constraint) + ": " + name(dependence.constraint) +
                      " is contradictory: at the start its gradient is a combination of those of " +
                      list(dependence.others) + ", but along the initial velocity its second derivative is " +
                      to_scientific(dependence.bending, 3) + " where they hold, tolerance " +
@@ -597,15 +604,24 @@ class Assembler : private FormulaPlaces<S> {
   void check_angle(const Independence<S>& independence) const {
     using std::sqrt;
     if (independence.square_of_sine > epsilon<S>()) return;
-    throw InputError(scene_.name + ": the Gram matrix of the constraints is singular to this precision at the start: " +
-                     "the gradient of " + name(independence.nearest) + " is a combination of those of " +
-                     list(independence.near) + " but for an angle of " +
-                     to_scientific(S(sqrt(independence.square_of_sine)), 3) + "; take more digits");
+    throw InputError(
+        where(independence.nearest) +
+        ": the Gram matrix of the constraints is singular to this precision at the start: " + "the gradient of " +
+        name(independence.nearest) + " is a combination of those of " + list(independence.near) +
+        " but for an angle of " + to_scientific(S(sqrt(independence.square_of_sine)), 3) + "; take more digits");
+  }
+
+  /// What is solved for the multipliers has the squares of the gradients, whose digits the range of S must leave whole.
+  void check_range(Index a, const S& square, const S& size) const {
+    if (is_finite(square) && (square == 0) == (size == 0) && (size == 0 || S(square * epsilon<S>()) != 0)) return;
+    throw InputError(where(a) + ": the gradient of " + name(a) + " at the start is of size " + to_scientific(size, 3) +
+                     ", and its square over the masses is beyond the range of this precision; multiply g or the units "
+                     "by a number that brings it closer to 1");
   }
 
   void report(Index a, const std::string& what, const S& residual, const S& tolerance) const {
     if (magnitude(residual) <= tolerance) return;
-    throw InputError(scene_.name + ": the initial " + what + " is not consistent with " + name(a) + ": residual " +
+    throw InputError(where(a) + ": the initial " + what + " is not consistent with " + name(a) + ": residual " +
                      to_scientific(residual, 3) + ", tolerance " + to_scientific(tolerance, 3) +
                      " at this precision; `hbvm scene project` writes the nearest scene that is");
   }
@@ -616,6 +632,7 @@ class Assembler : private FormulaPlaces<S> {
   std::map<std::string, Place> places_;
   std::vector<S> positions_, velocities_, momenta_;
   std::map<std::string, RigidBody> rigid_bodies_;
+  std::vector<std::size_t> lines_;  ///< of the constraints
 };
 
 }  // namespace

@@ -17,7 +17,8 @@ template <Scalar S>
 int HbvmMethod::constraint_nodes(const Problem<S>& problem) const {
   if (name_.r != 0) return name_.r;
   const int d = degree(problem.constraints);
-  return d == Trace<S>::not_polynomial ? std::max(name_.k, name_.s) : (d * name_.s + 1) / 2;
+  if (d == Trace<S>::not_polynomial) return std::max(name_.k, name_.s);
+  return exact_nodes(d, name_.s);
 }
 
 template <Scalar S>

@@ -52,6 +52,23 @@ TEST(HbvmName, LimitsAreInclusive) {
   EXPECT_THROW((HbvmName{3, 3, -3}.check()), InputError);
 }
 
+TEST(ExactNodes, AreHalfOfDegreeTimesS) {
+  EXPECT_EQ(exact_nodes(2, 3), 3);
+  EXPECT_EQ(exact_nodes(0, 3), 3);
+  EXPECT_EQ(exact_nodes(4, 3), 6);
+  EXPECT_EQ(exact_nodes(3, 3), 5);
+  EXPECT_EQ(exact_nodes(2 * max_k, 1), max_k);
+}
+
+TEST(ExactNodes, MoreThanThereMayBeAreRefused) {
+  for (const int degree : {2 * max_k + 1, 2'000'000'000}) try {
+      exact_nodes(degree, 1);
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("degree " + std::to_string(degree)), std::string::npos) << error.what();
+    }
+}
+
 class RefusedMethod : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RefusedMethod, IsAnInputErrorThatQuotesIt) {

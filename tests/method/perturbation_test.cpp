@@ -326,6 +326,15 @@ TYPED_TEST(PerturbationOfCoefficients, NodesAndWeightsOfTheConstraintsLeaveTheRe
   for (const auto& m : {node, weight, integral}) EXPECT_EQ(m.lambda_at_1, this->general.lambda_at_1);
 }
 
+TYPED_TEST(PerturbationOfCoefficients, XIsThatOfA) {
+  using S = TypeParam;
+  const auto m = this->changed(this->general, mistake(Part::X, 1, 0, "1/2"));
+  this->expect_only({"X_s", "A"}, m, this->general);
+  this->expect_follows(m);
+  EXPECT_EQ(m.X_s(1, 0), S(this->general.X_s(1, 0) * 3 / 2));
+  EXPECT_EQ(m.lambda_at_1, this->general.lambda_at_1);
+}
+
 TYPED_TEST(PerturbationOfCoefficients, ThoseOfThePotentialLeaveTheConstraintsAlone) {
   for (const auto& [part, named] :
        {std::pair(Part::node, std::set<std::string>{"c_hat", "P_hat", "I_hat", "projection_hat"}),

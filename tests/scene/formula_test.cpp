@@ -189,12 +189,24 @@ TYPED_TEST(FormulaScene, HasConstraintsThatAreNotQuadratic) {
 }
 
 TEST(FormulaScenes, WithAConstraintThatTheStartMissesAreRefused) {
-  EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 + y^2) - 2").substr(0, 80),
-            "test.toml: the initial position is not consistent with constraint 1 (formula of ");
+  EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 + y^2) - 2").substr(0, 83),
+            "test.toml:28: the initial position is not consistent with constraint 1 (formula of ");
   EXPECT_NE(refused_in_double("x^2 + y^2 - 1", "x^3 - (3/5)^3").find("the initial velocity is not consistent"),
             std::string::npos);
   EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "log(x^2 - 9/25) + y^2 - 1").substr(0, 70),
             "test.toml:28: constraint 1 (formula): 'g', line 31, column 6: logarith");
+}
+
+/// And not at a scale whose squares double holds.
+TEST(FormulaScenes, WithAGradientWhoseSquareIsBeyondTheRangeAreRefused) {
+  for (const std::string g : {"((x^2 + y^2)^2 - 1)*1e", "(x^2 + y^2 - 1)*1e"}) {
+    for (const std::string exponent : {"-200", "200"})
+      EXPECT_NE(refused_in_double("x^2 + y^2 - 1", g + exponent).find("beyond the range of this precision"),
+                std::string::npos)
+          << g << exponent;
+    for (const std::string exponent : {"-100", "100"})
+      EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", g + exponent), "") << g << exponent;
+  }
 }
 
 /// Clairaut's integral is recognised.
