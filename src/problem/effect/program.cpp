@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hbvm/scalar/in_place.hpp"
+#include "hbvm/scalar/sine.hpp"
 
 namespace hbvm {
 
@@ -48,10 +49,10 @@ void apply(Op op, S& r, const S& a) {
         mpfr_sqrt(raw(r), raw(a), MPFR_RNDN);
         break;
       case Op::sin:
-        mpfr_sin(raw(r), raw(a), MPFR_RNDN);
+        set_sin(raw(r), raw(a));
         break;
       case Op::cos:
-        mpfr_cos(raw(r), raw(a), MPFR_RNDN);
+        set_cos(raw(r), raw(a));
         break;
       case Op::exp:
         mpfr_exp(raw(r), raw(a), MPFR_RNDN);
@@ -72,7 +73,7 @@ void apply(Op op, S& r, const S& a) {
         mpfr_atan(raw(r), raw(a), MPFR_RNDN);
         break;
       case Op::sinc:
-        set_ratio(r, a, mpfr_sin);
+        set_ratio(r, a, set_sin);
         break;
       case Op::sinhc:
         set_ratio(r, a, mpfr_sinh);
