@@ -96,7 +96,7 @@ Tics decimal_tics(const AxisRange& range, int most) {
 
 }  // namespace
 
-AxisRange range_of(const std::vector<double>& values) {
+AxisRange range_of(const std::vector<double>& values, AxisScale scale) {
   AxisRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
@@ -106,8 +106,11 @@ AxisRange range_of(const std::vector<double>& values) {
   if (range.from > range.to) return {0, 1};
   // Numbers whose difference a picture cannot show.
   const double least = 1e-9 * std::max(std::abs(range.from), std::abs(range.to));
-  if (range.length() > least) return range;
-  const double middle = range.from + range.length() / 2, half = middle != 0 ? std::abs(middle) / 10 : 1;
+  const double middle = range.from + range.length() / 2;
+  // Of powers at least one must be within, and of those of 10 one, twice or five times it.
+  const double tics = scale == AxisScale::linear ? 0 : scale == AxisScale::decimal ? 0.42 : 1.05;
+  if (range.length() > std::max(least, tics)) return range;
+  const double half = tics > 0 ? tics / 2 : middle != 0 ? std::abs(middle) / 10 : 1;
   return {middle - half, middle + half};
 }
 

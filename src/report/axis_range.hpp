@@ -27,8 +27,9 @@ struct Tics {
   std::string factor;
 };
 
-/// From the least to the greatest of the finite values; of one value, or none, as far about it as can be shown.
-AxisRange range_of(const std::vector<double>& values);
+/// From the least to the greatest of the finite values; of one value, or none, as far about it as can be shown, and on
+/// the axes of powers as far as makes room for a tic with a number.
+AxisRange range_of(const std::vector<double>& values, AxisScale scale = AxisScale::linear);
 
 /// The same with this share of it left free at both ends.
 AxisRange widened(const AxisRange& range, double share);

@@ -25,7 +25,7 @@ PanelPlace ranges_of(const Panel& panel) {
     gather({bar.x - double{1} / 2, bar.from});
     gather({bar.x + double{1} / 2, bar.to});
   }
-  PanelPlace place{0, 0, range_of(x), range_of(y)};
+  PanelPlace place{0, 0, range_of(x, panel.x.scale), range_of(y, panel.y.scale)};
   constexpr double room = 0.04;
   if (panel.equal_axes) {
     const double unit = (1 + 2 * room) * std::max(place.x.length() / box_width, place.y.length() / box_height);
@@ -96,7 +96,7 @@ std::size_t letters(const std::string& text) {
 
 bool has_names(const Panel& panel) {
   constexpr std::size_t most = 24;
-  return panel.curves.size() > 1 && panel.curves.size() <= most;
+  return panel.curves.size() > (panel.labels_beside ? 0 : 1) && panel.curves.size() <= most;
 }
 
 FigureLayout layout_of(const Figure& figure) {

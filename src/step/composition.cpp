@@ -29,6 +29,7 @@ class Composition final : public MethodByTemplate<Composition> {
   Composition(MethodPtr inner, int order) : inner_(std::move(inner)), order_(order) {}
 
   std::string text() const override { return "compose:" + inner_->text() + "," + std::to_string(order_); }
+  std::string title() const override { return inner_->title() + " composed, order " + std::to_string(order_); }
   int order() const override { return order_; }
   int stages() const override { return order_ / 2; }
   int terms() const override {

@@ -34,6 +34,21 @@ TEST(AxisRange, HasALengthAlways) {
   }
 }
 
+/// Wherever the only value of a logarithmic axis lies.
+TEST(AxisRange, OfPowersHasRoomForATicWithANumber) {
+  for (const AxisScale scale : {AxisScale::decimal, AxisScale::falling, AxisScale::binary})
+    for (int hundredth = -350; hundredth <= 350; ++hundredth) {
+      const double at = hundredth / 100.0;
+      const AxisRange range = range_of({at, at + 0.01}, scale);
+      EXPECT_LE(range.from, at);
+      EXPECT_GE(range.to, at + 0.01);
+      const Texts all = texts(tics_of(range, scale, 6));
+      EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const std::string& t) { return !t.empty(); })) << at;
+    }
+  EXPECT_EQ(range_of({1, 4}, AxisScale::decimal).from, 1);
+  EXPECT_EQ(range_of({1, 4}, AxisScale::decimal).to, 4);
+}
+
 TEST(Tics, AreRoundNumbers) {
   EXPECT_EQ(texts(tics_of({0, 20}, AxisScale::linear, 6)), (Texts{"0", "5", "10", "15", "20"}));
   EXPECT_EQ(texts(tics_of({-1.03, 1.05}, AxisScale::linear, 6)), (Texts{"-1.0", "-0.5", "0.0", "0.5", "1.0"}));

@@ -23,9 +23,10 @@ struct Axis {
   std::vector<std::string> names = {};
 };
 
-/// Of curves, one after another: Okabe and Ito's, told apart by all eyes. Black is for what is no curve.
-inline constexpr std::array<std::string_view, 6> curve_colours{"#0072B2", "#D55E00", "#009E73",
-                                                               "#CC79A7", "#E69F00", "#56B4E9"};
+/// Of curves, one after another: Okabe and Ito's, told apart by all eyes, then three that differ from these by how dark
+/// they are. Black is for what is no curve.
+inline constexpr std::array<std::string_view, 9> curve_colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00",
+                                                               "#56B4E9", "#5B2A86", "#7A4A1E", "#7F7F7F"};
 
 using PlotPoint = std::array<double, 2>;
 

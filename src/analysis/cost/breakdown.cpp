@@ -16,7 +16,7 @@ bool holds_any(const std::string& name, std::initializer_list<const char*> words
 }
 
 /// By the names that steppers give their parts.
-Part part_of(const AccountLine& line) {
+Part part_of(const AccountLine& line, bool all_in_double) {
   switch (line.kind) {
     case AccountLine::Kind::effect:
       return forces;
@@ -27,7 +27,8 @@ Part part_of(const AccountLine& line) {
     case AccountLine::Kind::part:
       break;
   }
-  if (holds_any(line.name, {"constraint", "multiplier", "factors", "solution", "tangential"})) return constraints;
+  if (holds_any(line.name, {"LU", "multipliers at the nodes"})) return all_in_double ? in_double : constraints;
+  if (holds_any(line.name, {"constraint", "multiplier", "tangential"})) return constraints;
   if (holds_any(line.name, {"coefficient", "position", "velocit", "momentum", "drift", "stage"})) return products;
   return corrections;
 }
@@ -48,11 +49,11 @@ const CostFinding* bar_of(const CostStudy& study, const CostOutcome& outcome, co
 
 }  // namespace
 
-std::array<double, cost_parts.size()> part_shares(const std::vector<AccountLine>& account) {
+std::array<double, cost_parts.size()> part_shares(const std::vector<AccountLine>& account, bool all_in_double) {
   std::array<double, cost_parts.size()> shares{};
   double all = 0;
   for (const AccountLine& line : account) {
-    shares[part_of(line)] += line.seconds;
+    shares[part_of(line, all_in_double)] += line.seconds;
     all += line.seconds;
   }
   for (double& share : shares) share = all > 0 ? share / all : 0;
@@ -77,7 +78,7 @@ Figure breakdown_figure(const CostStudy& study, const CostOutcome& outcome) {
     panel.x.names.push_back(
         fmt::format("{}\n({})\n{:.2g} ms", precision.name(), f->measured.method.substr(5), milliseconds));
     double below = 0;
-    const auto shares = part_shares(f->measured.account);
+    const auto shares = part_shares(f->measured.account, precision.kind() == Precision::Kind::binary64);
     for (std::size_t part = 0; part < shares.size(); ++part) {
       const double percent = 100 * shares[part];
       panel.bars.push_back({x, below, below + percent, part});

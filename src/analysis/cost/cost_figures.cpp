@@ -97,10 +97,10 @@ void add_methods(Panel& panel, const std::vector<Drawn>& all) {
                    [](const Candidate& a, const Candidate& b) { return a.method->order() < b.method->order(); });
   for (const Candidate& c : chosen) {
     const bool divides = c.method->digits().has_value();
-    const std::string order =
-        c.method->order() > 0 && !divides ? fmt::format(", order {}", c.method->order()) : std::string();
-    panel.curves.push_back(
-        {plain(divides ? family_of(*c.method) : c.method->title()) + order, front_of(c.points), true});
+    std::string label = divides ? family_of(*c.method) : c.method->title();
+    const std::string order = fmt::format(", order {}", c.method->order());
+    if (c.method->order() > 0 && !divides && !label.ends_with(order)) label += order;
+    panel.curves.push_back({plain(label), front_of(c.points), true});
   }
   panel.lines.push_back({front, Polyline::Look::front});
 }
@@ -130,11 +130,11 @@ void add_fronts(Panel& panel, const std::vector<Drawn>& all,
 std::string family_of(const Method& method) {
   if (const HbvmMethod* const hbvm = as_hbvm(method)) {
     const HbvmName& name = hbvm->name();
-    return name.is_auto() ? "HBVM(k,s), k > s" : name.k == name.s ? "HBVM(s,s)" : "HBVM(k,s)";
+    return name.is_auto() ? "HBVM(auto,s)" : name.k == name.s ? "HBVM(s,s)" : "HBVM(k,s)";
   }
-  const std::string title = method.title(), text = method.text();
+  const std::string title = method.title();
   // HBVM that ends its steps otherwise is another.
-  if (title.starts_with("HBVM")) return text.substr(0, text.find(':'));
+  if (title.starts_with("HBVM")) return "HBVM" + title.substr(title.find(')') + 1);
   return title.substr(0, title.find_first_of(":(,"));
 }
 

@@ -27,8 +27,11 @@ TEST(Breakdown, KnowsThePartsOfAStep) {
   Account account;
   simulate<double>(scene, make_hbvm<double>(6, 4), SolverKind::automatic,
                    TimeGrid<double>(Expression::parse("1/16"), Expression::parse("10")), {}, &account);
-  const auto shares = part_shares(account.lines);
-  EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), double{0}), 1, 1e-9);
+  const auto shares = part_shares(account.lines, true), apart = part_shares(account.lines, false);
+  for (const auto& all : {shares, apart}) EXPECT_NEAR(std::accumulate(all.begin(), all.end(), double{0}), 1, 1e-9);
+  EXPECT_GT(shares[4], 0);
+  EXPECT_NEAR(shares[1] + shares[4], apart[1] + apart[4], 1e-9);
+  EXPECT_GT(apart[1], shares[1]);
   EXPECT_GT(shares[1], shares[0]);  // of two rods and gravity
   EXPECT_GT(shares[2], 0);
   EXPECT_LT(shares[3], 0.4);

@@ -45,9 +45,10 @@ Figure breakdown_figure(const CostStudy& study, const CostOutcome& outcome);
 std::vector<Figure> cost_figures(const CostStudy& study, const CostOutcome& outcome);
 
 /// What the time of a step goes into.
-inline constexpr std::array<std::string_view, 6> cost_parts{"forces",      "constraints",    "products",
-                                                            "corrections", "work in double", "rest"};
+inline constexpr std::array<std::string_view, 6> cost_parts{
+    "forces", "constraints", "products", "corrections", "linear algebra, in double", "rest"};
 /// The shares of these in the time of an account, from 0 to 1.
-std::array<double, cost_parts.size()> part_shares(const std::vector<AccountLine>& account);
+/// \param all_in_double whether the run itself is, so that its factors and solutions are the same linear algebra
+std::array<double, cost_parts.size()> part_shares(const std::vector<AccountLine>& account, bool all_in_double);
 
 }  // namespace hbvm
