@@ -127,7 +127,7 @@ std::vector<Precision> default_precisions(double most_digits, const MotionNature
       reached = reachable_digits(result.back(), nature);
     }
   if (result.size() == 1) return result;
-  for (const int digits : {15, 30, 50, 100, 200, 500, 1'000, 2'000, 5'000}) {
+  for (const int digits : {30, 50, 100, 200, 500, 1'000, 2'000, 5'000}) {
     const double wanted = std::min(static_cast<double>(digits), most_digits);
     const auto working = std::max(Precision::min_digits,
                                   static_cast<unsigned>(std::ceil(wanted + nature.digits_lost + 2 * rounding_digits)));
