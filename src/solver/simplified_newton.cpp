@@ -17,6 +17,10 @@ constexpr int slow = 10;
 /// Corrections that are kept: with as many updates the Jacobian is as good as a new one if updates make it so.
 constexpr std::size_t most_kept = 16;
 
+/// Jacobians that cost as much as so many sweeps are cheap: where errors of the solution add up over steps, and where
+/// it is a start that is corrected anyway.
+constexpr double cheap = 16, cheap_for_a_start = 8;
+
 /// Of each coordinate.
 template <Scalar S>
 std::vector<Index> bodies_of(const Problem<S>& problem) {
@@ -73,7 +77,8 @@ SimplifiedNewton<S>::SimplifiedNewton(const Problem<S>& problem, const Hbvm<S>& 
   sweeps_an_evaluation_ = static_cast<double>(jacobian_.evaluation_cost()) /
                           static_cast<double>(equations_count_.per_call.total() + jacobian_.solution_cost());
   // A cheap Jacobian is evaluated anew instead.
-  if (sweeps_an_evaluation_ > most_kept) {
+  const bool for_more_digits = wanted_ == Wanted::start;
+  if (sweeps_an_evaluation_ > (for_more_digits ? cheap_for_a_start : cheap)) {
     kept_.assign(most_kept, residual_);
     squares_.assign(most_kept, S(0));
   }

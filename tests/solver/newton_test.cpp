@@ -82,8 +82,19 @@ TEST(Newton, TakesNoSmallIncrementForASolution) {
   }
 }
 
-/// Each sweep wins some fourteen digits: the number of sweeps grows by one or two for 25 digits more, and is far below
-/// the fixed point's.
+const PartCount& part_named(const SolverCounts& counts, const std::string& name) {
+  const auto found =
+      std::find_if(counts.parts.begin(), counts.parts.end(), [&](const PartCount& part) { return part.name == name; });
+  if (found == counts.parts.end()) throw std::out_of_range("no part " + name);
+  return *found;
+}
+
+long sweeps_in_double(const HbvmStepper<Mpfr>& stepper) {
+  return static_cast<long>(part_named(stepper.counts(), "stage equations").calls);
+}
+
+/// Each sweep wins some fourteen digits: the number of those in many digits grows by one or two for 25 digits more, and
+/// with those in double it is far below the fixed point's.
 TEST(Newton, WinsFourteenDigitsASweep) {
   long last = 0;
   for (const unsigned digits : {25U, 50U, 75U, 100U, 200U}) {
@@ -96,12 +107,14 @@ TEST(Newton, WinsFourteenDigitsASweep) {
     State<Mpfr> state(scene.q0, scene.p0), other = state;
     newton.step(state, h);
     papers.step(other, h);
-    const long sweeps = newton.step(state, h), papers_sweeps = papers.step(other, h);
+    const long in_double = sweeps_in_double(newton);
+    const long all = newton.step(state, h), papers_sweeps = papers.step(other, h);
+    const long sweeps = all - (sweeps_in_double(newton) - in_double);
     if (digits == 100) {
-      EXPECT_LE(sweeps, 16);
+      EXPECT_LE(all, 17);
       EXPECT_GE(papers_sweeps, 50);
     }
-    EXPECT_LE(sweeps, last == 0 ? 12 : last + (digits == 200 ? 8 : 3)) << digits;
+    EXPECT_LE(sweeps, last == 0 ? 2 : last + (digits == 200 ? 8 : 2)) << digits;
     last = sweeps;
     EXPECT_LE(max_norm(Vector<Mpfr>(state.q - other.q)), 10'000 * epsilon<Mpfr>());
     EXPECT_LE(max_norm(Vector<Mpfr>(state.p - other.p)), 10'000 * epsilon<Mpfr>());
@@ -117,11 +130,7 @@ TEST(Newton, CountsWhatItDid) {
   const auto solver = make_solver(SolverKind::newton, scene.problem, method);
   const auto sweeps = static_cast<std::uint64_t>(solver->solve({scene.q0, scene.p0, Mpfr(Mpfr(1) / 50)}));
   const SolverCounts counts = solver->counts();
-  const auto part = [&](const std::string& name) {
-    for (const PartCount& candidate : counts.parts)
-      if (candidate.name == name) return candidate;
-    return PartCount{"absent"};
-  };
+  const auto part = [&](const std::string& name) { return part_named(counts, name); };
   EXPECT_EQ(counts.effects.at(0).evaluations, 5 * (sweeps - part("stage equations").calls));
   EXPECT_LT(part("stage equations").calls, sweeps);
   for (const char* name : {"stage equations", "matrix of the Jacobian", "factors of the Jacobian", "corrections"})

@@ -15,11 +15,12 @@ namespace hbvm {
 /// double cannot hold the problem or its condition.
 ///
 /// A Jacobian is kept, also from step to step, while the increments fall by `slow` or more a sweep. If it costs as much
-/// as 16 sweeps and more (for 24 stages it may be sixty, for 3 seven), it is kept while they fall so fast that those
-/// left cost less than a new one. Then between two evaluations each correction adds what it shows of the Jacobian by an
-/// update of rank one (Broyden's good one, in the form of corrections: Kelley, Iterative Methods for Linear and
-/// Nonlinear Equations, 1995, section 7.3). Where increments grow although the Jacobian is that of the last iterate,
-/// the iterate was a step too far: it is taken back and made by half (Deuflhard's natural monotonicity).
+/// as 16 sweeps and more (for 24 stages it may be sixty, for 3 seven; 8 if the solution is a start for more digits,
+/// which correct it anyway), it is kept while they fall so fast that those left cost less than a new one. Then between
+/// two evaluations each correction adds what it shows of the Jacobian by an update of rank one (Broyden's good one, in
+/// the form of corrections: Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, section 7.3). Where
+/// increments grow although the Jacobian is that of the last iterate, the iterate was a step too far: it is taken back
+/// and made by half (Deuflhard's natural monotonicity).
 ///
 /// The iteration starts from the extrapolation of the last steps' solutions, or from the polynomials of the last one,
 /// which are nearer at many stages, or if that leads nowhere (and in the first
