@@ -34,7 +34,13 @@ need_packages() {
   $sudo apt-get update -qq
   # --no-remove: Boost 1.81 and the distribution's 1.74 exclude each other, and no other package may swap them.
   $sudo env DEBIAN_FRONTEND=noninteractive DEBCONF_NOWARNINGS=yes apt-get install -y --no-remove --no-install-recommends $missing |
-    show_installing
+    show_installing || {
+    local removed
+    removed=$(apt-get install -s --no-install-recommends $missing | awk '/^Remv / { printf " %s", $2 }')
+    [ -z "$removed" ] || echo "These exclude packages of this machine, which stay until you remove them:" \
+      "${sudo:+$sudo }apt-get remove$removed" >&2
+    return 1
+  }
 }
 
 # build PRESET [CMAKE OPTION ...]
