@@ -36,17 +36,24 @@ std::vector<CostCell> step_time_cells(const CostStudy& study, const MotionNature
 }
 
 std::string measure_step_time(const CostStudy& study, const CostCell& cell) {
-  constexpr int repetitions = 5;
+  constexpr int repetitions = 5, most_halvings = 8;
   constexpr long most = 400;
   constexpr double enough = double{1} / 20;
-  std::vector<double> seconds;
-  CostSample sample;
-  for (int n = 0; n < repetitions; ++n) {
-    sample = sample_cost(study.scene, study.until, cell, most, enough);
-    if (!sample.failure.empty()) return dumped({{"failure", sample.failure}}, -1);
+  CostCell tried = cell;
+  CostSample sample = sample_cost(study.scene, study.until, tried, most, enough);
+  // Not every method can make a step of this length.
+  for (int n = 0; n < most_halvings && !sample.failure.empty(); ++n) {
+    tried.steps *= 2;
+    sample = sample_cost(study.scene, study.until, tried, most, enough);
+  }
+  std::vector<double> seconds{sample.seconds};
+  for (int n = 1; n < repetitions && sample.failure.empty(); ++n) {
+    sample = sample_cost(study.scene, study.until, tried, most, enough);
     seconds.push_back(sample.seconds);
   }
+  if (!sample.failure.empty()) return dumped({{"failure", sample.failure}}, -1);
   return dumped({{"failure", ""},
+                 {"steps", tried.steps},
                  {"seconds", *std::min_element(seconds.begin(), seconds.end())},
                  {"operations", sample.operations}},
                 -1);
@@ -56,6 +63,7 @@ StepTime read_step_time(const CostCell& cell, const std::string& text) {
   return read_json(text, "the time of a step", [&](const OrderedJson& json) {
     StepTime time{cell, json.at("failure")};
     if (!time.failure.empty()) return time;
+    time.cell.steps = json.at("steps");
     time.seconds = json.at("seconds");
     time.operations = json.at("operations");
     return time;
@@ -79,7 +87,9 @@ Figure step_time_figure(const CostStudy& study, const std::vector<StepTime>& tim
   Figure figure;
   figure.name = "step_time";
   figure.caption = plain(study.scene.name) + ": what a step costs in each precision";
-  figure.footnote = cost_footnote(study) + "; steps of a quarter of the radius of convergence, to round-off";
+  figure.footnote =
+      cost_footnote(study) +
+      "; steps of a quarter of the radius of convergence, or half as long until the method can make them, to round-off";
   Panel digits;
   digits.title = "Lines: MPFR; circles: double and quad";
   digits.x = {"working digits", AxisScale::decimal};

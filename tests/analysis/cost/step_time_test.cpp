@@ -43,6 +43,17 @@ TEST(StepTime, GrowsWithStagesAndDigits) {
   EXPECT_GT(seconds("hbvm:16,16", "mpfr:100"), seconds("hbvm:4,4", "mpfr:100"));
 }
 
+/// RATTLE has no step of 2 for the conical pendulum.
+TEST(StepTime, IsThatOfAStepWhichTheMethodCanMake) {
+  const CostStudy study{load_scene("conical_pendulum"), Expression::parse("10")};
+  const CostCell cell{parse_method("rattle"), Precision::parse("double"), 5};
+  const StepTime time = read_step_time(cell, measure_step_time(study, cell));
+  EXPECT_EQ(time.failure, "");
+  EXPECT_GT(time.seconds, 0);
+  EXPECT_GE(time.cell.steps, 10);
+  EXPECT_LE(time.cell.steps, 40);
+}
+
 TEST(StepTime, IsDrawnAgainstTheDigits) {
   CostStudy study = study_of_steps();
   std::vector<StepTime> times;
@@ -65,7 +76,10 @@ TEST(StepTime, IsDrawnAgainstTheDigits) {
 TEST(StepTime, IsReadFromItsOwnResultsAlone) {
   const CostCell cell{parse_method("rattle"), Precision::parse("double"), 1};
   EXPECT_EQ(read_step_time(cell, R"({"failure": "why"})").failure, "why");
+  const StepTime time = read_step_time(cell, R"({"failure": "", "steps": 4, "seconds": 2, "operations": 1})");
+  EXPECT_EQ(time.cell.steps, 4);
   EXPECT_THROW(read_step_time(cell, "{}"), InputError);
+  EXPECT_THROW(read_step_time(cell, R"({"failure": "", "seconds": 2, "operations": 1})"), InputError);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace hbvm {
 
 /// What a step of one size costs in a precision.
 struct StepTime {
-  CostCell cell;
+  CostCell cell;  ///< with as many steps as the method needed to make them
   std::string failure = {};
   double seconds = 0;     ///< of the processor, a step
   double operations = 0;  ///< a step, in the working precision
@@ -22,7 +22,8 @@ struct StepTime {
 /// digits.
 std::vector<CostCell> step_time_cells(const CostStudy& study, const MotionNature& nature);
 
-/// The least of a few times of some steps, as JSON, and back. \throws InputError if it is none
+/// The least of a few times of some steps, half as long again and again where the method fails, as JSON, and back.
+/// \throws InputError if it is none
 std::string measure_step_time(const CostStudy& study, const CostCell& cell);
 StepTime read_step_time(const CostCell& cell, const std::string& text);
 
