@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/scalar/in_place.hpp"
 #include "linear/dense_lu.hpp"
 
@@ -62,8 +63,33 @@ bool Lu<S>::factor() {
   return true;
 }
 
+namespace {
+
+/// Lu::solve() of a full matrix.
+template <Index n>
+void solve_few(const double* a, const Index* pivots, double* x) {
+  for (Index k = 0; k < n; ++k) {
+    std::swap(x[k], x[pivots[k]]);
+    for (Index i = k + 1; i < n; ++i) x[i] -= a[i + k * n] * x[k];
+  }
+  for (Index k = n - 1; k >= 0; --k) {
+    x[k] /= a[k + k * n];
+    for (Index i = 0; i < k; ++i) x[i] -= a[i + k * n] * x[k];
+  }
+}
+
+}  // namespace
+
 template <Scalar S>
 void Lu<S>::solve(S* x) {
+  if constexpr (std::same_as<S, double>)
+    if (stride_ == n_) {  // full
+      const bool few = with_constant_count<S>(n_, [&]<class Count>(Count) {
+        if constexpr (is_constant_count<Count>) solve_few<Count::value>(data_.data(), pivots_.data(), x);
+        return is_constant_count<Count>;
+      });
+      if (few) return;
+    }
   S& t = scratch<S>();
   const auto exchange = [&](Index k) {
     using std::swap;

@@ -9,24 +9,6 @@
 namespace hbvm {
 
 template <Scalar S>
-ConstraintGradient<S>::Pattern::Pattern(Index first_column, std::vector<Index> ascending)
-    : first(first_column), coordinates(std::move(ascending)) {
-  for (const Index coordinate : coordinates) {
-    if (!runs.empty() && coordinate == runs.back().coordinate + runs.back().count)
-      ++runs.back().count;
-    else
-      runs.push_back({coordinate, 1});
-  }
-}
-
-template <Scalar S>
-Index ConstraintGradient<S>::Coupling::terms() const {
-  Index sum = 0;
-  for (const Run& run : runs) sum += run.count;
-  return sum;
-}
-
-template <Scalar S>
 Index ConstraintGradient<S>::Pattern::column(Index coordinate) const {
   const auto found = std::lower_bound(coordinates.begin(), coordinates.end(), coordinate);
   return first + static_cast<Index>(found - coordinates.begin());
@@ -37,7 +19,8 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
     : problem_(problem), lanes_(lanes), x_(lanes, problem.dimension), y_(lanes, problem.dimension) {
   Index columns = 0, weighted_columns = 0;
   for (const Constraint<S>& constraint : problem.constraints) {
-    patterns_.emplace_back(columns, coordinates(constraint, problem.dimension));
+    const auto a = static_cast<Index>(patterns_.size());
+    patterns_.push_back({columns, coordinates(constraint, problem.dimension)});
     const std::vector<Index>& own = patterns_.back().coordinates;
     columns += static_cast<Index>(own.size());
     // M^-1 spreads a gradient over the whole of each full block that it touches.
@@ -47,13 +30,21 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
       if (!block.full || touched == reached.end() || *touched >= block.offset + block.size) continue;
       for (Index j = 0; j < block.size; ++j) reached.insert(block.offset + j);
     }
-    weighted_patterns_.emplace_back(weighted_columns, std::vector<Index>(reached.begin(), reached.end()));
+    weighted_patterns_.push_back({weighted_columns, std::vector<Index>(reached.begin(), reached.end())});
+    for (const Index coordinate : reached)
+      weighted_places_.push_back({static_cast<Index>(weighted_places_.size()), a, coordinate, none});
     weighted_columns += static_cast<Index>(reached.size());
     std::visit(
         [&]<class Form>(const Form& form) {
           gradients_.emplace_back(std::in_place_type<typename Form::Gradient>, form, problem.dimension, own);
+          if constexpr (requires(const typename Form::Gradient& gradient) { gradient.is_opposite(); })
+            patterns_.back().opposite = std::get<typename Form::Gradient>(gradients_.back()).is_opposite();
         },
         constraint.form);
+    const auto size = static_cast<Index>(own.size()), halves = patterns_.back().opposite ? size / 2 : size;
+    for (Index c = 0; c < halves; ++c)
+      places_.push_back({patterns_.back().first + c, a, own[static_cast<std::size_t>(c)],
+                         halves < size ? own[static_cast<std::size_t>(c + halves)] : none});
     prepare_weighing(patterns_.back(), weighted_patterns_.back());
   }
   values_ = Matrix<S>::Zero(lanes, columns);
@@ -67,14 +58,9 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
         if (!std::binary_search(weighted_patterns_[b].coordinates.begin(), weighted_patterns_[b].coordinates.end(),
                                 coordinate))
           continue;
-        const Index left = patterns_[a].column(coordinate), right = weighted_patterns_[b].column(coordinate);
-        if (!pair.runs.empty() && left == pair.runs.back().left + pair.runs.back().count &&
-            right == pair.runs.back().right + pair.runs.back().count)
-          ++pair.runs.back().count;
-        else
-          pair.runs.push_back({left, right, 1});
+        pair.terms.push_back({patterns_[a].column(coordinate), weighted_patterns_[b].column(coordinate)});
       }
-      if (!pair.runs.empty()) couplings_.push_back(std::move(pair));
+      if (!pair.terms.empty()) couplings_.push_back(std::move(pair));
     }
   }
 }
@@ -86,21 +72,32 @@ void ConstraintGradient<S>::prepare_weighing(const Pattern& from, const Pattern&
     const auto last = std::lower_bound(first, from.coordinates.end(), block.offset + block.size);
     if (!block.full) {
       if (first != last)
-        weighings_.push_back({to.column(*first), from.column(*first), last - first, true,
-                              block.mass == 1 ? nullptr : &block.inverse_mass});
+        add_weighing({to.column(*first), from.column(*first), last - first, true,
+                      block.mass == 1 ? nullptr : &block.inverse_mass});
       continue;
     }
     for (Index j = 0; first != last && j < block.size; ++j)
       for (auto l = first; l != last; ++l)
-        weighings_.push_back(
-            {to.column(block.offset + j), from.column(*l), 1, l == first, &block.W(j, *l - block.offset)});
+        add_weighing({to.column(block.offset + j), from.column(*l), 1, l == first, &block.W(j, *l - block.offset)});
   }
+}
+
+template <Scalar S>
+void ConstraintGradient<S>::add_weighing(const Weighing& next) {
+  if (!weighings_.empty()) {
+    Weighing& last = weighings_.back();
+    const bool same = last.factor == next.factor || (last.factor && next.factor && *last.factor == *next.factor);
+    if (same && last.first && next.first && last.to + last.count == next.to && last.from + last.count == next.from) {
+      last.count += next.count;
+      return;
+    }
+  }
+  weighings_.push_back(next);
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::update(Lanes<const S> q) {
   update_all(q, nullptr);
-  weigh();
 }
 
 template <Scalar S>
@@ -116,6 +113,7 @@ GradientTarget<S, Count> ConstraintGradient<S>::target(std::size_t a, S* g, Coun
 
 template <Scalar S>
 void ConstraintGradient<S>::update_all(Lanes<const S> q, Matrix<S>* g) {
+  weighed_ = false;
   with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
     for (std::size_t a = 0; a < patterns_.size(); ++a) {
       const GradientTarget<S, Count> to = target(a, g ? g->data() + static_cast<Index>(a) * lanes : nullptr, lanes);
@@ -129,10 +127,11 @@ void ConstraintGradient<S>::update_all(Lanes<const S> q, Matrix<S>* g) {
 }
 
 template <Scalar S>
-void ConstraintGradient<S>::weigh() {
+void ConstraintGradient<S>::weigh() const {
+  weighed_ = true;
   for (const Weighing& w : weighings_) {
-    S* const out = weighted_.data() + w.to * lanes_;
-    const S* const in = values_.data() + w.from * lanes_;
+    S* __restrict const out = weighted_.data() + w.to * lanes_;
+    const S* __restrict const in = values_.data() + w.from * lanes_;
     const Index size = w.count * lanes_;
     if (w.factor == nullptr)
       for (Index i = 0; i < size; ++i) set(out[i], in[i]);
@@ -146,106 +145,131 @@ void ConstraintGradient<S>::weigh() {
 template <Scalar S>
 OperationCounts ConstraintGradient<S>::operations() const {
   OperationCounts counts;
-  for (std::size_t a = 0; a < patterns_.size(); ++a) {
-    counts += std::visit([](const auto& gradient) { return gradient.operations(); }, gradients_[a]);
+  for (const auto& own : gradients_) counts += std::visit([](const auto& form) { return form.operations(); }, own);
+  return static_cast<std::uint64_t>(lanes_) * counts;
+}
+
+template <Scalar S>
+OperationCounts ConstraintGradient<S>::weighing_operations() const {
+  OperationCounts counts;
+  for (const Pattern& pattern : patterns_)
     for (const auto& block : problem_.mass.blocks()) {
       Index touched = 0;
-      for (const Index coordinate : patterns_[a].coordinates)
+      for (const Index coordinate : pattern.coordinates)
         touched += coordinate >= block.offset && coordinate < block.offset + block.size;
       if (block.full)
         counts.add_products(touched * block.size);
       else if (block.mass != 1)
         counts.add(Op::multiply, touched);
     }
-  }
   return static_cast<std::uint64_t>(lanes_) * counts;
+}
+
+template <Scalar S>
+OperationCounts ConstraintGradient<S>::transposed_operations(Index a) const {
+  const Pattern& own = pattern(a);
+  const auto size = static_cast<Index>(own.coordinates.size());
+  OperationCounts counts;
+  counts.add_dots(lanes_, own.opposite ? size / 2 : size);
+  if (own.opposite) counts.add(Op::subtract, lanes_ * (size / 2));
+  return counts;
+}
+
+template <Scalar S>
+OperationCounts ConstraintGradient<S>::times_operations() const {
+  OperationCounts counts;
+  for (const Place& place : places_) {
+    counts.add_products(lanes_);
+    if (place.opposite != none) counts.add(Op::subtract, lanes_);
+  }
+  return counts;
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::transposed_times(Index a, Lanes<const S> v, S* result) {
   const Pattern& pattern = patterns_[static_cast<std::size_t>(a)];
   with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
+    const std::size_t size = pattern.coordinates.size(), halves = pattern.opposite ? size / 2 : size;
     const S* column = values_.data() + pattern.first * lanes;
-    if constexpr (is_constant_count<Count>) {
-      S sums[Count::value] = {};
-      for (const auto& run : pattern.runs) {
-        const S* in = v[run.coordinate];
-        for (Index c = 0; c < run.count; ++c, column += lanes, in += lanes)
-          for (Index i = 0; i < lanes; ++i) sums[i] += column[i] * in[i];
-      }
-      for (Index i = 0; i < lanes; ++i) result[i] = sums[i];
-      return;
-    }
-    bool first = true;
-    for (const auto& run : pattern.runs) {
-      const S* in = v[run.coordinate];
-      for (Index c = 0; c < run.count; ++c, column += lanes, in += lanes) {
-        if (first)
-          for (Index i = 0; i < lanes; ++i) set_product(result[i], column[i], in[i]);
+    HeldScratch<S> t = t_, difference = u_;
+    for (std::size_t c = 0; c < halves; ++c, column += lanes) {
+      const S* const in = v.data + pattern.coordinates[c] * lanes;
+      const S* const opposite = halves < size ? v.data + pattern.coordinates[c + halves] * lanes : nullptr;
+      for (Index i = 0; i < lanes; ++i) {
+        if (opposite) set_difference(difference, in[i], opposite[i]);
+        if (c == 0)
+          set_product(result[i], column[i], opposite ? difference : in[i]);
         else
-          for (Index i = 0; i < lanes; ++i) add_product(result[i], column[i], in[i], t_);
-        first = false;
+          add_product(result[i], column[i], opposite ? difference : in[i], t);
       }
     }
   });
 }
 
 template <Scalar S>
-void ConstraintGradient<S>::add_times(const std::vector<Pattern>& patterns, const Matrix<S>& values,
-                                      const Matrix<S>& lambda, Lanes<S> out, S& t) {
+void ConstraintGradient<S>::add_times(const std::vector<Place>& places, const Matrix<S>& values,
+                                      const Matrix<S>& lambda, Lanes<S> out, S& scratch) {
   with_constant_count<S>(values.rows(), [&](auto lanes) {
-    const S* column = values.data();
-    const S* multiplier = lambda.data();
-    for (const Pattern& pattern : patterns) {
-      for (const auto& run : pattern.runs) {
-        S* sum = out[run.coordinate];
-        for (Index c = 0; c < run.count; ++c, column += lanes, sum += lanes)
-          for (Index i = 0; i < lanes; ++i) add_product(sum[i], column[i], multiplier[i], t);
+    HeldScratch<S> t = scratch;
+    const S* const columns = values.data();
+    const S* const multipliers = lambda.data();
+    S* const sums = out.data;
+    for (const Place& place : places) {
+      const S* const column = columns + place.column * lanes;
+      const S* const multiplier = multipliers + place.constraint * lanes;
+      S* const sum = sums + place.coordinate * lanes;
+      if (place.opposite == none) {
+        for (Index i = 0; i < lanes; ++i) add_product(sum[i], column[i], multiplier[i], t);
+        continue;
       }
-      multiplier += lanes;
+      S* const opposite = sums + place.opposite * lanes;
+      for (Index i = 0; i < lanes; ++i) {
+        set_product(t, column[i], multiplier[i]);
+        set_sum(sum[i], sum[i], t);
+        set_difference(opposite[i], opposite[i], t);
+      }
     }
   });
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::add_times(const Matrix<S>& lambda, Lanes<S> out) {
-  add_times(patterns_, values_, lambda, out, t_);
+  add_times(places_, values_, lambda, out, t_);
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::add_weighted_times(const Matrix<S>& lambda, Lanes<S> out) {
-  add_times(weighted_patterns_, weighted_, lambda, out, t_);
+  add_times(weighted_places_, weighted_values(), lambda, out, t_);
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::coupling(const Coupling& pair, const ConstraintGradient& right, S* result) {
   with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
+    const S* const columns = values_.data();
+    const S* const right_columns = right.weighted_values().data();
     if constexpr (is_constant_count<Count>) {
       S sums[Count::value * Count::value] = {};
-      for (const auto& run : pair.runs) {
-        const S* x = values_.data() + run.left * lanes;
-        const S* y = right.weighted_.data() + run.right * lanes;
-        for (Index c = 0; c < run.count; ++c, x += lanes, y += lanes)
-          for (Index j = 0; j < lanes; ++j)
-            for (Index i = 0; i < lanes; ++i) sums[i + j * lanes] += x[i] * y[j];
+      for (const auto& term : pair.terms) {
+        const S* const x = columns + term.left * lanes;
+        const S* const y = right_columns + term.right * lanes;
+        for (Index j = 0; j < lanes; ++j)
+          for (Index i = 0; i < lanes; ++i) sums[i + j * lanes] += x[i] * y[j];
       }
       for (Index i = 0; i < lanes * lanes; ++i) result[i] = sums[i];
       return;
     }
     bool first = true;
-    for (const auto& run : pair.runs) {
-      const S* x = values_.data() + run.left * lanes;
-      const S* y = right.weighted_.data() + run.right * lanes;
-      for (Index c = 0; c < run.count; ++c, x += lanes, y += lanes) {
-        S* out = result;
-        for (Index j = 0; j < lanes; ++j, out += lanes) {
-          if (first)
-            for (Index i = 0; i < lanes; ++i) set_product(out[i], x[i], y[j]);
-          else
-            for (Index i = 0; i < lanes; ++i) add_product(out[i], x[i], y[j], t_);
-        }
-        first = false;
+    for (const auto& term : pair.terms) {
+      const S* const x = columns + term.left * lanes;
+      const S* const y = right_columns + term.right * lanes;
+      S* out = result;
+      for (Index j = 0; j < lanes; ++j, out += lanes) {
+        if (first)
+          for (Index i = 0; i < lanes; ++i) set_product(out[i], x[i], y[j]);
+        else
+          for (Index i = 0; i < lanes; ++i) add_product(out[i], x[i], y[j], t_);
       }
+      first = false;
     }
   });
 }

@@ -51,6 +51,10 @@ template <Scalar S>
 void MassMatrix<S>::add_scalar(Index size, const S& mass) {
   if (!(mass > 0)) throw InputError("a mass must be positive");
   blocks_.push_back({m_, size, false, mass, S(1 / mass), {}, {}});
+  if (!spans_.empty() && spans_.back().offset + spans_.back().size == m_ && spans_.back().mass == mass)
+    spans_.back().size += size;
+  else
+    spans_.push_back({m_, size, mass, blocks_.back().inverse_mass});
   m_ += size;
 }
 
@@ -59,25 +63,29 @@ void MassMatrix<S>::add_full(const Matrix<S>& M) {
   for (Index j = 0; j < M.cols(); ++j)
     for (Index i = 0; i < j; ++i)
       if (M(i, j) != M(j, i)) throw InputError("the mass matrix is not symmetric");
+  full_.push_back(blocks_.size());
   blocks_.push_back({m_, M.rows(), true, S(0), S(0), M, inverse(M)});
   m_ += M.rows();
 }
 
 template <Scalar S>
 void MassMatrix<S>::velocity(Lanes<const S> p, Lanes<S> v) const {
-  for (const Block& block : blocks_) {
+  for (const Span& span : spans_) {
+    S* __restrict const out = v[span.offset];
+    const S* __restrict const in = p[span.offset];
+    const Index size = span.size * p.count;
+    if (span.mass == 1)
+      for (Index i = 0; i < size; ++i) set(out[i], in[i]);
+    else
+      for (Index i = 0; i < size; ++i) set_product(out[i], span.inverse_mass, in[i]);
+  }
+  for (const std::size_t b : full_) {
+    const Block& block = blocks_[b];
     S* const out = v[block.offset];
     const S* const in = p[block.offset];
-    const Index size = block.size * p.count;
-    if (block.full) {
-      for (Index j = 0; j < block.size; ++j)
-        for (Index i = 0; i < p.count; ++i)
-          set_dot(out[j * p.count + i], &block.W(0, j), 1, in + i, p.count, block.size);  // W is symmetric
-    } else if (block.mass == 1) {
-      for (Index i = 0; i < size; ++i) set(out[i], in[i]);
-    } else {
-      for (Index i = 0; i < size; ++i) set_product(out[i], block.inverse_mass, in[i]);
-    }
+    for (Index j = 0; j < block.size; ++j)
+      for (Index i = 0; i < p.count; ++i)
+        set_dot(out[j * p.count + i], &block.W(0, j), 1, in + i, p.count, block.size);  // W is symmetric
   }
 }
 

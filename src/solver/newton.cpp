@@ -43,8 +43,13 @@ void set_exactly(S& x, double y) {
     x = S(y);
 }
 
-/// Bits that one sweep with a Jacobian in double can win.
+/// Bits that one sweep with a Jacobian in double wins at most, and no fall by more is taken for a rate.
 constexpr long bits_per_sweep = 50;
+/// Bits that a residual has beyond what its correction can win: positions, whose rounding is in it, may be larger than
+/// the displacements of a step.
+constexpr long bits_beside = 10;
+/// Right bits of the solution in double.
+constexpr long bits_of_start = 48;
 
 }  // namespace
 
@@ -65,7 +70,7 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method)
       change_(problem.m()),
       position_scale_(problem),
       positions_(problem.m()),
-      rule_(problem.m(), roundings_of_a_sweep(problem, method), static_cast<int>(bits_per_sweep - 10)) {
+      rule_(problem.m(), roundings_of_a_sweep(problem, method), static_cast<int>(bits_per_sweep)) {
   if constexpr (std::same_as<S, double>) {
     rounded_.emplace(problem, method);
     return;
@@ -125,12 +130,10 @@ long Newton<S>::solve(const StepStart<S>& start) {
       }
       try {
         sweeps = rounded_->solve({rounded_q0_, rounded_p0_, approximately(h_)});
-        if (rounded_->refresh()) {
-          const auto [corrections, fell] = refine(start);
-          sweeps += corrections;
-          if (fell) return sweeps;
-          failed_in_double_ = true;
-        }
+        const auto [corrections, fell] = refine(start);
+        sweeps += corrections;
+        if (fell) return sweeps;
+        failed_in_double_ = corrections > 0;
       } catch (const StageFailure& failure) {
         sweeps += failure.sweeps();
       }
@@ -179,7 +182,7 @@ void Newton<S>::take_residual(const StageResidual<S>& r, long& exponent) {
 }
 
 template <Scalar S>
-bool Newton<S>::residual(long bits, long& exponent) {
+typename Newton<S>::Evaluated Newton<S>::evaluate(long bits) {
   for (Rung& rung : rungs_) {
     if (rung.bits < bits) continue;
     const PrecisionScope scope(rung.digits);
@@ -191,12 +194,10 @@ bool Newton<S>::residual(long bits, long& exponent) {
     set(level.x.gamma, x_.gamma);
     set(level.x.lambda, x_.lambda);
     level.equations.residual(level.x, level.r);
-    take_residual(level.r, exponent);
-    return false;
+    return {level.equations, level.r};
   }
   equations_->residual(x_, r_);
-  take_residual(r_, exponent);
-  return true;
+  return {*equations_, r_};
 }
 
 template <Scalar S>
@@ -213,17 +214,26 @@ std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
   rule_.start(from.p, positions_);
   rule_.expect_rate(rate_);
   rule_.show_terms(x_.psi, &h_);
-  long left = -bits_per_sweep;
+  long left = -bits_of_start;
   int slow = 0;
   for (long sweeps = 1;; ++sweeps) {
     long exponent = 0;
-    const bool full = residual(-left + bits_per_sweep + 2, exponent);
+    const Evaluated evaluated = evaluate(-left + bits_per_sweep + bits_beside);
+    const bool full = &evaluated.residual == &r_;
+    // Displacements of bodies far from the origin have few digits in double: those just evaluated have all.
+    if (sweeps == 1 && !rounded_->refresh(evaluated.equations)) return {0, false};
+    take_residual(evaluated.residual, exponent);
     rounded_->jacobian().solve_scaled(correction_);
     const PartCall counted(update_count_, timed_);
-    for (Index i = 0; i < x_.gamma.size(); ++i) {
-      set_scaled(t_, -correction_.momentum.data()[i], exponent);
-      rule_.show_change(i / method_.s, t_);
-      set_sum(x_.gamma.data()[i], x_.gamma.data()[i], t_);
+    for (Index j = 0; j < x_.gamma.cols(); ++j) {
+      double largest = 0;
+      for (Index i = 0; i < method_.s; ++i) {
+        raise_magnitude(largest, correction_.momentum(i, j));
+        set_scaled(t_, -correction_.momentum(i, j), exponent);
+        set_sum(x_.gamma(i, j), x_.gamma(i, j), t_);
+      }
+      set_scaled(t_, largest, exponent);
+      rule_.show_change(j, t_);
     }
     for (Index i = 0; i < x_.lambda.size(); ++i) {
       set_scaled(t_, -correction_.constraint.data()[i] / h, exponent);

@@ -539,12 +539,6 @@ long SimplifiedNewton<S>::iterate() {
 }
 
 template <Scalar S>
-bool SimplifiedNewton<S>::refresh() {
-  usable_ = jacobian_.factor(equations_, x_.lambda);
-  return usable_;
-}
-
-template <Scalar S>
 void SimplifiedNewton<S>::add_change_of_momentum(const Matrix<S>& momentum, const Matrix<S>& correction,
                                                  Vector<S>& change) const {
   S t;

@@ -102,14 +102,15 @@ void StageEquations<S>::describe_parts() {
   parts_[projection].per_call += exact_sum;
   parts_[gradients].per_call = gradient_.operations();
   for (const auto& pair : gradient_.couplings()) {
-    parts_[matrix].per_call.add_dots(r * r, pair.terms());
+    parts_[matrix].per_call.add_dots(r * r, pair.products());
     parts_[matrix].per_call.add(Op::multiply, r * r);
     if (coefficients) parts_[matrix].per_call.add_dots((r + s) * s, r);
   }
+  parts_[matrix].per_call += gradient_.weighing_operations();
   parts_[factors].per_call = system_.factor_operations();  // none of a single multiplier at a single stage
   parts_[solution].per_call = system_.solve_operations();
   parts_[solution].per_call.add(Op::add, s * nu);
-  parts_[zetas].per_call.add_products(r * gradient_.stored());
+  parts_[zetas].per_call += gradient_.times_operations();
   if (coefficients) parts_[zetas].per_call += P_.operations(nu);
   parts_[zetas].per_call += projection_.operations(m);
   OperationCounts& gamma = parts_[gammas].per_call;
@@ -122,7 +123,7 @@ void StageEquations<S>::describe_parts() {
   gamma.add(Op::multiply, pulled);
   gamma.add(Op::add, 4 * pulled);
   OperationCounts hidden = P_.operations(m);
-  for (Index a = 0; a < nu; ++a) hidden.add_dots(r, static_cast<Index>(gradient_.pattern(a).coordinates.size()));
+  for (Index a = 0; a < nu; ++a) hidden += gradient_.transposed_operations(a);
   if (coefficients) hidden.add_dots(s * nu, r);
   parts_[constraint_residual].per_call = hidden;
   parts_[constraint_residual].per_call.add(Op::subtract, s * m);
@@ -167,20 +168,27 @@ void StageEquations<S>::move(const Matrix<S>& gamma) {
   const PartCall counted = call(velocities);
   problem_.mass.velocity(lanes(gamma), lanes(velocity_));
   set_product(h_velocity_, h_, velocity_);
-  for (Index j = 0; j < middle_.size(); ++j) {
-    set_product(middle_[j], half_, h_velocity_(0, j));
-    set_sum(middle_[j], middle_[j], (*q_carry_)[j]);
-    set_sum(middle_[j], middle_[j], (*q0_)[j]);
-  }
+  with_constant_count<S>(method_.s, [&](auto s) {
+    S* __restrict const middle = middle_.data();
+    const S* const step = h_velocity_.data();
+    const S* const carry = q_carry_->data();
+    const S* const q0 = q0_->data();
+    for (Index j = 0; j < middle_.size(); ++j) {
+      set_product(middle[j], half_, step[j * s]);
+      set_sum(middle[j], middle[j], carry[j]);
+      set_sum(middle[j], middle[j], q0[j]);
+    }
+  });
 }
 
 template <Scalar S>
 void StageEquations<S>::positions(Parity& integrals, Matrix<S>& u) {
   integrals.times(u, h_velocity_);
   with_constant_count<S>(u.rows(), [&](auto rows) {
-    S* x = u.data();
-    for (Index j = 0; j < u.cols(); ++j, x += rows)
-      for (Index i = 0; i < rows; ++i) set_sum(x[i], x[i], middle_[j]);
+    S* __restrict const x = u.data();
+    const S* __restrict const middle = middle_.data();
+    for (Index j = 0; j < u.cols(); ++j)
+      for (Index i = 0; i < rows; ++i) set_sum(x[j * rows + i], x[j * rows + i], middle[j]);
   });
 }
 
@@ -340,32 +348,39 @@ void StageEquations<S>::momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Mat
 
 template <Scalar S>
 void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
-  auto pulled = pulled_.begin();
   set_difference(pull_, psi, zeta);
   with_constant_count<S>(method_.s, [&](auto s) {
     const S* const X = method_.X_s.data();
+    S* __restrict const sums = gamma.data();
+    const S* const carry = p_carry_->data();
+    const S* const p0 = p0_->data();
+    const S* __restrict const pull = pull_.data();
+    const Held<S> h = h_;
     const auto at = [&](Index i, Index j) { return i + j * s; };
-    for (Index n = 0; n < gamma.size(); n += s) {
-      const S* const w = pull_.data() + n;
+    for (Index j = 0; j < gamma.cols(); ++j) {
+      const S* const w = pull + j * s;
       for (Index i = 0; i < s; ++i) {
-        S& sum = gamma.data()[n + i];
+        S& sum = sums[j * s + i];
         if (i == 0)
           set_product(sum, X[0], w[0]);
         else
           set_product(sum, X[at(i, i - 1)], w[i - 1]);
         if (i + 1 < s) add_product(sum, X[at(i, i + 1)], w[i + 1], t_);
-        set_product(sum, sum, h_);
+        set_product(sum, sum, h);
       }
     }
-  });
-  for (Index j = 0; j < gamma.cols(); ++j) {
-    if (pulled == pulled_.end() || *pulled != j) {
-      set_sum(gamma(0, j), gamma(0, j), (*p_carry_)[j]);
-      set_sum(gamma(0, j), gamma(0, j), (*p0_)[j]);
-      continue;
+    auto pulled = pulled_.begin();
+    for (Index j = 0; j < gamma.cols(); ++j) {
+      if (pulled != pulled_.end() && *pulled == j) {
+        ++pulled;
+        continue;
+      }
+      set_sum(sums[j * s], sums[j * s], carry[j]);
+      set_sum(sums[j * s], sums[j * s], p0[j]);
     }
+  });
+  for (const Index j : pulled_) {
     // As in StepChange: without the rest, gamma_0 = p0 + h/2 (psi_0 - zeta_0) + ... would have a bias.
-    ++pulled;
     take_rest(psi, zeta, j);
     set_product(rest_, rest_, h_half_);
     set_sum(rest_, rest_, (*p_carry_)[j]);

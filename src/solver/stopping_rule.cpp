@@ -64,18 +64,20 @@ void StoppingRule<S>::set_condition(double kappa) {
     mpfr_set_d(raw(kappa_), kappa, MPFR_RNDN);
   else
     kappa_ = S(kappa);
+  for (Coordinate& x : coordinates_) set_far(x);
 }
 
 template <Scalar S>
 void StoppingRule<S>::show_change(const Matrix<S>& now, const Matrix<S>& before, const S* factor) {
   with_constant_count<S>(now.rows(), [&](auto rows) {
+    S& t = t_;
     const S* a = now.data();
     const S* b = before.data();
     for (Coordinate& x : coordinates_) {
       for (Index i = 0; i < rows; ++i) {
-        set_difference(t_, a[i], b[i]);
-        if (factor) set_product(t_, t_, *factor);
-        raise_magnitude(x.change, t_);
+        set_difference(t, a[i], b[i]);
+        if (factor) set_product(t, t, *factor);
+        raise_magnitude(x.change, t);
       }
       a += rows;
       b += rows;
@@ -151,6 +153,13 @@ void StoppingRule<S>::set_bounds(Coordinate& x) {
   set_product(x.rounding, exceeds(x.scale, x.position) ? x.scale : x.position, bound_);
   set_product(x.negligible, x.scale, negligible_);
   set_product(x.coarse, x.scale, coarse_bound_);
+  set_far(x);
+}
+
+template <Scalar S>
+void StoppingRule<S>::set_far(Coordinate& x) {
+  set_product(x.far, x.rounding, kappa_);
+  if (exceeds(tiny_, x.far)) set(x.far, tiny_);
 }
 
 template <Scalar S>
@@ -174,12 +183,7 @@ bool StoppingRule<S>::is_negligible(Coordinate& x) {
 }
 
 template <Scalar S>
-bool StoppingRule<S>::is_settled(Coordinate& x) {
-  const bool first = sweeps_ == 1;
-  const bool negligible = is_negligible(x);
-  set_product(t_, x.rounding, kappa_);
-  const bool rounding = !exceeds(x.change, t_) || !exceeds(x.change, tiny_), only_rounding = !exceeds(x.scale, t_);
-  if (first) x.risen = 0;
+void StoppingRule<S>::follow_least(Coordinate& x, bool first, bool rounding) {
   set_product(t_, x.least, sixteen_);
   const bool rises = !first && !rounding && exceeds(x.change, t_);
   if (rises) ++x.risen;
@@ -189,6 +193,32 @@ bool StoppingRule<S>::is_settled(Coordinate& x) {
   } else {
     ++x.waiting;
   }
+}
+
+template <Scalar S>
+bool StoppingRule<S>::is_far(Coordinate& x) {
+  if (!exceeds(x.change, x.far)) return false;
+  set_product(t_, x.change, last_rate_);
+  if (!exceeds(t_, x.negligible)) return false;
+  set(x.expected, x.change);
+  x.vanishing = 0;
+  if (exceeds(x.least, x.change)) {
+    set(x.least, x.change);
+    x.waiting = 0;
+  } else {
+    follow_least(x, false, false);
+  }
+  return true;
+}
+
+template <Scalar S>
+bool StoppingRule<S>::is_settled(Coordinate& x) {
+  const bool first = sweeps_ == 1;
+  const bool negligible = is_negligible(x);
+  set_product(t_, x.rounding, kappa_);
+  const bool rounding = !exceeds(x.change, t_) || !exceeds(x.change, tiny_), only_rounding = !exceeds(x.scale, t_);
+  if (first) x.risen = 0;
+  follow_least(x, first, rounding);
   if (first || !rounding) {
     x.vanishing = 0;
   } else {
@@ -214,7 +244,7 @@ typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
 
   bool all = true, waiting_long = false;
   for (Coordinate& x : coordinates_) {
-    x.settled = is_settled(x);
+    x.settled = !(sweeps_ > 1 && is_far(x)) && is_settled(x);
     all = all && x.settled;
     waiting_long = waiting_long || (!x.settled && x.waiting + x.risen >= patience);
     set(x.last, x.change);

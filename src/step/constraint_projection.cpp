@@ -30,16 +30,15 @@ void ConstraintProjection<S>::describe_parts() {
             {"solution"},  {"tangential momenta"}};
   parts_[shifts].per_call.add(Op::multiply, nu);
   parts_[shifts].per_call.add_products(gradient.weighted_values().cols());
-  parts_[gradients].per_call = gradient.operations();  // not those of g itself
-  for (const auto& pair : gradient.couplings()) parts_[matrix].per_call.add_dots(1, pair.terms());
+  parts_[gradients].per_call = gradient.operations() + gradient.weighing_operations();  // not those of g itself
+  for (const auto& pair : gradient.couplings()) parts_[matrix].per_call.add_dots(1, pair.products());
   parts_[factors].per_call = system_.factor_operations();
   parts_[solution].per_call = system_.solve_operations();
   parts_[solution].per_call.add(Op::reciprocal, nu);
   parts_[solution].per_call.add(Op::subtract, nu);
   parts_[tangential].per_call = problem_.mass.operations();
-  for (Index a = 0; a < nu; ++a)
-    parts_[tangential].per_call.add_dots(1, static_cast<Index>(gradient.pattern(a).coordinates.size()));
-  parts_[tangential].per_call.add_products(gradient.stored());
+  for (Index a = 0; a < nu; ++a) parts_[tangential].per_call += gradient.transposed_operations(a);
+  parts_[tangential].per_call += gradient.times_operations();
 }
 
 template <Scalar S>
@@ -106,10 +105,7 @@ long ConstraintProjection<S>::find_position(const Vector<S>& free, const S& fact
       const PartCall counted = call(gradients);
       found().update(lanes(std::as_const(q)), g_);
     }
-    if (converged || (stagnant && is_round_off(q))) {
-      found().weigh();
-      return iterations;
-    }
+    if (converged || (stagnant && is_round_off(q))) return iterations;
     if (!solve(found(), directions(), g_) || ++iterations > max_iterations)
       throw StageFailure(FailureCause::stage_equations_diverge, "no position on the constraints was found",
                          to_scientific(increment, 3), iterations);

@@ -122,10 +122,10 @@ void LobattoStepper<S>::describe_parts() {
   stage.add_dots(2 * m * s, s);
   stage.add(Op::multiply, 2 * m * s);
   stage.add(Op::add, 2 * m * s);
-  stage.add_products(s * gradient_.stored());
-  parts_[gradients].per_call = gradient_.operations();
+  stage += gradient_.times_operations();
+  parts_[gradients].per_call = gradient_.operations() + gradient_.weighing_operations();
   for (const auto& pair : gradient_.couplings()) {
-    parts_[matrix].per_call.add_dots(s * s, pair.terms());
+    parts_[matrix].per_call.add_dots(s * s, pair.products());
     parts_[matrix].per_call.add(Op::multiply, (s - 1) * (s - 1));
   }
   parts_[factors].per_call = system_.factor_operations();
@@ -203,7 +203,6 @@ bool LobattoStepper<S>::sweep(const State<S>& state) {
     {
       const PartCall counted = call(gradients);
       gradient_.update(lanes(std::as_const(Q_)), g_);
-      gradient_.weigh();
     }
     if (!correct_multipliers()) return false;
     for (Index i = 0; i < lambda_.size(); ++i) set_negative(pull_.data()[i], lambda_.data()[i]);

@@ -24,7 +24,7 @@ Rattle<S>::Rattle(const Problem<S>& problem)
   kicks_.per_call.add_products(3 * problem.m());
   kicks_.per_call.add(Op::multiply, problem.nu());
   kicks_.per_call.add(Op::negate, problem.nu());
-  kicks_.per_call.add_products(projection_.directions().stored());
+  kicks_.per_call += projection_.directions().times_operations();
 }
 
 template <Scalar S>

@@ -32,7 +32,6 @@ TYPED_TEST(ConstraintGradientTest, AgreesWithDenseMatricesInEveryLane) {
                       lambda = this->random.matrix(this->count, nu), start = this->random.matrix(this->count, m);
       Matrix<S> g(this->count, nu), rates_of(this->count, 1);
       gradient.update(lanes(q), g);
-      gradient.weigh();
       Matrix<S> force = start, velocity = start;
       gradient.add_times(lambda, lanes(force));
       gradient.add_weighted_times(lambda, lanes(velocity));
@@ -190,6 +189,38 @@ TYPED_TEST(ConstraintGradientTest, StoresWhatIsNotZero) {
   }
 }
 
+/// The columns of a rod between two bodies are those of one and their negatives: half of the products do.
+TYPED_TEST(ConstraintGradientTest, CountsHalfOfTheProductsOfARod) {
+  using S = TypeParam;
+  Problem<S> problem;
+  problem.dimension = 3;
+  problem.mass.add_scalar(3, S(1));
+  problem.mass.add_scalar(3, S(2));
+  Vector<S> pivot(3);
+  pivot << S(1), S(2), S(3);
+  problem.constraints = {{"rod", Rod<S>{{{{3, S(1)}, {0, S(-1)}}, {}}, S(1)}},
+                         {"pin", Rod<S>{{{{0, S(1)}}, pivot}, S(1)}}};
+  ConstraintGradient<S> gradient(problem, 5);
+  OperationCounts rod, pin, times;
+  rod.add_dots(5, 3);
+  rod.add(Op::subtract, 5 * 3);
+  pin.add_dots(5, 3);
+  times.add_products(5 * (3 + 3));
+  times.add(Op::subtract, 5 * 3);
+  EXPECT_EQ(gradient.transposed_operations(0), rod);
+  EXPECT_EQ(gradient.transposed_operations(1), pin);
+  EXPECT_EQ(gradient.times_operations(), times);
+
+  // Opposite forces on both ends, to the last bit.
+  const Matrix<S> q = this->random.matrix(5, 6), lambda = this->random.matrix(5, 2);
+  gradient.update(lanes(q));
+  Matrix<S> only_rod = lambda, force = Matrix<S>::Zero(5, 6);
+  only_rod.col(1).setZero();
+  gradient.add_times(only_rod, lanes(force));
+  EXPECT_EQ(force.leftCols(3), -force.rightCols(3));
+  EXPECT_NE(force(0, 0), S(0));
+}
+
 TYPED_TEST(ConstraintGradientTest, CountsOperationsOfARod) {
   using S = TypeParam;
   Problem<S> problem;
@@ -204,7 +235,8 @@ TYPED_TEST(ConstraintGradientTest, CountsOperationsOfARod) {
   expected.add(Op::add, 3);
   expected.add(Op::negate, 3);
   expected.add(Op::multiply, 3);
-  EXPECT_EQ((ConstraintGradient<S>(problem, 5).operations()), 5 * expected);
+  const ConstraintGradient<S> gradient(problem, 5);
+  EXPECT_EQ(gradient.operations() + gradient.weighing_operations(), 5 * expected);
 }
 
 }  // namespace

@@ -33,7 +33,9 @@ TYPED_TEST(SimplifiedNewtonTest, FindsTheSolution) {
     newton.solve({scene.q0, scene.p0, h});
     EXPECT_LE(this->distance(newton.unknowns().gamma, expected.gamma), tolerance) << name;
     EXPECT_LE(this->distance(newton.unknowns().lambda, expected.lambda), tolerance / h) << name;
-    EXPECT_TRUE(newton.refresh());
+    if constexpr (std::same_as<S, double>) {
+      EXPECT_TRUE(newton.refresh(newton.equations()));
+    }
     // The start is now that of the last step, and the Jacobian that of the solution.
     newton.solve({scene.q0, scene.p0, h});
     EXPECT_LE(this->distance(newton.unknowns().gamma, expected.gamma), tolerance) << name;

@@ -4,6 +4,7 @@
 #include "hbvm/basis/legendre.hpp"
 #include "hbvm/linear/product.hpp"
 #include "hbvm/method/hbvm_name.hpp"
+#include "hbvm/problem/in_double.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
@@ -210,6 +211,42 @@ TEST(StageEquations, WithoutConstraintsHaveNoMultipliers) {
   equations.move(x.gamma);
   EXPECT_TRUE(equations.multipliers(x.psi, x.lambda, x.zeta));
   EXPECT_EQ(max_norm(x.zeta), 0);
+}
+
+/// Far from the origin displacements have few digits in double; rounded from more digits they have all.
+TEST(StageEquations, RoundThoseOfMoreDigits) {
+  const PrecisionScope digits(40);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("tethered_satellites"));
+  const Problem<double> rounded_problem = in_double(scene.problem);
+  for (const auto& [k, s] : {std::pair(3, 3), {5, 2}}) {
+    const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
+    const Hbvm<double> rounded_method = in_double(method);
+    StageEquations<Mpfr> equations(scene.problem, method);
+    StageEquations<double> rounded(rounded_problem, rounded_method);
+    StageUnknowns<Mpfr> x = equations.make_unknowns();
+    StageUnknowns<double> rounded_x = rounded.make_unknowns();
+    for (Index i = 0; i < x.gamma.size(); ++i) x.gamma.data()[i] = Mpfr((i * 13) % 31 - 15) / 17;
+    rounded_x.gamma = in_double(x.gamma);
+    const Mpfr h = Mpfr(1) / 10;
+    const double rounded_h = approximately(h);
+    const Vector<double> q0 = in_double(scene.q0), p0 = in_double(scene.p0);
+    StageResidual<Mpfr> r{x.gamma, x.lambda};
+    StageResidual<double> rounded_r{rounded_x.gamma, rounded_x.lambda};
+    equations.start({scene.q0, scene.p0, h});
+    equations.residual(x, r);
+    rounded.start({q0, p0, rounded_h});
+    rounded.residual(rounded_x, rounded_r);
+
+    const Matrix<double> gradient = in_double(equations.constraint_gradient().values()),
+                         weighted = in_double(equations.constraint_gradient().weighted_values());
+    EXPECT_GT(max_norm(Matrix<double>(rounded.constraint_gradient().values() - gradient)), 4 * epsilon<double>());
+    rounded.round(equations);
+    EXPECT_EQ(rounded.constraint_gradient().values(), gradient);
+    EXPECT_EQ(rounded.constraint_gradient().weighted_values(), weighted);
+    EXPECT_EQ(rounded.node_positions(), in_double(equations.node_positions()));
+    EXPECT_EQ(rounded.quadrature_positions(), in_double(equations.quadrature_positions()));
+    EXPECT_EQ(rounded.node_velocities(), in_double(equations.node_velocities()));
+  }
 }
 
 TEST(StageEquations, ReportASingularSystem) {

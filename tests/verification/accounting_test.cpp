@@ -331,20 +331,21 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
     expect("positions at constraint nodes (48)", {.add = m + s * m, .subtract = m, .multiply = s * m});
     expect("positions at quadrature nodes (48)", {.add = m + k * m, .subtract = m, .multiply = k * m});
     expect("force coefficients psi_hat (50)", {.add = m + m, .subtract = m, .multiply = k * m});
-    // At each node x = a - b, x + x for a, minus that for b, and half of the latter.
-    expect("constraint gradients", {.add = s * d, .subtract = s * d, .multiply = s * d, .negate = s * d});
-    expect("matrix for the multipliers (29)", {.add = s * s * (m - 1), .multiply = s * s * (m + 1)});
-    // gamma of the multipliers so far, its velocities at the nodes, what they leave of the constraint, and that over h.
-    expect("right-hand side for the multipliers (29)", {.add = (s - 1) * m + 2 * m + m + s * (m - 1),
-                                                        .subtract = s * m + m,
-                                                        .multiply = s * m + (s - 1) * m + s * m + s * d + s * m + s * m,
+    // At each node x = a - b, x + x for a, minus that for b; and half of the latter, once it is wanted.
+    expect("constraint gradients", {.add = s * d, .subtract = s * d, .negate = s * d});
+    expect("matrix for the multipliers (29)", {.add = s * s * (m - 1), .multiply = s * s * (m + 1) + s * d});
+    // gamma of the multipliers so far, its velocities at the nodes, what they leave of the constraint (x times the
+    // difference of both), and that over h.
+    expect("right-hand side for the multipliers (29)", {.add = (s - 1) * m + 2 * m + m + s * (d - 1),
+                                                        .subtract = s * m + m + s * d,
+                                                        .multiply = s * m + (s - 1) * m + s * m + s * d + s * m + s * d,
                                                         .divide = s});
     // Two equations: a quotient and a product to factor, two products and two quotients to solve.
     expect("LU for the multipliers (29)", {.subtract = 1, .multiply = 1, .divide = 1});
     expect("multipliers at the nodes (29)", {.add = s, .subtract = 2, .multiply = 2, .divide = 2});
-    // Twice: of the multipliers so far, and of those corrected.
+    // Twice: of the multipliers so far, and of those corrected. Both bodies share a product.
     expect("constraint-force coefficients zeta (49)",
-           {.add = 2 * (s * m + m), .subtract = 2 * m, .multiply = 2 * (s * m + s * m)});
+           {.add = 2 * (s * d + m), .subtract = 2 * (s * d + m), .multiply = 2 * (s * d + s * m)});
     expect("momentum coefficients gamma (54)",
            {.add = (s - 1) * m + 2 * m, .subtract = s * m, .multiply = s * m + (s - 1) * m + s * m});
   }

@@ -11,6 +11,11 @@ Matrix<double> in_double(const Matrix<S>& a) {
   for (Index i = 0; i < a.size(); ++i) result.data()[i] = approximately(a.data()[i]);
   return result;
 }
+/// The same in place, of one size.
+template <Scalar S>
+void set_in_double(Matrix<double>& to, const Matrix<S>& from) {
+  for (Index i = 0; i < from.size(); ++i) to.data()[i] = approximately(from.data()[i]);
+}
 template <Scalar S>
 Vector<double> in_double(const Vector<S>& a) {
   Vector<double> result(a.size());

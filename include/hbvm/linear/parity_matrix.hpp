@@ -52,6 +52,7 @@ class ParityMatrix {
   Part even_, odd_;               ///< those functions at the first half of the nodes, the middle one with the even
   Vector<S> even_half_, odd_half_, turns_;  ///< scratch
   bool mirrored_ = false;
+  SmallProduct small_ = nullptr;  ///< for all of it
 };
 
 #define HBVM_DECLARE(S) extern template class ParityMatrix<S>;

@@ -9,6 +9,11 @@ namespace hbvm {
 template <Scalar S>
 void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
 
+/// The same for a of few rows and columns, in double, without a look at sizes: a product to be made often asks once for
+/// what makes it. Null if there is none for these sizes.
+using SmallProduct = void (*)(double* c, const double* a, const double* b, Index columns);
+SmallProduct small_product(Index rows, Index terms);
+
 /// r = a x, for an x whose entries stand at x[l * x_stride]. r is neither a nor x.
 template <Scalar S>
 void set_times(S* r, const Matrix<S>& a, const S* x, Index x_stride);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hbvm/linear/in_double.hpp"
 #include "hbvm/problem/problem.hpp"
 
 namespace hbvm {
@@ -13,17 +14,19 @@ class ConstraintGradient {
  public:
   ConstraintGradient(const Problem<S>& problem, Index lanes);
 
-  /// grad g and M^-1 grad g at q. What is linear in q is not computed again.
+  /// grad g at q; M^-1 grad g follows once it is wanted. What is linear in q is not computed again.
   void update(Lanes<const S> q);
+  /// The same and g, lanes x nu, from the same displacements.
+  void update(Lanes<const S> q, Matrix<S>& g);
 
-  /// The operations of one update, in all lanes.
+  /// The operations of one update, and of M^-1 grad g, in all lanes.
   OperationCounts operations() const;
+  OperationCounts weighing_operations() const;
+  /// Those of transposed_times() for one constraint, and of add_times(), in all lanes.
+  OperationCounts transposed_operations(Index a) const;
+  OperationCounts times_operations() const;
   /// Numbers stored for grad g in one lane.
   Index stored() const { return values_.cols(); }
-
-  /// grad g and g, lanes x nu, from the same displacements; M^-1 grad g by weigh(), once it is wanted.
-  void update(Lanes<const S> q, Matrix<S>& g);
-  void weigh();
 
   /// result_i = (grad g^T v)_a in lane i, for all lanes.
   void transposed_times(Index a, Lanes<const S> v, S* result);
@@ -35,12 +38,12 @@ class ConstraintGradient {
   /// grad g_a(q_i)^T M^-1 grad g_b(q_j) is 0 but for these pairs (a, b).
   struct Coupling {
     Index a, b;
-    /// So many columns of the stored gradients, from these on, meet one by one.
-    struct Run {
-      Index left, right, count;
+    /// Columns of the stored gradients that meet.
+    struct Term {
+      Index left, right;
     };
-    std::vector<Run> runs;
-    Index terms() const;  ///< the sum of the counts
+    std::vector<Term> terms;
+    Index products() const { return static_cast<Index>(terms.size()); }  ///< of a pair of lanes
   };
   const std::vector<Coupling>& couplings() const { return couplings_; }
   /// grad g_a of this in lane i with M^-1 grad g_b of `right`, which may be this, in lane j: result(i, j), column by
@@ -52,24 +55,36 @@ class ConstraintGradient {
   /// The stored columns of one constraint: coordinates[k] is the coordinate of column first + k.
   struct Pattern {
     Index first = 0;
-    std::vector<Index> coordinates;
-    /// So many neighbours among the coordinates, from this one on.
-    struct Run {
-      Index coordinate, count;
-    };
-    std::vector<Run> runs;
-    Pattern(Index first_column, std::vector<Index> ascending);
+    std::vector<Index> coordinates;  ///< ascending
+    /// The second half of the columns are the negatives of the first, as of a rod between two bodies: half of the
+    /// products do.
+    bool opposite = false;
     Index column(Index coordinate) const;
   };
   /// The coordinates where grad g_a, and M^-1 grad g_a, can be nonzero, and the values there in every lane.
   const Pattern& pattern(Index a) const { return patterns_[static_cast<std::size_t>(a)]; }
   const Pattern& weighted_pattern(Index a) const { return weighted_patterns_[static_cast<std::size_t>(a)]; }
   const Matrix<S>& values() const { return values_; }
-  const Matrix<S>& weighted_values() const { return weighted_; }
+  const Matrix<S>& weighted_values() const {
+    if (!weighed_) weigh();
+    return weighted_;
+  }
+  /// Takes the values from those of more digits.
+  template <Scalar T>
+  void round(const ConstraintGradient<T>& from) requires std::same_as<S, double> {
+    set_in_double(values_, from.values());
+    weighed_ = false;
+  }
 
  private:
-  static void add_times(const std::vector<Pattern>& patterns, const Matrix<S>& values, const Matrix<S>& lambda,
-                        Lanes<S> out, S& t);
+  /// Where a stored column belongs: what it is the derivative of, and by what; and by what its negative is.
+  struct Place {
+    Index column, constraint, coordinate, opposite;
+  };
+  static constexpr Index none = -1;
+  void weigh() const;
+  static void add_times(const std::vector<Place>& places, const Matrix<S>& values, const Matrix<S>& lambda,
+                        Lanes<S> out, S& scratch);
   /// So many columns of M^-1 grad g: to = factor from, or += if it is not the first; no factor stands for 1.
   struct Weighing {
     Index to, from, count;
@@ -77,6 +92,7 @@ class ConstraintGradient {
     const S* factor;
   };
   void prepare_weighing(const Pattern& from, const Pattern& to);
+  void add_weighing(const Weighing& next);  ///< together with the last one, if they are alike
   void update_all(Lanes<const S> q, Matrix<S>* g);
   template <class Count>
   GradientTarget<S, Count> target(std::size_t a, S* g, Count lanes);
@@ -84,12 +100,15 @@ class ConstraintGradient {
   const Problem<S>& problem_;
   Index lanes_;
   std::vector<Pattern> patterns_, weighted_patterns_;
+  std::vector<Place> places_, weighted_places_;
   std::vector<typename GradientsOf<ConstraintForms<S>>::type> gradients_;
   std::vector<Weighing> weighings_;
-  Matrix<S> values_, weighted_;  // lanes x stored columns
+  Matrix<S> values_;             // lanes x stored columns
+  mutable Matrix<S> weighted_;   // likewise
+  mutable bool weighed_ = true;  // the last values
   std::vector<Coupling> couplings_;
   Matrix<S> x_, y_;  // scratch: lanes x dimension
-  S t_;
+  mutable S t_, u_;
 };
 
 #define HBVM_DECLARE(S) extern template class ConstraintGradient<S>;

@@ -46,8 +46,15 @@ class MassMatrix {
   void momentum(const Vector<S>& v, Vector<S>& p) const;
 
  private:
+  /// Coordinates next to each other that have one mass.
+  struct Span {
+    Index offset, size;
+    S mass, inverse_mass;
+  };
   Index m_ = 0;
   std::vector<Block> blocks_;
+  std::vector<Span> spans_;
+  std::vector<std::size_t> full_;  ///< blocks
 };
 
 #define HBVM_DECLARE(S) extern template class MassMatrix<S>;

@@ -88,6 +88,14 @@ requires(!std::same_as<S, Quad>) void set_exact_product(S& r, S& rest, const S& 
     rest = std::fma(a, b, -r);
 }
 
+/// A number as a loop holds it: a copy, which stays in a register whatever is written to memory; of Mpfr, where a copy
+/// is an allocation, the number itself.
+template <Scalar S>
+using Held = std::conditional_t<std::same_as<S, Mpfr>, const S&, S>;
+/// The same of scratch.
+template <Scalar S>
+using HeldScratch = std::conditional_t<std::same_as<S, Mpfr>, S&, S>;
+
 /// A number of the working precision for use within one kernel, whose value nobody keeps: creating one would allocate.
 template <Scalar S>
 S& scratch() {

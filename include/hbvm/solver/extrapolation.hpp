@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/linear/matrix.hpp"
 #include "hbvm/linear/operation_counts.hpp"
 #include "hbvm/scalar/archive.hpp"
@@ -24,7 +25,8 @@ class Extrapolation {
         size_(rows * columns),
         differences_(size_, max_order + 2),
         scratch_(size_),
-        orders_(static_cast<std::size_t>(columns)) {}
+        orders_(static_cast<std::size_t>(columns)),
+        least_(static_cast<std::size_t>(columns), S(0)) {}
 
   void clear() { known_ = 0; }
   bool empty() const { return known_ == 0; }
@@ -34,23 +36,35 @@ class Extrapolation {
     for (Index i = 0; i < size_; ++i) set(scratch_[i], x[i]);
     const Index differences = std::min(known_ + 1, max_order + 2);
     for (Index r = 0; r < differences; ++r) {
-      S* const old = differences_.data() + r * size_;
-      using std::swap;  // Boost has its own, which exchanges the digits; the moves of std::swap may round them
-      for (Index i = 0; i < size_; ++i) swap(old[i], scratch_[i]);
-      if (r + 1 < differences)
-        for (Index i = 0; i < size_; ++i) set_difference(scratch_[i], old[i], scratch_[i]);
+      S* __restrict const old = differences_.data() + r * size_;
+      S* __restrict const next = scratch_.data();
+      for (Index i = 0; i < size_; ++i) {
+        if constexpr (std::same_as<S, Mpfr>) {
+          swap(old[i], next[i]);  // Boost's own, which exchanges the digits; the moves of std::swap may round them
+          set_difference(next[i], old[i], next[i]);
+        } else {
+          const S now = next[i];
+          next[i] = now - old[i];
+          old[i] = now;
+        }
+      }
     }
     known_ = differences;
-    for (std::size_t column = 0; column < orders_.size(); ++column) choose_order(column);
+    choose_orders();
   }
 
   /// The prediction of x_{n+1}; not for an empty sequence.
   void predict(S* x) const {
     for (Index i = 0; i < size_; ++i) set(x[i], differences_.data()[i]);
-    for (std::size_t column = 0; column < orders_.size(); ++column)
-      for (Index r = 1; r <= orders_[column]; ++r)
-        for (Index n = 0, i = static_cast<Index>(column) * rows_; n < rows_; ++n, ++i)
-          set_sum(x[i], x[i], differences_.data()[r * size_ + i]);
+    with_constant_count<S>(rows_, [&](auto rows) {
+      for (std::size_t column = 0; column < orders_.size(); ++column, x += rows) {
+        const S* difference = differences_.data() + static_cast<Index>(column) * rows;
+        for (Index r = 1; r <= orders_[column]; ++r) {
+          difference += size_;
+          for (Index i = 0; i < rows; ++i) set_sum(x[i], x[i], difference[i]);
+        }
+      }
+    });
   }
   /// log2 of the error that the last prediction of a column would have had by its present order.
   long error_exponent(Index column) const {
@@ -76,24 +90,28 @@ class Extrapolation {
   }
 
  private:
-  void choose_order(std::size_t column) {
-    Index& order = orders_[column];
-    order = 0;
-    for (Index r = 1; r < known_; ++r) {
-      const S* const difference = differences_.data() + r * size_ + static_cast<Index>(column) * rows_;
-      set_zero(norm_);
-      for (Index i = 0; i < rows_; ++i) raise_magnitude(norm_, difference[i]);
-      if (r > 1 && !exceeds(least_, norm_)) continue;
-      set(least_, norm_);
-      order = r - 1;
-    }
+  void choose_orders() {
+    for (Index& order : orders_) order = 0;
+    with_constant_count<S>(rows_, [&](auto rows) {
+      const S* difference = differences_.data() + size_;
+      S& norm = norm_;
+      for (Index r = 1; r < known_; ++r)
+        for (std::size_t column = 0; column < orders_.size(); ++column, difference += rows) {
+          set_zero(norm);
+          for (Index i = 0; i < rows; ++i) raise_magnitude(norm, difference[i]);
+          if (r > 1 && !exceeds(least_[column], norm)) continue;
+          set(least_[column], norm);
+          orders_[column] = r - 1;
+        }
+    });
   }
 
   Index rows_, size_, known_ = 0;
   Matrix<S> differences_;
   Vector<S> scratch_;
   std::vector<Index> orders_;
-  S norm_ = 0, least_ = 0;
+  std::vector<S> least_;  // of the differences, by column
+  S norm_ = 0;
 };
 
 }  // namespace hbvm

@@ -11,9 +11,11 @@ namespace hbvm {
 /// Newton's iteration in mixed precision: the residual in the working precision, the Jacobian and its factors in
 /// double.
 ///
-/// The stage equations are first solved in double, and their Jacobian is factored there, at the solution. With it each
-/// sweep then wins about 15 digits, so that the residual of a sweep needs only the digits that its correction can use:
-/// in Mpfr it is evaluated with problem, method and state rounded to a few more digits than are to be won.
+/// The stage equations are first solved in double. With more digits, the first residual at that solution has all
+/// displacements to the last bit of a double, of which bodies far from the origin leave few in double itself; from
+/// these the Jacobian is evaluated and factored. With it each sweep wins about 15 digits, so that the residual of a
+/// sweep needs only the digits that its correction can use: in Mpfr it is evaluated with problem, method and state
+/// rounded to a few more digits than are to be won.
 ///
 /// The last residual is one of the working precision, and StoppingRule says when it is reached.
 ///
@@ -56,9 +58,13 @@ class Newton final : public StageSolver<S> {
   /// \return the number of residuals, and whether the corrections fell
   std::pair<long, bool> refine(const StepStart<S>& from);
   long solve_in_full(const StepStart<S>& start);
-  /// Residual of x_ with at least so many bits if there are as many: scaled by 2^-exponent into correction_.
-  /// \return whether it was evaluated in the working precision
-  bool residual(long bits, long& exponent);
+  /// The residual of x_, and the equations that it was evaluated by: with at least so many bits if there are as many.
+  struct Evaluated {
+    const StageEquations<S>& equations;
+    const StageResidual<S>& residual;
+  };
+  Evaluated evaluate(long bits);
+  /// Into correction_, scaled by 2^-exponent.
   void take_residual(const StageResidual<S>& r, long& exponent);
   void make_rungs();
   void take_step(const S& h);

@@ -54,8 +54,14 @@ class SimplifiedNewton {
   /// The same without the parts of the stage equations.
   void measure_time_in_double();
 
-  /// Evaluates the Jacobian at the solution. \return false if it is singular
-  [[nodiscard]] bool refresh();
+  /// Evaluates the Jacobian at the solution, with positions, velocities and gradients rounded from those of more
+  /// digits. \return false if it is singular
+  template <Scalar T>
+  [[nodiscard]] bool refresh(const StageEquations<T>& at) {
+    equations_.round(at);
+    usable_ = jacobian_.factor(equations_, x_.lambda);
+    return usable_;
+  }
 
   const StageUnknowns<S>& unknowns() const { return x_; }
   Jacobian<S>& jacobian() { return jacobian_; }

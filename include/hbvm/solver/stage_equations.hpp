@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hbvm/linear/in_double.hpp"
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/linear/ordering.hpp"
 #include "hbvm/linear/parity_matrix.hpp"
@@ -100,6 +101,15 @@ class StageEquations {
     return method_.has_coefficients_of_lambda() ? lambda_ : lambda;
   }
   const ConstraintGradient<S>& constraint_gradient() const { return gradient_; }
+  /// Rounds what residual() has found of the same equations in more digits: nodes, their velocities, the constraints'
+  /// gradients.
+  template <Scalar T>
+  void round(const StageEquations<T>& from) requires std::same_as<S, double> {
+    set_in_double(u_, from.node_positions());
+    if (method_.k != method_.r) set_in_double(u_hat_, from.quadrature_positions());
+    set_in_double(w_, from.node_velocities());
+    gradient_.round(from.constraint_gradient());
+  }
 
   /// What was done since construction: by effect, and by part (the forces' own work is in the effects').
   const std::vector<EffectCount>& effect_counts() const { return potential_.counts(); }

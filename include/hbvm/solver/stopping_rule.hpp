@@ -84,6 +84,7 @@ class StoppingRule {
     /// Parts of the scale: C epsilon (of what rounding of the position amounts to, if that is larger), 2^-12 epsilon,
     /// ...
     S noise = 0, rounding = 0, negligible = 0, coarse = 0;
+    S far = 0;  ///< a greater change is no rounding
     long waiting = 0, risen = 0, vanishing = 0;
     bool settled = false;
   };
@@ -91,11 +92,17 @@ class StoppingRule {
   /// Whether all that is left to change is negligible; updates what is expected of the next change.
   bool is_negligible(Coordinate& x);
   bool is_settled(Coordinate& x);
+  /// What is_settled() says of most coordinates in most sweeps, sooner: that neither may its change be rounding nor is
+  /// what is left negligible. Not for the first sweep.
+  bool is_far(Coordinate& x);
+  /// Updates the least change, and for how long there was none below it.
+  void follow_least(Coordinate& x, bool first, bool rounding);
   bool grows() const;
   void take_scales();
   void find_rate();
   /// The bounds of a coordinate, from its scale and what rounding of its position amounts to.
   void set_bounds(Coordinate& x);
+  void set_far(Coordinate& x);
 
   long sweeps_ = 0, max_sweeps_;
   bool coarse_ = true, terms_shown_ = false, finite_ = true, rate_shown_ = false;

@@ -22,7 +22,8 @@ namespace hbvm {
 ///     positive()          with the magnitudes of the coefficients of its quadratic part
 ///     in_double()         the same form, rounded
 ///     stays(conditions)   which motions of space keep it: see symmetry_conditions
-///     Gradient            evaluates grad g, and g, in lanes: begin writes what is constant, update what is not
+///     Gradient            evaluates grad g, and g, in lanes: begin writes what is constant, update what is not; it may
+///                         have is_opposite(), if the second half of the columns can be the negatives of the first
 template <class F, class S>
 concept ConstraintForm = requires(const F& form, Index d, const Vector<S>& q, const S& r, const ConstraintUse<S>& use,
                                   void (*add)(Index, Index, const S&), Lanes<const S> lanes,

@@ -23,11 +23,15 @@ class GradientShares {
   /// The columns of what `moving` is made of get its weights times the vector.
   void add(const Displacement<S>& moving, Of vector) {
     for (const auto& block : moving.blocks) {
-      // The columns of a block are next to each other.
-      const auto at = std::lower_bound(coordinates_.begin(), coordinates_.end(), block.offset);
-      const auto column = static_cast<Index>(at - coordinates_.begin());
+      const Index column = first_column(block);
       shares_.push_back({column, vector, touched_.insert(column).second, block.weight});
     }
+  }
+
+  /// The columns of a block are next to each other, from this one on.
+  Index first_column(const typename Displacement<S>::Block& block) const {
+    const auto at = std::lower_bound(coordinates_.begin(), coordinates_.end(), block.offset);
+    return static_cast<Index>(at - coordinates_.begin());
   }
 
   /// Computes the columns from x and y of the target.

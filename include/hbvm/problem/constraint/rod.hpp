@@ -3,6 +3,7 @@
 #include <array>
 
 #include "hbvm/error.hpp"
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/problem/constraint/gradient_shares.hpp"
 #include "hbvm/problem/constraint/use.hpp"
 #include "hbvm/problem/constraint/value.hpp"
@@ -70,21 +71,23 @@ struct Rod {
   class Gradient {
    public:
     Gradient(const Rod& form, Index dimension, const std::vector<Index>& coordinates)
-        : form_(form), dimension_(dimension), shares_(dimension, coordinates) {
+        : form_(form), dimension_(dimension), shares_(dimension, coordinates), is_pair_(is_pair(form.x)) {
       shares_.add(form.x, GradientShares<S>::Of::x);
+      if (!is_pair_) return;
+      from_ = form.x.blocks[0].offset;
+      minus_ = form.x.blocks[1].offset;
+      column_ = shares_.first_column(form.x.blocks[0]);
+      opposite_ = shares_.first_column(form.x.blocks[1]);
     }
 
     void begin(const GradientTarget<S>&) const {}
+    bool is_opposite() const { return is_pair_; }
 
     template <class Count>
     void update(Lanes<const S, Count> q, const GradientTarget<S, Count>& to) const {
+      if (is_pair_) return with_constant_count<S>(dimension_, [&](auto dimension) { update_pair(dimension, q, to); });
       displace(form_.x, dimension_, q, to.x.data(), to.lanes);
-      if (to.g)
-        for (Index i = 0; i < to.lanes; ++i) {
-          set_product(to.g[i], to.x(i, 0), to.x(i, 0));
-          for (Index j = 1; j < dimension_; ++j) add_product(to.g[i], to.x(i, j), to.x(i, j), to.t);
-          set_difference(to.g[i], to.g[i], form_.square);
-        }
+      if (to.g) set_value(to.x.data(), to);
       for (Index i = 0; i < to.x.size(); ++i) set_sum(to.x.data()[i], to.x.data()[i], to.x.data()[i]);
       shares_.spread(to);
     }
@@ -96,9 +99,37 @@ struct Rod {
     }
 
    private:
+    /// g = x.x - square, from a displacement with its components `lanes` apart.
+    template <class Count>
+    void set_value(const S* x, const GradientTarget<S, Count>& to) const {
+      for (Index i = 0; i < to.lanes; ++i) {
+        set_product(to.g[i], x[i], x[i]);
+        for (Index j = 1; j < dimension_; ++j) add_product(to.g[i], x[j * to.lanes + i], x[j * to.lanes + i], to.t);
+        set_difference(to.g[i], to.g[i], form_.square);
+      }
+    }
+
+    /// Between two bodies, as most rods are: 2 x and -2 x, in the columns themselves.
+    template <class Dimension, class Count>
+    void update_pair(Dimension dimension, Lanes<const S, Count> q, const GradientTarget<S, Count>& to) const {
+      const Index size = dimension * to.lanes;
+      const S* __restrict const a = q[from_];
+      const S* __restrict const b = q[minus_];
+      S* __restrict const columns = to.column(column_);
+      S* __restrict const opposite = to.column(opposite_);
+      for (Index i = 0; i < size; ++i) set_difference(columns[i], a[i], b[i]);
+      if (to.g) set_value(columns, to);
+      for (Index i = 0; i < size; ++i) {
+        set_sum(columns[i], columns[i], columns[i]);
+        set_negative(opposite[i], columns[i]);
+      }
+    }
+
     const Rod& form_;
     Index dimension_;
     GradientShares<S> shares_;
+    bool is_pair_;
+    Index from_ = 0, minus_ = 0, column_ = 0, opposite_ = 0;  ///< of a pair: coordinates, and their columns
   };
 };
 

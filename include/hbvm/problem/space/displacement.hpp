@@ -22,6 +22,12 @@ struct Displacement {
   Vector<S> shift;  ///< d entries, or none for 0
 };
 
+/// Whether it leads from one position to another: one block less another.
+template <Scalar S>
+bool is_pair(const Displacement<S>& x) {
+  return x.blocks.size() == 2 && x.shift.size() == 0 && x.blocks[0].weight == 1 && x.blocks[1].weight == -1;
+}
+
 /// r_i += weight a_i for i < count, which for the usual weights 1 and -1 is an addition each; `t` is scratch.
 template <Scalar S, class Count>
 void add_weighted(S* r, const S& weight, const S* a, Count count, S& t) {
@@ -59,8 +65,7 @@ OperationCounts operations(const Displacement<S>& x, Index dimension) {
 /// The displacement at q: component j of lane i goes to out[j * stride + i].
 template <Scalar S, class Count>
 void displace(const Displacement<S>& x, Index dimension, Lanes<const S, Count> q, S* out, Index stride) {
-  if (x.blocks.size() == 2 && x.shift.size() == 0 && x.blocks[0].weight == 1 && x.blocks[1].weight == -1) {
-    // The usual pair, in one pass.
+  if (is_pair(x)) {
     const S* a = q[x.blocks[0].offset];
     const S* b = q[x.blocks[1].offset];
     for (Index j = 0; j < dimension; ++j, out += stride, a += q.count, b += q.count)
