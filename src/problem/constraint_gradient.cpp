@@ -244,44 +244,15 @@ void ConstraintGradient<S>::add_weighted_times(const Matrix<S>& lambda, Lanes<S>
 
 template <Scalar S>
 void ConstraintGradient<S>::coupling(const Coupling& pair, const ConstraintGradient& right, S* result) {
-  with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
-    const S* const columns = values_.data();
-    const S* const right_columns = right.weighted_values().data();
-    if constexpr (is_constant_count<Count>) {
-      S sums[Count::value * Count::value] = {};
-      for (const auto& term : pair.terms) {
-        const S* const x = columns + term.left * lanes;
-        const S* const y = right_columns + term.right * lanes;
-        for (Index j = 0; j < lanes; ++j)
-          for (Index i = 0; i < lanes; ++i) sums[i + j * lanes] += x[i] * y[j];
-      }
-      for (Index i = 0; i < lanes * lanes; ++i) result[i] = sums[i];
-      return;
-    }
-    bool first = true;
-    for (const auto& term : pair.terms) {
-      const S* const x = columns + term.left * lanes;
-      const S* const y = right_columns + term.right * lanes;
-      S* out = result;
-      for (Index j = 0; j < lanes; ++j, out += lanes) {
-        if (first)
-          for (Index i = 0; i < lanes; ++i) set_product(out[i], x[i], y[j]);
-        else
-          for (Index i = 0; i < lanes; ++i) add_product(out[i], x[i], y[j], t_);
-      }
-      first = false;
-    }
-  });
+  const S* const right_columns = right.weighted_values().data();
+  with_constant_count<S>(lanes_, [&](auto lanes) { couple(lanes, pair, right_columns, result); });
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::gram(Matrix<S>& result) {
   result.setZero(problem_.nu(), problem_.nu());
   Matrix<S> all(lanes_, lanes_);
-  for (const Coupling& pair : couplings_) {
-    coupling(pair, *this, all.data());
-    set(result(pair.a, pair.b), all(0, 0));
-  }
+  for_each_coupling(*this, all.data(), [&](const Coupling& pair) { set(result(pair.a, pair.b), all(0, 0)); });
 }
 
 #define HBVM_DEFINE(S) template class ConstraintGradient<S>;

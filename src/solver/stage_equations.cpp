@@ -268,18 +268,17 @@ bool StageEquations<S>::factor_matrix() {
   {
     const PartCall counted = call(matrix);
     system_.set_zero();
-    for (const auto& pair : gradient_.couplings()) {
-      gradient_.coupling(pair, gradient_, coupling_.data());
+    gradient_.for_each_coupling(gradient_, coupling_.data(), [&](const auto& pair) {
+      const Index row = first(pair.a), column = first(pair.b);
       if (method_.has_coefficients_of_lambda()) {
         set_block();
         for (Index j = 0; j < s; ++j)
-          for (Index i = 0; i < s; ++i) set(system_.entry(first(pair.a) + i, first(pair.b) + j), block_(i, j));
-        continue;
+          for (Index i = 0; i < s; ++i) set(system_.entry(row + i, column + j), block_(i, j));
+        return;
       }
       for (Index j = 0; j < s; ++j)
-        for (Index i = 0; i < s; ++i)
-          set_product(system_.entry(first(pair.a) + i, first(pair.b) + j), coupling_(i, j), method_.A(i, j));
-    }
+        for (Index i = 0; i < s; ++i) set_product(system_.entry(row + i, column + j), coupling_(i, j), method_.A(i, j));
+    });
   }
   const PartCall counted = call(factors);
   return system_.factor();

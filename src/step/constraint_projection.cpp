@@ -59,7 +59,8 @@ bool ConstraintProjection<S>::solve(ConstraintGradient<S>& left, const Constrain
   {
     const PartCall counted = call(matrix);
     system_.set_zero();
-    for (const auto& pair : left.couplings()) left.coupling(pair, right, &system_.entry(place(pair.a), place(pair.b)));
+    left.for_each_coupling(right, &product_,
+                           [&](const auto& pair) { set(system_.entry(place(pair.a), place(pair.b)), product_); });
   }
   {
     const PartCall counted = call(factors);

@@ -101,8 +101,9 @@ bool EnergyMomentum<S>::correct_multipliers() {
     {
       const PartCall counted = call(matrix);
       system_.set_zero();
-      for (const auto& pair : end_gradient_.couplings())
-        end_gradient_.coupling(pair, middle_gradient_, &system_.entry(place(pair.a), place(pair.b)));
+      end_gradient_.for_each_coupling(middle_gradient_, &product_, [&](const auto& pair) {
+        set(system_.entry(place(pair.a), place(pair.b)), product_);
+      });
     }
     const PartCall counted = call(factors);
     if (!system_.factor()) return false;

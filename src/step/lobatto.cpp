@@ -166,13 +166,12 @@ bool LobattoStepper<S>::correct_multipliers() {
     {
       const PartCall counted = call(matrix);
       system_.set_zero();
-      for (const auto& pair : gradient_.couplings()) {
-        gradient_.coupling(pair, gradient_, coupling_.data());
+      gradient_.for_each_coupling(gradient_, coupling_.data(), [&](const auto& pair) {
         for (Index j = 0; j + 1 < s; ++j)
           for (Index i = 1; i < s; ++i)
             set_product(system_.entry(place(pair.a) + i - 1, place(pair.b) + j), coupling_(i, j),
                         method_->A_A_hat(i, j));
-      }
+      });
     }
     const PartCall counted = call(factors);
     if (!system_.factor()) return false;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/linear/in_double.hpp"
 #include "hbvm/problem/problem.hpp"
 
@@ -49,6 +50,17 @@ class ConstraintGradient {
   /// grad g_a of this in lane i with M^-1 grad g_b of `right`, which may be this, in lane j: result(i, j), column by
   /// column.
   void coupling(const Coupling& pair, const ConstraintGradient& right, S* result);
+  /// f(pair) for each of couplings(), with its numbers in `result`.
+  template <class F>
+  void for_each_coupling(const ConstraintGradient& right, S* result, F&& f) {
+    const S* const right_columns = right.weighted_values().data();
+    with_constant_count<S>(lanes_, [&](auto lanes) {
+      for (const Coupling& pair : couplings_) {
+        couple(lanes, pair, right_columns, result);
+        f(pair);
+      }
+    });
+  }
   /// The Gram matrix grad g^T M^-1 grad g of the first lane, nu x nu.
   void gram(Matrix<S>& result);
 
@@ -96,6 +108,8 @@ class ConstraintGradient {
   void update_all(Lanes<const S> q, Matrix<S>* g);
   template <class Count>
   GradientTarget<S, Count> target(std::size_t a, S* g, Count lanes);
+  template <class Count>
+  void couple(Count lanes, const Coupling& pair, const S* right_columns, S* result);
 
   const Problem<S>& problem_;
   Index lanes_;
@@ -110,6 +124,36 @@ class ConstraintGradient {
   Matrix<S> x_, y_;  // scratch: lanes x dimension
   mutable S t_, u_;
 };
+
+template <Scalar S>
+template <class Count>
+void ConstraintGradient<S>::couple(Count lanes, const Coupling& pair, const S* right_columns, S* result) {
+  const S* const columns = values_.data();
+  if constexpr (is_constant_count<Count>) {
+    S sums[Count::value * Count::value] = {};
+    for (const auto& term : pair.terms) {
+      const S* const x = columns + term.left * lanes;
+      const S* const y = right_columns + term.right * lanes;
+      for (Index j = 0; j < lanes; ++j)
+        for (Index i = 0; i < lanes; ++i) sums[i + j * lanes] += x[i] * y[j];
+    }
+    for (Index i = 0; i < lanes * lanes; ++i) result[i] = sums[i];
+    return;
+  }
+  bool first = true;
+  for (const auto& term : pair.terms) {
+    const S* const x = columns + term.left * lanes;
+    const S* const y = right_columns + term.right * lanes;
+    S* out = result;
+    for (Index j = 0; j < lanes; ++j, out += lanes) {
+      if (first)
+        for (Index i = 0; i < lanes; ++i) set_product(out[i], x[i], y[j]);
+      else
+        for (Index i = 0; i < lanes; ++i) add_product(out[i], x[i], y[j], t_);
+    }
+    first = false;
+  }
+}
 
 #define HBVM_DECLARE(S) extern template class ConstraintGradient<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)

@@ -50,6 +50,7 @@ class ConstraintProjection {
   Lu<S> system_;
   Matrix<S> shift_, g_, mu_;  // 1 x nu
   Vector<S> v_, x_;
+  S product_ = 0;  ///< of two gradients
   std::vector<PartCount> parts_;
   bool timed_ = false;
 };

@@ -56,6 +56,7 @@ class EnergyMomentum final : public Stepper<S> {
 
   const Problem<S>& problem_;
   S h_ = 0, half_ = 0, one_half_;  ///< h, h/2
+  S product_ = 0;                  ///< of two gradients
   DiscreteForce<S> force_;
   ConstraintGradient<S> middle_gradient_, end_gradient_;
   Ordering order_;

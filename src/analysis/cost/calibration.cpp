@@ -1,12 +1,7 @@
 #include "hbvm/analysis/cost/calibration.hpp"
 
-#include <algorithm>
-#include <array>
-#include <vector>
-
 #include "hbvm/clock.hpp"
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/scalar/with_scalar.hpp"
+#include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
 
@@ -24,43 +19,25 @@ double typical_nanoseconds(const Precision& precision) {
   return 25 + digits / 4 + digits * digits / 4'000;
 }
 
-namespace {
-
-/// What comes out of a precision must be no scalar.
-struct LoopTime {
-  double seconds;
-};
-
-}  // namespace
-
-double calibration_seconds(const Precision& precision) {
-  constexpr double nanoseconds = 3'000'000;
-  constexpr std::size_t length = 64;
-  const auto rounds =
-      1 + static_cast<std::size_t>(nanoseconds / (typical_nanoseconds(precision) * 2 * static_cast<double>(length)));
-  const LoopTime loop = with_scalar(precision, [&]<Scalar S>() {
-    std::vector<S> x, y;
-    for (std::size_t i = 0; i < length; ++i) {
-      x.push_back(S(1) / static_cast<long>(i + 3));
-      y.push_back(S(static_cast<long>(i + 2)) / static_cast<long>(i + 1));
-    }
-    // Sums that do not wait for one another: a core that another thread has a share in is slower at many operations at
-    // a time, as the solver has them, but not at one after another.
-    constexpr std::size_t at_a_time = 8;
-    std::array<S, at_a_time> sums{};
-    S product = 0;
-    const double before = thread_seconds();
-    for (std::size_t round = 0; round < rounds; ++round)
-      for (std::size_t i = 0; i < length; ++i) {
-        set_product(product, x[i], y[i]);
-        S& sum = sums[i % at_a_time];
-        set_sum(sum, sum, product);
-      }
-    const double seconds = thread_seconds() - before;
-    // Looked at, so that the compiler cannot leave them out.
-    return LoopTime{std::all_of(sums.begin(), sums.end(), [](const S& sum) { return is_finite(sum); }) ? seconds : 0};
-  });
-  return loop.seconds;
+template <Scalar S>
+Calibration<S>::Calibration(const Precision& precision)
+    : scene_(assemble<S>(load_scene("tethered_satellites"))), method_(make_hbvm<S>(2, 2)) {
+  constexpr double nanoseconds = 3'000'000, operations_of_a_sweep = 600, sweeps_in_double = 9, digits_of_a_sweep = 15;
+  const double sweeps = std::same_as<S, double> ? sweeps_in_double : 2 + precision.digits() / digits_of_a_sweep;
+  steps_ = 1 + static_cast<long>(nanoseconds / (typical_nanoseconds(precision) * operations_of_a_sweep * sweeps));
 }
+
+template <Scalar S>
+double Calibration<S>::seconds() const {
+  HbvmStepper<S> stepper(scene_.problem, method_, SolverKind::automatic);
+  State<S> state(scene_.q0, scene_.p0);
+  const S h = S(1) / 10;
+  const double before = thread_seconds();
+  for (long i = 0; i < steps_; ++i) stepper.step(state, h);
+  return thread_seconds() - before;
+}
+
+#define HBVM_DEFINE(S) template class Calibration<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm

@@ -155,23 +155,24 @@ class CostRun {
   NodeLog log_;
 };
 
-/// A repetition beside which the calibration loop is slower than this, of the quickest, does not count.
+/// A repetition beside which the calibration is slower than this, of the quickest, does not count.
 constexpr double most_disturbed = double{11} / 10;
 
 /// Repetitions of a run, each between two calibrations.
 class Repetitions {
  public:
-  Repetitions(const Precision& precision, const CostRepetitions& wanted) : precision_(precision), wanted_(wanted) {}
+  Repetitions(const std::function<double()>& calibrate, const CostRepetitions& wanted)
+      : calibrate_(calibrate), wanted_(wanted) {}
 
   /// A run that was made already, with the calibration before it.
   void add(double time, double before) {
-    times_.push_back({time, (before + calibration_seconds(precision_)) / 2});
+    times_.push_back({time, (before + calibrate_()) / 2});
     spent_ += time;
   }
 
   void run(const std::function<double()>& seconds) {
     const double start = thread_seconds() - spent_;
-    double before = calibration_seconds(precision_);
+    double before = calibrate_();
     // Twice as many as are wanted, if some do not count; but a long run is its own mean over what disturbs it.
     const double patience = 10 * wanted_.seconds;
     const auto made = [&] { return static_cast<int>(times_.size()); };
@@ -179,7 +180,7 @@ class Repetitions {
       const double spent = thread_seconds() - start;
       const int tries = spent < patience ? 2 * wanted_.least : wanted_.least;
       if (spent >= wanted_.seconds && (made() >= tries || counting() >= wanted_.least)) break;
-      const double time = seconds(), after = calibration_seconds(precision_);
+      const double time = seconds(), after = calibrate_();
       times_.push_back({time, (before + after) / 2});
       before = after;
     }
@@ -219,7 +220,7 @@ class Repetitions {
         std::count_if(times_.begin(), times_.end(), [&](const Timed& t) { return t.calibration <= limit; }));
   }
 
-  const Precision& precision_;
+  const std::function<double()>& calibrate_;
   const CostRepetitions& wanted_;
   std::vector<Timed> times_;
   double spent_ = 0;
@@ -242,7 +243,9 @@ CostMeasurement measure_cost(const Scene& scene, const Expression& until, const 
                              const CostRepetitions& wanted) {
   return with_scalar(cell.precision, [&]<Scalar S>() {
     CostRun<S> run(scene, until, cell);
-    const double before = calibration_seconds(cell.precision);
+    const Calibration<S> calibration(cell.precision);
+    const std::function<double()> calibrate = [&] { return calibration.seconds(); };
+    const double before = calibrate();
     CostMeasurement m = run.first(judge);
     if (!m.failure.empty()) return m;
     const double once = m.seconds;
@@ -250,7 +253,7 @@ CostMeasurement measure_cost(const Scene& scene, const Expression& until, const 
     constexpr double long_for_clock = double{2} / 1'000, long_for_setup = double{2} / 100;
     const double most_at_once = long_for_setup / (once + m.setup_seconds + 1 / double{1'000'000});
     const long at_once = std::max(1L, std::lround(std::min(std::ceil(long_for_clock / once), most_at_once)));
-    Repetitions repetitions(cell.precision, wanted);
+    Repetitions repetitions(calibrate, wanted);
     // Caches make no difference to it.
     if (once >= wanted.seconds) repetitions.add(once, before);
     repetitions.run([&] {

@@ -40,9 +40,9 @@ struct CostMeasurement {
   bool at_reference = false;  ///< an error is what the reference leaves open
   double seconds = 0;         ///< of all steps: the median of the repetitions that count
   double spread = 0;          ///< half of the range of these, of the median
-  double calibration = 0;     ///< seconds of the calibration loop beside them, the median
+  double calibration = 0;     ///< seconds of the calibration beside them, the median
   int repetitions = 0;        ///< that count
-  int disturbed = 0;          ///< and that do not, as the loop beside them was slower
+  int disturbed = 0;          ///< and that do not, as the calibration beside them was slower
   double setup_seconds = 0;   ///< coefficients, nodes, a k that is chosen
   long sweeps = 0;
   std::uint64_t evaluations = 0;                           ///< of forces, at nodes

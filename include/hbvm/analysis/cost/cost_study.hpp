@@ -32,7 +32,7 @@ struct CostOutcome {
   std::optional<Expression> energy_until = {};  ///< of the energies
 };
 
-/// Measures the cells of the study, each in a process of its own, beside which a calibration loop shows what else the
+/// Measures the cells of the study, each in a process of its own, beside which a calibration shows what else the
 /// machine did. To be called while the program has a single thread.
 /// \return the same whatever the number of processes and shards, but for times
 /// \throws InputError, IntegrationError
