@@ -45,6 +45,7 @@ void StoppingRule<S>::start(const Vector<S>& p0, const Vector<S>& positions) {
   for (Index j = 0; j < p0.size(); ++j) {
     Coordinate& x = at(j);
     set(x.position, positions[j]);
+    set_product(x.lost, x.position, negligible_);
     set_zero(x.scale);
     set_zero(x.terms);
     set_zero(x.change);
@@ -196,10 +197,15 @@ void StoppingRule<S>::follow_least(Coordinate& x, bool first, bool rounding) {
 }
 
 template <Scalar S>
+bool StoppingRule<S>::is_lost(const Coordinate& x, const S& left) const {
+  return fast_ && !exceeds(x.scale, x.far) && !exceeds(left, x.lost);
+}
+
+template <Scalar S>
 bool StoppingRule<S>::is_far(Coordinate& x) {
   if (!exceeds(x.change, x.far)) return false;
   set_product(t_, x.change, last_rate_);
-  if (!exceeds(t_, x.negligible)) return false;
+  if (!exceeds(t_, x.negligible) || is_lost(x, t_)) return false;
   set(x.expected, x.change);
   x.vanishing = 0;
   if (exceeds(x.least, x.change)) {
@@ -214,7 +220,11 @@ bool StoppingRule<S>::is_far(Coordinate& x) {
 template <Scalar S>
 bool StoppingRule<S>::is_settled(Coordinate& x) {
   const bool first = sweeps_ == 1;
-  const bool negligible = is_negligible(x);
+  bool negligible = is_negligible(x);
+  if (!first && !negligible) {
+    set_product(left_, x.expected, last_rate_);
+    negligible = is_lost(x, left_);
+  }
   set_product(t_, x.rounding, kappa_);
   const bool rounding = !exceeds(x.change, t_) || !exceeds(x.change, tiny_), only_rounding = !exceeds(x.scale, t_);
   if (first) x.risen = 0;
@@ -225,8 +235,7 @@ bool StoppingRule<S>::is_settled(Coordinate& x) {
     set_sum(t_, x.change, x.change);
     x.vanishing = exceeds(x.scale, t_) ? 0 : x.vanishing + 1;
   }
-  const bool fast = !exceeds(last_rate_, coarse_bound_);
-  const bool vanishes = x.vanishing >= (fast ? 1 : 2) || (!first && fast && rounding && only_rounding);
+  const bool vanishes = x.vanishing >= (fast_ ? 1 : 2) || (!first && fast_ && rounding && only_rounding);
   return negligible || (rounding && (x.waiting >= 2 || vanishes || (!first && x.settled)));
 }
 
@@ -241,6 +250,7 @@ typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
     if (exceeds(x.change, x.coarse)) coarse_ = true;
   }
   find_rate();
+  fast_ = !exceeds(last_rate_, coarse_bound_);
 
   bool all = true, waiting_long = false;
   for (Coordinate& x : coordinates_) {

@@ -151,6 +151,38 @@ TYPED_TEST(StoppingRuleTest, DoesNotWaitForWhatVanishes) {
   EXPECT_LE(rule.sweeps(), (significand_bits<S>() + 12) / 6 + 3);
 }
 
+/// What is below the rounding of its positions altogether is as good as it gets once what is left is 2^-12 of that; but
+/// not where changes fall slowly, which may be of a body that hardly moves.
+TYPED_TEST(StoppingRuleTest, AsksNoMoreOfWhatIsRoundingThanOfItsPositions) {
+  using S = TypeParam;
+  using Verdict = typename StoppingRule<S>::Verdict;
+  const long digits = significand_bits<S>() - 1;
+  // Of two coordinates, the other one 2^-12 ahead; in the third sweep the change is 2^10 epsilon.
+  const auto sweeps = [&](long bits, long size_bits) {
+    StoppingRule<S> rule(2, roundings, 30);
+    Vector<S> p0(2), positions(2);
+    p0 << S(1), power_of_two<S>(size_bits);
+    positions << S(1), S(1);
+    rule.start(p0, positions);
+    Verdict verdict = Verdict::go_on;
+    for (long n = 1; n < 1000 && verdict == Verdict::go_on; ++n) {
+      const long exponent = 10 - digits - bits * (n - 3);
+      rule.show_change(0, power_of_two<S>(exponent - 12));
+      rule.show_change(1, power_of_two<S>(exponent));
+      rule.show_terms(Matrix<S>(p0.transpose()));
+      verdict = rule.judge();
+    }
+    EXPECT_EQ(verdict, Verdict::converged);
+    return rule.sweeps();
+  };
+  const long below_rounding = 6 - digits;  // 64 epsilon, where C is 100
+  EXPECT_EQ(sweeps(24, 0), 3);             // 2^-14 epsilon is left
+  EXPECT_EQ(sweeps(24, -4), 4);
+  EXPECT_EQ(sweeps(24, below_rounding), 3);
+  EXPECT_EQ(sweeps(20, below_rounding), 4);  // 2^-10 epsilon is left after three
+  EXPECT_GT(sweeps(4, below_rounding), 8);   // after which 2^-14 epsilon is left
+}
+
 TYPED_TEST(StoppingRuleTest, EndsTypedWhereNothingConverges) {
   using S = TypeParam;
   using Verdict = typename StoppingRule<S>::Verdict;

@@ -26,7 +26,8 @@ namespace hbvm {
 ///   positions amounts to, and not below its least one (since it last rose to 16 times that) for two sweeps. C bounds
 ///   the roundings of a sweep, kappa the factor by which the constraints magnify them;
 /// - or if it vanishes: below that bound, and changing by all it is for two sweeps, or one where changes fall to 2^-10
-///   a sweep; there it need not change by all it is if that is below the bound, too. Nobody waits for what goes to 0.
+///   a sweep; there it need not change by all it is if that is below the bound, too, nor have come below it itself once
+///   what is left to change is 2^-12 of what rounding of its positions amounts to. Nobody waits for what goes to 0.
 template <Scalar S>
 class StoppingRule {
  public:
@@ -84,7 +85,8 @@ class StoppingRule {
     /// Parts of the scale: C epsilon (of what rounding of the position amounts to, if that is larger), 2^-12 epsilon,
     /// ...
     S noise = 0, rounding = 0, negligible = 0, coarse = 0;
-    S far = 0;  ///< a greater change is no rounding
+    S far = 0;   ///< a greater change is no rounding
+    S lost = 0;  ///< 2^-12 of what rounding of the position amounts to
     long waiting = 0, risen = 0, vanishing = 0;
     bool settled = false;
   };
@@ -92,6 +94,8 @@ class StoppingRule {
   /// Whether all that is left to change is negligible; updates what is expected of the next change.
   bool is_negligible(Coordinate& x);
   bool is_settled(Coordinate& x);
+  /// Whether it is rounding altogether, beside which what is left to change counts for nothing.
+  bool is_lost(const Coordinate& x, const S& left) const;
   /// What is_settled() says of most coordinates in most sweeps, sooner: that neither may its change be rounding nor is
   /// what is left negligible. Not for the first sweep.
   bool is_far(Coordinate& x);
@@ -106,6 +110,7 @@ class StoppingRule {
 
   long sweeps_ = 0, max_sweeps_;
   bool coarse_ = true, terms_shown_ = false, finite_ = true, rate_shown_ = false;
+  bool fast_ = false;                         ///< changes fall to 2^-10 a sweep
   S bound_, negligible_, tiny_, least_rate_;  // C epsilon, 2^-12 epsilon, C times the least number
   S coarse_bound_, kappa_ = 1, rate_ = 1, last_rate_ = 1;
   S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16;
