@@ -92,7 +92,7 @@ class PanelScript {
     label_marks();
     for (const Label& label : panel_.labels) write(label.at, label.text, "black", 0);
     if (has_names(panel_)) label_curves();
-    if (parts_.empty()) parts_.push_back("NaN notitle");
+    if (parts_.empty()) parts_.emplace_back("NaN notitle");
     std::string plot = "plot ";
     for (std::size_t i = 0; i < parts_.size(); ++i) plot += (i > 0 ? ", \\\n     " : "") + parts_[i];
     return script_ + plot + "\n";
@@ -123,7 +123,8 @@ class PanelScript {
     bool open = false;
     for (const PlotPoint& point : points) {
       const bool drawn = std::isfinite(point[0]) && std::isfinite(point[1]);
-      if (drawn) script_ += fmt::format("{:.7g} {:.7g}\n", point[0], point[1]);
+      // As many digits as the range has, or the marker of its last point may lie beyond it.
+      if (drawn) script_ += fmt::format("{:.12g} {:.12g}\n", point[0], point[1]);
       if (!drawn && open) script_ += "\n";
       open = drawn;
     }

@@ -21,6 +21,13 @@ S least_number() {
     return std::numeric_limits<S>::denorm_min();
 }
 
+/// Sizes are compared, and need no more digits than that, however many there are.
+template <Scalar S, class... Sizes>
+void shorten([[maybe_unused]] Sizes&... sizes) {
+  if constexpr (std::same_as<S, Mpfr>)
+    (mpfr_prec_round(raw(sizes), std::numeric_limits<double>::digits, MPFR_RNDN), ...);
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -32,7 +39,12 @@ StoppingRule<S>::StoppingRule(Index coordinates, long roundings, int least_rate_
       tiny_(S(roundings) * least_number<S>()),
       least_rate_(power_of_two<S>(-least_rate_bits)),
       coarse_bound_(power_of_two<S>(-10)),
-      coordinates_(static_cast<std::size_t>(coordinates)) {}
+      coordinates_(static_cast<std::size_t>(coordinates)) {
+  shorten<S>(bound_, negligible_, tiny_, least_rate_, coarse_bound_, kappa_, rate_, last_rate_, t_, left_);
+  for (Coordinate& x : coordinates_)
+    shorten<S>(x.change, x.terms, x.scale, x.position, x.last, x.least, x.expected, x.noise, x.rounding, x.negligible,
+               x.coarse, x.far, x.lost);
+}
 
 template <Scalar S>
 void StoppingRule<S>::start(const Vector<S>& p0, const Vector<S>& positions) {
