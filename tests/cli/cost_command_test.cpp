@@ -17,7 +17,7 @@ std::map<std::string, Json> timeless(const std::string& json) {
   std::map<std::string, Json> result;
   for (Json cell : Json::parse(json).at("cells")) {
     for (const char* const time :
-         {"seconds", "spread", "slowdown", "setup_seconds", "repetitions", "disturbed", "front", "bytes"})
+         {"seconds", "spread", "slowdown", "setup_seconds", "repetitions", "disturbed", "front"})
       cell.erase(time);
     result[cell.at("method").get<std::string>() + cell.at("step").get<std::string>()] = cell;
   }

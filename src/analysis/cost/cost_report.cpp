@@ -91,7 +91,7 @@ std::vector<CsvColumn> cost_columns() {
           {"evaluations", CsvType::integer, "of forces"},
           {"operations", CsvType::integer, "in the working precision"},
           {"operations_in_double", CsvType::integer, "beside these"},
-          {"bytes", CsvType::integer, "held by coefficients and stepper, read off the heap: measured, as times are"},
+          {"bytes", CsvType::integer, "held by coefficients and stepper"},
           {"front", CsvType::text, "yes: in this precision nothing is both quicker and more precise"},
           {"failure", CsvType::text, "why there is no result"}};
 }

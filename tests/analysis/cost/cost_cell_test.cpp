@@ -48,6 +48,17 @@ TEST(CostCell, IsTheSameAgainButForTimes) {
   EXPECT_EQ(one.operations, other.operations);
   EXPECT_EQ(one.sweeps, other.sweeps);
   EXPECT_EQ(one.evaluations, other.evaluations);
+  EXPECT_EQ(one.bytes, other.bytes);
+}
+
+TEST(CostCell, HoldsMoreInMoreDigits) {
+  const Scene scene = load_scene("double_pendulum");
+  const CostJudge judge = judge_of(scene);
+  const long few = measured(scene, judge, "rattle", "mpfr:50", 100).bytes,
+             many = measured(scene, judge, "rattle", "mpfr:500", 100).bytes;
+  EXPECT_GT(few, 2'000);
+  EXPECT_GT(many, few);
+  EXPECT_LT(many, 10 * few);
 }
 
 TEST(CostCell, SaysWhyThereIsNoEnd) {

@@ -47,7 +47,7 @@ struct CostMeasurement {
   long sweeps = 0;
   std::uint64_t evaluations = 0;                           ///< of forces, at nodes
   std::uint64_t operations = 0, operations_in_double = 0;  ///< in the working precision, and beside it
-  long bytes = 0;                                          ///< that problem, coefficients and stepper hold
+  long bytes = 0;                                          ///< that coefficients and stepper hold
   long account_steps = 0;
   std::vector<AccountLine> account;  ///< of the first so many steps
 };
