@@ -1,0 +1,31 @@
+#include "hbvm/analysis/cost/calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hbvm/scalar/with_scalar.hpp"
+
+namespace hbvm {
+namespace {
+
+TEST(Calibration, TakesAboutAsLongInEveryPrecision) {
+  for (const char* const name : {"double", "quad", "mpfr:20", "mpfr:100", "mpfr:1000"}) {
+    const Precision precision = Precision::parse(name);
+    with_scalar(precision, [&]<Scalar S>() {
+      const double seconds = Calibration<S>(precision).seconds();
+      EXPECT_GT(seconds, 1e-4) << name;
+      EXPECT_LT(seconds, 0.1) << name;
+    });
+  }
+}
+
+TEST(Calibration, KnowsThatDigitsCost) {
+  double before = 0;
+  for (const char* const name : {"double", "mpfr:20", "mpfr:50", "mpfr:200", "mpfr:2000"}) {
+    const double now = typical_nanoseconds(Precision::parse(name));
+    EXPECT_GT(now, before) << name;
+    before = now;
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
