@@ -17,7 +17,7 @@ TEST(Version, IsThreeNumbersAndTheCommitIfItIsKnown) {
 /// The file that says how to cite it names the same.
 TEST(Version, IsThatOfTheCitation) {
   const std::string number = std::string(version()).substr(0, std::string(version()).find('+'));
-  EXPECT_NE(read_file(std::string(HBVM_SOURCE_DIR) + "/CITATION.cff").find("\nversion: " + number + "\n"),
+  EXPECT_NE(read_file(std::string(HBVM_SOURCE_DIR) + "/src/install/CITATION.cff").find("\nversion: " + number + "\n"),
             std::string::npos)
       << number;
 }
