@@ -35,10 +35,65 @@ void Lu<S>::set(const Matrix<S>& a) {
   for (Index i = 0; i < a.size(); ++i) hbvm::set(data_[static_cast<std::size_t>(i)], a.data()[i]);
 }
 
+namespace {
+
+/// Lu::factor() of a full matrix. Whole rows are exchanged: rows[i] is the one that came to be the i-th.
+template <Index n>
+bool factor_few(double* a, Index* rows) {
+  for (Index k = 0; k < n; ++k) rows[k] = k;
+  for (Index k = 0; k < n; ++k) {
+    double* const column = a + k * n;
+    Index pivot = k;
+    for (Index i = k + 1; i < n; ++i)
+      if (std::abs(column[i]) > std::abs(column[pivot])) pivot = i;
+    if (column[pivot] == 0 || !is_finite(column[pivot])) return false;
+    if (pivot != k) {
+      std::swap(rows[k], rows[pivot]);
+      for (Index j = 0; j < n; ++j) std::swap(a[k + j * n], a[pivot + j * n]);
+    }
+    for (Index i = k + 1; i < n; ++i) column[i] /= column[k];
+    for (Index j = k + 1; j < n; ++j)
+      for (Index i = k + 1; i < n; ++i) a[i + j * n] -= column[i] * a[k + j * n];
+  }
+  return true;
+}
+
+/// Lu::solve() of what factor_few() left.
+template <Index n>
+void solve_few(const double* a, const Index* rows, double* x) {
+  double y[n];
+  for (Index k = 0; k < n; ++k) y[k] = x[rows[k]];
+  for (Index k = 0; k < n; ++k)
+    for (Index i = k + 1; i < n; ++i) y[i] -= a[i + k * n] * y[k];
+  for (Index k = n - 1; k >= 0; --k) {
+    y[k] *= a[k + k * n];
+    for (Index i = 0; i < k; ++i) y[i] -= a[i + k * n] * y[k];
+  }
+  for (Index k = 0; k < n; ++k) x[k] = y[k];
+}
+
+/// f(n) with n as a constant of its type, for a full matrix of few unknowns in double. \return false for others
+template <Scalar S, class F>
+bool with_few(Index n, Index stride, F f) {
+  if constexpr (std::same_as<S, double>)
+    if (stride == n)
+      return with_constant_count<S>(n, [&]<class Count>(Count) {
+        if constexpr (is_constant_count<Count>) f(Count());
+        return is_constant_count<Count>;
+      });
+  return false;
+}
+
+}  // namespace
+
 template <Scalar S>
 bool Lu<S>::factor() {
-  if constexpr (std::same_as<S, double>)
-    if (blocked_) return factor_dense(data_.data(), n_, pivots_);
+  if constexpr (std::same_as<S, double>) {
+    if (blocked_) return factor_dense(data_.data(), n_, pivots_) && invert_pivots();
+    bool regular = false;
+    const auto factor_in_place = [&](auto n) { regular = factor_few<n>(data_.data(), pivots_.data()); };
+    if (with_few<S>(n_, stride_, factor_in_place)) return regular && invert_pivots();
+  }
   S& t = scratch<S>();
   for (Index k = 0; k < n_; ++k) {
     const Index last_row = std::min(n_ - 1, k + b_), last_column = std::min(n_ - 1, k + upper_);
@@ -60,36 +115,26 @@ bool Lu<S>::factor() {
       for (Index i = k + 1; i <= last_row; ++i) subtract_product(target[i], column[i], factor, t);
     }
   }
-  return true;
+  return invert_pivots();
 }
 
-namespace {
-
-/// Lu::solve() of a full matrix.
-template <Index n>
-void solve_few(const double* a, const Index* pivots, double* x) {
-  for (Index k = 0; k < n; ++k) {
-    std::swap(x[k], x[pivots[k]]);
-    for (Index i = k + 1; i < n; ++i) x[i] -= a[i + k * n] * x[k];
+template <Scalar S>
+bool Lu<S>::invert_pivots() {
+  bool finite = true;
+  for (Index k = 0; k < n_; ++k) {
+    S& pivot = entry(k, k);
+    set_quotient(pivot, one_, pivot);
+    finite = finite && is_finite(pivot);
   }
-  for (Index k = n - 1; k >= 0; --k) {
-    x[k] /= a[k + k * n];
-    for (Index i = 0; i < k; ++i) x[i] -= a[i + k * n] * x[k];
-  }
+  return finite;
 }
-
-}  // namespace
 
 template <Scalar S>
 void Lu<S>::solve(S* x) {
-  if constexpr (std::same_as<S, double>)
-    if (stride_ == n_) {  // full
-      const bool few = with_constant_count<S>(n_, [&]<class Count>(Count) {
-        if constexpr (is_constant_count<Count>) solve_few<Count::value>(data_.data(), pivots_.data(), x);
-        return is_constant_count<Count>;
-      });
-      if (few) return;
-    }
+  if constexpr (std::same_as<S, double>) {
+    const auto solve_in_place = [&](auto n) { solve_few<n>(data_.data(), pivots_.data(), x); };
+    if (with_few<S>(n_, stride_, solve_in_place)) return;
+  }
   S& t = scratch<S>();
   const auto exchange = [&](Index k) {
     using std::swap;
@@ -106,7 +151,7 @@ void Lu<S>::solve(S* x) {
   }
   for (Index k = n_ - 1; k >= 0; --k) {
     const S* const column = &entry(0, k);
-    set_quotient(x[k], x[k], column[k]);
+    set_product(x[k], x[k], column[k]);
     for (Index i = std::max<Index>(0, k - upper_); i < k; ++i) subtract_product(x[i], column[i], x[k], t);
   }
 }
@@ -121,7 +166,7 @@ OperationCounts Lu<S>::factor_operations() const {
   OperationCounts counts;
   for (Index k = 0; k < n_; ++k) {
     const Index rows = std::min(n_ - 1 - k, b_), columns = std::min(n_ - 1 - k, upper_);
-    counts.add(Op::reciprocal, rows);
+    counts.add(Op::reciprocal, rows + 1);
     counts.add(Op::multiply, rows * columns);
     counts.add(Op::subtract, rows * columns);
   }
@@ -133,8 +178,7 @@ OperationCounts Lu<S>::solve_operations() const {
   OperationCounts counts;
   for (Index k = 0; k < n_; ++k) {
     const Index products = std::min(n_ - 1 - k, b_) + std::min(k, upper_);
-    counts.add(Op::reciprocal, 1);
-    counts.add(Op::multiply, products);
+    counts.add(Op::multiply, products + 1);
     counts.add(Op::subtract, products);
   }
   return counts;

@@ -17,7 +17,6 @@ ParityMatrix<S>::ParityMatrix(const Matrix<S>& a, Nodes nodes, First first)
       mirrored_(find_mirrored(a)) {
   if (!mirrored_) {
     whole_ = Part(a);
-    small_ = small_product(a.rows(), a.cols());
     return;
   }
   const Index half = n_ / 2, with_middle = n_ - half;
@@ -92,11 +91,16 @@ void ParityMatrix<S>::take_turns(S* r, Index first, Part& part, const S* x) {
 }
 
 template <Scalar S>
+void ParityMatrix<S>::add(Matrix<S>& c, const Vector<S>& plus) {
+  S* out = c.data();
+  for (Index j = 0; j < c.cols(); ++j)
+    for (Index i = 0; i < c.rows(); ++i, ++out) set_sum(*out, *out, plus[j]);
+}
+
+template <Scalar S>
 void ParityMatrix<S>::times(Matrix<S>& c, const Matrix<S>& b) {
   if (!mirrored_) {
     if (c.rows() != whole_.a.rows() || c.cols() != b.cols()) c.resize(whole_.a.rows(), b.cols());
-    if constexpr (std::same_as<S, double>)
-      if (small_) return small_(c.data(), whole_.a.data(), b.data(), b.cols());
     if constexpr (std::same_as<S, Mpfr>)
       for (Index j = 0; j < b.cols(); ++j) whole_.times(&c(0, j), &b(0, j), 1);
     else

@@ -8,19 +8,6 @@
 namespace hbvm {
 namespace {
 
-/// c = a b for an `a` of so few entries that they stay in registers.
-template <Index rows, Index terms>
-void multiply(double* __restrict c, const double* __restrict a, const double* __restrict b, Index columns) {
-  double factors[rows * terms];
-  for (Index i = 0; i < rows * terms; ++i) factors[i] = a[i];
-  for (Index j = 0; j < columns; ++j)
-    for (Index i = 0; i < rows; ++i) {
-      double sum = factors[i] * b[j * terms];
-      for (Index l = 1; l < terms; ++l) sum += factors[i + l * rows] * b[l + j * terms];
-      c[i + j * rows] = sum;
-    }
-}
-
 /// r = sum_l x_l a_l, column by column of `rows` entries.
 template <Scalar S, class Rows, class Terms>
 void add_columns(S* r, Rows rows, const S* a, Terms inner, const S* x, Index x_stride) {
@@ -43,17 +30,6 @@ void add_columns(S* r, Rows rows, const S* a, Terms inner, const S* x, Index x_s
 
 }  // namespace
 
-SmallProduct small_product(Index rows, Index terms) {
-  return with_constant_count<double>(rows, [&]<class Rows>(Rows) {
-    return with_constant_count<double>(terms, []<class Terms>(Terms) -> SmallProduct {
-      if constexpr (is_constant_count<Rows> && is_constant_count<Terms>)
-        return multiply<Rows::value, Terms::value>;
-      else
-        return nullptr;
-    });
-  });
-}
-
 template <Scalar S>
 void set_times(S* r, const Matrix<S>& a, const S* x, Index x_stride) {
   const Index rows = a.rows(), inner = a.cols();
@@ -75,10 +51,14 @@ void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
   if (c.rows() != rows || c.cols() != columns) c.resize(rows, columns);
   if constexpr (std::same_as<S, double>) {
     if (inner == 0) return set_zero(c);
-    if (const SmallProduct small = small_product(rows, inner)) return small(c.data(), a.data(), b.data(), columns);
-    return with_constant_count<S>(rows, [&](auto count) {
-      for (Index j = 0; j < columns; ++j)
-        add_columns(c.data() + j * count, count, a.data(), inner, b.data() + j * inner, 1);
+    return with_constant_count<S>(rows, [&]<class Rows>(Rows count) {
+      with_constant_count<S>(inner, [&]<class Terms>(Terms) {
+        if constexpr (is_constant_count<Rows> && is_constant_count<Terms>)
+          multiply_few<Rows::value, Terms::value>(c.data(), a.data(), b.data(), columns);
+        else
+          for (Index j = 0; j < columns; ++j)
+            add_columns(c.data() + j * count, count, a.data(), inner, b.data() + j * inner, 1);
+      });
     });
   }
   for (Index j = 0; j < columns; ++j) set_times(c.data() + j * rows, a, b.data() + j * inner, 1);

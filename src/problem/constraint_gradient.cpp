@@ -32,7 +32,7 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
     }
     weighted_patterns_.push_back({weighted_columns, std::vector<Index>(reached.begin(), reached.end())});
     for (const Index coordinate : reached)
-      weighted_places_.push_back({static_cast<Index>(weighted_places_.size()), a, coordinate, none});
+      weighted_runs_.push_back({static_cast<Index>(weighted_runs_.size()), a, coordinate, none});
     weighted_columns += static_cast<Index>(reached.size());
     std::visit(
         [&]<class Form>(const Form& form) {
@@ -41,12 +41,9 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
             patterns_.back().opposite = std::get<typename Form::Gradient>(gradients_.back()).is_opposite();
         },
         constraint.form);
-    const auto size = static_cast<Index>(own.size()), halves = patterns_.back().opposite ? size / 2 : size;
-    for (Index c = 0; c < halves; ++c)
-      places_.push_back({patterns_.back().first + c, a, own[static_cast<std::size_t>(c)],
-                         halves < size ? own[static_cast<std::size_t>(c + halves)] : none});
     prepare_weighing(patterns_.back(), weighted_patterns_.back());
   }
+  find_runs();
   values_ = Matrix<S>::Zero(lanes, columns);
   weighted_ = Matrix<S>::Zero(lanes, weighted_columns);
 
@@ -62,6 +59,31 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
       }
       if (!pair.terms.empty()) couplings_.push_back(std::move(pair));
     }
+  }
+}
+
+template <Scalar S>
+void ConstraintGradient<S>::find_runs() {
+  const auto has_runs = [](const Pattern& pattern, std::size_t length) {
+    const std::vector<Index>& own = pattern.coordinates;
+    if ((pattern.opposite ? own.size() / 2 : own.size()) % length != 0) return false;
+    for (std::size_t c = 0; c < own.size(); ++c)
+      if (c % length != 0 && own[c] != own[c - 1] + 1) return false;
+    return true;
+  };
+  const auto dimension = static_cast<std::size_t>(problem_.dimension);
+  const bool vectors = std::all_of(patterns_.begin(), patterns_.end(),
+                                   [&](const Pattern& pattern) { return has_runs(pattern, dimension); });
+  run_length_ = vectors ? problem_.dimension : 1;
+  for (Pattern& pattern : patterns_) {
+    const auto constraint = static_cast<Index>(&pattern - patterns_.data());
+    const std::vector<Index>& own = pattern.coordinates;
+    const std::size_t halves = pattern.opposite ? own.size() / 2 : own.size();
+    pattern.first_run = runs_.size();
+    for (std::size_t c = 0; c < halves; c += static_cast<std::size_t>(run_length_))
+      runs_.push_back(
+          {pattern.first + static_cast<Index>(c), constraint, own[c], halves < own.size() ? own[c + halves] : none});
+    pattern.runs = runs_.size() - pattern.first_run;
   }
 }
 
@@ -97,32 +119,15 @@ void ConstraintGradient<S>::add_weighing(const Weighing& next) {
 
 template <Scalar S>
 void ConstraintGradient<S>::update(Lanes<const S> q) {
-  update_all(q, nullptr);
+  with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
+    update(Lanes<const S, Count>{q.data, lanes}, static_cast<S*>(nullptr));
+  });
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::update(Lanes<const S> q, Matrix<S>& g) {
-  update_all(q, &g);
-}
-
-template <Scalar S>
-template <class Count>
-GradientTarget<S, Count> ConstraintGradient<S>::target(std::size_t a, S* g, Count lanes) {
-  return {lanes, values_.data() + patterns_[a].first * lanes, g, x_, y_, t_};
-}
-
-template <Scalar S>
-void ConstraintGradient<S>::update_all(Lanes<const S> q, Matrix<S>* g) {
-  weighed_ = false;
   with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
-    for (std::size_t a = 0; a < patterns_.size(); ++a) {
-      const GradientTarget<S, Count> to = target(a, g ? g->data() + static_cast<Index>(a) * lanes : nullptr, lanes);
-      std::visit(
-          [&](const auto& gradient) {
-            gradient.update(Lanes<const S, Count>{q.data, lanes}, to);
-          },
-          gradients_[a]);
-    }
+    update(Lanes<const S, Count>{q.data, lanes}, g.data());
   });
 }
 
@@ -178,9 +183,9 @@ OperationCounts ConstraintGradient<S>::transposed_operations(Index a) const {
 template <Scalar S>
 OperationCounts ConstraintGradient<S>::times_operations() const {
   OperationCounts counts;
-  for (const Place& place : places_) {
-    counts.add_products(lanes_);
-    if (place.opposite != none) counts.add(Op::subtract, lanes_);
+  for (const Run& run : runs_) {
+    counts.add_products(run_length_ * lanes_);
+    if (run.opposite != none) counts.add(Op::subtract, run_length_ * lanes_);
   }
   return counts;
 }
@@ -189,57 +194,24 @@ template <Scalar S>
 void ConstraintGradient<S>::transposed_times(Index a, Lanes<const S> v, S* result) {
   const Pattern& pattern = patterns_[static_cast<std::size_t>(a)];
   with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
-    const std::size_t size = pattern.coordinates.size(), halves = pattern.opposite ? size / 2 : size;
-    const S* column = values_.data() + pattern.first * lanes;
-    HeldScratch<S> t = t_, difference = u_;
-    for (std::size_t c = 0; c < halves; ++c, column += lanes) {
-      const S* const in = v.data + pattern.coordinates[c] * lanes;
-      const S* const opposite = halves < size ? v.data + pattern.coordinates[c + halves] * lanes : nullptr;
-      for (Index i = 0; i < lanes; ++i) {
-        if (opposite) set_difference(difference, in[i], opposite[i]);
-        if (c == 0)
-          set_product(result[i], column[i], opposite ? difference : in[i]);
-        else
-          add_product(result[i], column[i], opposite ? difference : in[i], t);
-      }
-    }
-  });
-}
-
-template <Scalar S>
-void ConstraintGradient<S>::add_times(const std::vector<Place>& places, const Matrix<S>& values,
-                                      const Matrix<S>& lambda, Lanes<S> out, S& scratch) {
-  with_constant_count<S>(values.rows(), [&](auto lanes) {
-    HeldScratch<S> t = scratch;
-    const S* const columns = values.data();
-    const S* const multipliers = lambda.data();
-    S* const sums = out.data;
-    for (const Place& place : places) {
-      const S* const column = columns + place.column * lanes;
-      const S* const multiplier = multipliers + place.constraint * lanes;
-      S* const sum = sums + place.coordinate * lanes;
-      if (place.opposite == none) {
-        for (Index i = 0; i < lanes; ++i) add_product(sum[i], column[i], multiplier[i], t);
-        continue;
-      }
-      S* const opposite = sums + place.opposite * lanes;
-      for (Index i = 0; i < lanes; ++i) {
-        set_product(t, column[i], multiplier[i]);
-        set_sum(sum[i], sum[i], t);
-        set_difference(opposite[i], opposite[i], t);
-      }
-    }
+    with_run_length([&](auto length) {
+      transposed_times(length, pattern, Lanes<const S, Count>{v.data, lanes}, result);
+    });
   });
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::add_times(const Matrix<S>& lambda, Lanes<S> out) {
-  add_times(places_, values_, lambda, out, t_);
+  with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
+    with_run_length([&](auto length) {
+      add_times(length, runs_, values_.data(), lambda.data(), Lanes<S, Count>{out.data, lanes}, t_);
+    });
+  });
 }
 
 template <Scalar S>
 void ConstraintGradient<S>::add_weighted_times(const Matrix<S>& lambda, Lanes<S> out) {
-  add_times(weighted_places_, weighted_values(), lambda, out, t_);
+  add_times(Index{1}, weighted_runs_, weighted_values().data(), lambda.data(), out, t_);
 }
 
 template <Scalar S>

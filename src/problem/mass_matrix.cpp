@@ -55,6 +55,7 @@ void MassMatrix<S>::add_scalar(Index size, const S& mass) {
     spans_.back().size += size;
   else
     spans_.push_back({m_, size, mass, blocks_.back().inverse_mass});
+  inverse_masses_.resize(static_cast<std::size_t>(m_ + size), blocks_.back().inverse_mass);
   m_ += size;
 }
 

@@ -55,7 +55,8 @@ PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index l
     Work& work = work_.emplace_back(term, potential.dimension, lanes);
     counts_[t].per_evaluation = operations_of(term, potential.dimension);
     if (!term.constant_force) {
-      varying_ = true;
+      varying_.push_back({&term, &work, &counts_[t], work.kernel ? work.kernel->add_force : nullptr, work.sites.data(),
+                          work.sites.size()});
       continue;
     }
     // The same everywhere: evaluated once, here.
@@ -78,16 +79,16 @@ void PotentialEvaluator<S>::for_each_force(const EffectTerm<S>& term, F f) const
 }
 
 template <Scalar S>
-void PotentialEvaluator<S>::displace_all(std::size_t t, Lanes<const S> q) {
-  Matrix<S>& x = work_[t].displacement;
-  displace(potential_.terms[t], potential_.dimension, q, x.data(), x.rows());
+void PotentialEvaluator<S>::displace_all(const EffectTerm<S>& term, Work& work, Lanes<const S> q) {
+  Matrix<S>& x = work.displacement;
+  displace(term, potential_.dimension, q, x.data(), x.rows());
 }
 
 template <Scalar S>
 void PotentialEvaluator<S>::values(Lanes<const S> q, Vector<S>& U) {
   U.setZero(lanes_);
   for (std::size_t t = 0; t < potential_.terms.size(); ++t) {
-    displace_all(t, q);
+    displace_all(potential_.terms[t], work_[t], q);
     work_[t].value.run();
     for (Index lane = 0; lane < work_[t].displacement.rows(); ++lane) {
       S& u = U[lane % lanes_];
@@ -100,14 +101,16 @@ template <Scalar S>
 void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
   if (force.rows() != lanes_ || force.cols() != potential_.m) force.resize(lanes_, potential_.m);
   set_zero(force);
-  for (std::size_t t = 0; t < potential_.terms.size(); ++t) {
-    const EffectTerm<S>& term = potential_.terms[t];
-    if (term.constant_force) continue;
+  for (const Varying& own : varying_) {
     const double before = timed_ ? elapsed_seconds() : 0;
-    ++counts_[t].calls;
-    counts_[t].evaluations += static_cast<std::uint64_t>(lanes_);
-    add_force(t, q, force);
-    if (timed_) counts_[t].seconds += elapsed_seconds() - before;
+    ++own.count->calls;
+    own.count->evaluations += static_cast<std::uint64_t>(lanes_);
+    if (own.kernel != nullptr) {
+      if constexpr (std::same_as<S, double>) own.kernel(own.sites, own.site_count, q, force.data());
+    } else {
+      add_force(*own.term, *own.work, q, force);
+    }
+    if (timed_) own.count->seconds += elapsed_seconds() - before;
   }
 }
 
@@ -119,16 +122,8 @@ void PotentialEvaluator<S>::force(Lanes<const S> q, Matrix<S>& force) {
 }
 
 template <Scalar S>
-void PotentialEvaluator<S>::add_force(std::size_t t, Lanes<const S> q, Matrix<S>& force) {
-  const EffectTerm<S>& term = potential_.terms[t];
-  Work& work = work_[t];
-  if constexpr (std::same_as<S, double>) {
-    if (work.kernel != nullptr) {
-      work.kernel->add_force(work.sites.data(), work.sites.size(), q, force.data());
-      return;
-    }
-  }
-  displace_all(t, q);
+void PotentialEvaluator<S>::add_force(const EffectTerm<S>& term, Work& work, Lanes<const S> q, Matrix<S>& force) {
+  displace_all(term, work, q);
   work.gradient.run();
   for_each_force(term, [&](Index output, Index instance, Index coordinate, const S& weight) {
     S* const f = force.data() + coordinate * lanes_;

@@ -85,11 +85,12 @@ void FixedPoint<S>::prepare(Start start, const Vector<S>& p0) {
 
 template <Scalar S>
 bool FixedPoint<S>::sweep(bool factor) {
+  const bool papers = order_ == Order::paper;
   std::swap(gamma_before_, x_.gamma);
-  std::swap(psi_before_, x_.psi);
+  if (papers) std::swap(psi_before_, x_.psi);
   equations_.move(gamma_before_);
   equations_.forces(x_.psi);
-  const Matrix<S>& psi = order_ == Order::paper ? psi_before_ : x_.psi;
+  const Matrix<S>& psi = papers ? psi_before_ : x_.psi;
   if (!equations_.multipliers(psi, x_.lambda, x_.zeta, factor)) return false;
   equations_.momenta(psi, x_.zeta, x_.gamma);
   return true;

@@ -44,6 +44,7 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
   velocity_.resize(s, m);
   h_velocity_.resize(s, m);
   u_.resize(r, m);
+  u_hat_.resize(method.k, m);
   w_.resize(r, m);
   stage_.resize(s, m);
   pull_.resize(s, m);
@@ -107,7 +108,7 @@ void StageEquations<S>::describe_parts() {
     if (coefficients) parts_[matrix].per_call.add_dots((r + s) * s, r);
   }
   parts_[matrix].per_call += gradient_.weighing_operations();
-  parts_[factors].per_call = system_.factor_operations();  // none of a single multiplier at a single stage
+  parts_[factors].per_call = system_.factor_operations();
   parts_[solution].per_call = system_.solve_operations();
   parts_[solution].per_call.add(Op::add, s * nu);
   parts_[zetas].per_call += gradient_.times_operations();
@@ -128,7 +129,7 @@ void StageEquations<S>::describe_parts() {
   parts_[constraint_residual].per_call = hidden;
   parts_[constraint_residual].per_call.add(Op::subtract, s * m);
   parts_[right_hand_side].per_call = gamma + stages * problem_.mass.operations() + hidden;
-  parts_[right_hand_side].per_call.add(Op::reciprocal, s * nu);
+  parts_[right_hand_side].per_call.add(Op::multiply, s * nu);
 }
 
 template <Scalar S>
@@ -157,8 +158,11 @@ template <Scalar S>
 void StageEquations<S>::start(const StepStart<S>& start) {
   q0_ = &start.q;
   p0_ = &start.p;
-  set(h_, start.h);
-  set_product(h_half_, h_, half_);
+  if (start.h != h_) {
+    set(h_, start.h);
+    set_product(h_half_, h_, half_);
+    set_quotient(inverse_h_, S(1), h_);
+  }
   q_carry_ = start.q_carry ? start.q_carry : &no_carry_;
   p_carry_ = start.p_carry ? start.p_carry : &no_carry_;
 }
@@ -166,15 +170,19 @@ void StageEquations<S>::start(const StepStart<S>& start) {
 template <Scalar S>
 void StageEquations<S>::move(const Matrix<S>& gamma) {
   const PartCall counted = call(velocities);
-  problem_.mass.velocity(lanes(gamma), lanes(velocity_));
-  set_product(h_velocity_, h_, velocity_);
-  with_constant_count<S>(method_.s, [&](auto s) {
+  with_constant_count<S>(method_.s, [&]<class Stages>(Stages s) {
+    problem_.mass.velocity(Lanes<const S, Stages>{gamma.data(), s}, Lanes<S, Stages>{velocity_.data(), s});
     S* __restrict const middle = middle_.data();
-    const S* const step = h_velocity_.data();
+    S* __restrict const step = h_velocity_.data();
+    const S* const velocity = velocity_.data();
     const S* const carry = q_carry_->data();
     const S* const q0 = q0_->data();
-    for (Index j = 0; j < middle_.size(); ++j) {
-      set_product(middle[j], half_, step[j * s]);
+    const Held<S> h = h_, half = half_;
+    const Index m = middle_.size();
+#pragma GCC ivdep
+    for (Index j = 0; j < m; ++j) {
+      for (Index i = 0; i < s; ++i) set_product(step[j * s + i], h, velocity[j * s + i]);
+      set_product(middle[j], half, step[j * s]);
       set_sum(middle[j], middle[j], carry[j]);
       set_sum(middle[j], middle[j], q0[j]);
     }
@@ -182,29 +190,33 @@ void StageEquations<S>::move(const Matrix<S>& gamma) {
 }
 
 template <Scalar S>
-void StageEquations<S>::positions(Parity& integrals, Matrix<S>& u) {
-  integrals.times(u, h_velocity_);
-  with_constant_count<S>(u.rows(), [&](auto rows) {
-    S* __restrict const x = u.data();
-    const S* __restrict const middle = middle_.data();
-    for (Index j = 0; j < u.cols(); ++j)
-      for (Index i = 0; i < rows; ++i) set_sum(x[j * rows + i], x[j * rows + i], middle[j]);
-  });
+template <class F>
+decltype(auto) StageEquations<S>::with_stages(F f) {
+  const Index s = method_.s, r = method_.r;
+  if (std::same_as<S, double> && r == s) return with_constant_count<S>(s, [&](auto count) { return f(count, count); });
+  return f(s, r);
 }
 
 template <Scalar S>
 void StageEquations<S>::forces(Matrix<S>& psi) {
+  with_constant_count<S>(method_.s,
+                         [&](auto s) { with_constant_count<S>(method_.k, [&](auto k) { forces(s, k, psi); }); });
+}
+
+template <Scalar S>
+template <class Stages, class Nodes>
+[[gnu::always_inline]] inline void StageEquations<S>::forces(Stages s, Nodes k, Matrix<S>& psi) {
   if (potential_.has_varying_force()) {
     Matrix<S>& u = method_.k == method_.r ? u_ : u_hat_;
     {
       const PartCall counted = call(quadrature_nodes);
-      positions(I_hat_centred_, u);
+      I_hat_centred_.times_plus(k, s, u, h_velocity_, middle_);
     }
     potential_.varying_force(lanes(u), force_);
   }
   const PartCall counted = call(projection);
   if (potential_.has_varying_force())
-    projection_hat_.times(psi, force_);
+    projection_hat_.times(s, k, psi, force_);
   else
     set_zero(psi);
   // A constant force has the one coefficient psi_0 = force.
@@ -216,68 +228,85 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
 }
 
 template <Scalar S>
-void StageEquations<S>::move_constraints() {
+template <class Stages, class Nodes>
+[[gnu::always_inline]] inline void StageEquations<S>::move_constraints(Stages s, Nodes r) {
   // For k = r the nodes of the forces, just computed, are the constraints'.
   if (method_.k != method_.r || !potential_.has_varying_force()) {
     const PartCall counted = call(constraint_nodes);
-    positions(I_centred_, u_);
+    I_centred_.times_plus(r, s, u_, h_velocity_, middle_);
   }
   const PartCall counted = call(gradients);
-  gradient_.update(lanes(u_));
+  gradient_.update(Lanes<const S, Nodes>{u_.data(), r}, static_cast<S*>(nullptr));
 }
 
 template <Scalar S>
 bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta, bool factor) {
-  const Index nu = problem_.nu(), s = method_.s;
-  if (nu == 0) return true;
-  move_constraints();
-  if (factor && !factor_matrix()) return false;
-  project_multipliers(lambda, zeta);
-  const auto first = [&](Index a) { return order_.position[static_cast<std::size_t>(a)] * s; };
+  if (problem_.nu() == 0) return true;
+  return with_stages([&](auto s, auto r) {
+    move_constraints(s, r);
+    if (factor && !factor_matrix(s, r)) return false;
+    multipliers(s, r, psi, lambda, zeta);
+    return true;
+  });
+}
+
+template <Scalar S>
+template <class Stages, class Nodes>
+[[gnu::always_inline]] inline void StageEquations<S>::multipliers(Stages s, Nodes r, const Matrix<S>& psi,
+                                                                  Matrix<S>& lambda, Matrix<S>& zeta) {
+  project_multipliers(s, r, lambda, zeta);
+  S* const rhs = rhs_.data();
+  const Index* const position = order_.position.data();
   {
     const PartCall counted = call(right_hand_side);
-    set_momenta(psi, zeta, stage_);
-    problem_.mass.velocity(lanes(std::as_const(stage_)), lanes(velocity_));
-    hidden_constraints(velocity_, [&](Index a) { return &rhs_[first(a)]; });
-    for (Index i = 0; i < rhs_.size(); ++i) set_quotient(rhs_[i], rhs_[i], h_);
+    set_momenta(s, psi, zeta, stage_);
+    problem_.mass.velocity(Lanes<const S, Stages>{stage_.data(), s}, Lanes<S, Stages>{velocity_.data(), s});
+    hidden_constraints(s, r, velocity_, [&](Index a) { return rhs + position[a] * s; });
+    const Held<S> inverse_h = inverse_h_;
+    for (Index i = 0; i < rhs_.size(); ++i) set_product(rhs[i], rhs[i], inverse_h);
   }
   {
     const PartCall counted = call(solution);
     system_.solve(rhs_);
-    for (Index a = 0; a < nu; ++a)
-      for (Index i = 0; i < s; ++i) set_sum(lambda(i, a), lambda(i, a), rhs_[first(a) + i]);
+    S* sum = lambda.data();
+    for (Index a = 0; a < problem_.nu(); ++a)
+      for (Index i = 0; i < s; ++i, ++sum) set_sum(*sum, *sum, rhs[position[a] * s + i]);
   }
-  project_multipliers(lambda, zeta);
-  return true;
+  project_multipliers(s, r, lambda, zeta);
 }
 
 template <Scalar S>
-void StageEquations<S>::project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta) {
+template <class Stages, class Nodes>
+[[gnu::always_inline]] inline void StageEquations<S>::project_multipliers(Stages s, Nodes r, const Matrix<S>& lambda,
+                                                                          Matrix<S>& zeta) {
   const PartCall counted = call(zetas);
   set_zero(w_);
   if (method_.has_coefficients_of_lambda()) P_.times(lambda_, lambda);
-  gradient_.add_times(node_multipliers(lambda), lanes(w_));
-  projection_.times(zeta, w_);
+  gradient_.add_times(node_multipliers(lambda), Lanes<S, Nodes>{w_.data(), r});
+  projection_.times(s, r, zeta, w_);
 }
 
 template <Scalar S>
-bool StageEquations<S>::factor_matrix() {
+template <class Stages, class Nodes>
+[[gnu::noinline]] bool StageEquations<S>::factor_matrix(Stages s, Nodes r) {
   // sum_j a_ij grad g_i^T M^-1 grad g_j lambda_j: (lam) divided by h^2
-  const Index s = method_.s;
-  const auto first = [&](Index a) { return order_.position[static_cast<std::size_t>(a)] * s; };
+  const Index* const position = order_.position.data();
   {
     const PartCall counted = call(matrix);
     system_.set_zero();
-    gradient_.for_each_coupling(gradient_, coupling_.data(), [&](const auto& pair) {
-      const Index row = first(pair.a), column = first(pair.b);
-      if (method_.has_coefficients_of_lambda()) {
-        set_block();
-        for (Index j = 0; j < s; ++j)
-          for (Index i = 0; i < s; ++i) set(system_.entry(row + i, column + j), block_(i, j));
-        return;
-      }
+    gradient_.for_each_coupling(r, gradient_, coupling_.data(), [&](const auto& pair) {
+      const Index row = position[pair.a] * s, column = position[pair.b] * s;
+      if (method_.has_coefficients_of_lambda()) set_block();
+      const S* const block = method_.has_coefficients_of_lambda() ? block_.data() : coupling_.data();
+      const S* const A = method_.has_coefficients_of_lambda() ? nullptr : method_.A.data();
       for (Index j = 0; j < s; ++j)
-        for (Index i = 0; i < s; ++i) set_product(system_.entry(row + i, column + j), coupling_(i, j), method_.A(i, j));
+        for (Index i = 0; i < s; ++i) {
+          S& entry = system_.entry(row + i, column + j);
+          if (A)
+            set_product(entry, block[i + j * s], A[i + j * s]);
+          else
+            set(entry, block[i + j * s]);
+        }
     });
   }
   const PartCall counted = call(factors);
@@ -293,14 +322,15 @@ void StageEquations<S>::set_block() {
 }
 
 template <Scalar S>
-template <class Out>
-void StageEquations<S>::hidden_constraints(const Matrix<S>& velocity, Out out) {
-  P_.times(w_, velocity);
+template <class Stages, class Nodes, class Out>
+[[gnu::always_inline]] inline void StageEquations<S>::hidden_constraints(Stages s, Nodes r, const Matrix<S>& velocity,
+                                                                         Out out) {
+  P_.times(r, s, w_, velocity);
+  if (!method_.has_coefficients_of_lambda()) {
+    gradient_.transposed_times(Lanes<const S, Nodes>{w_.data(), r}, out);
+    return;
+  }
   for (Index b = 0; b < problem_.nu(); ++b) {
-    if (!method_.has_coefficients_of_lambda()) {
-      gradient_.transposed_times(b, lanes(std::as_const(w_)), out(b));
-      continue;
-    }
     gradient_.transposed_times(b, lanes(std::as_const(w_)), hidden_.data());
     set_times(out(b), method_.projection, hidden_.data(), 1);
   }
@@ -324,70 +354,87 @@ void StageEquations<S>::changes(const StageUnknowns<S>& x, StepChange<S>& change
 }
 
 template <Scalar S>
-void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& r) {
+void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& residual) {
   move(x.gamma);
   forces(x.psi);
   const bool constrained = problem_.nu() > 0;
-  if (constrained) {
-    move_constraints();
-    project_multipliers(x.lambda, x.zeta);
-  }
-  momenta(x.psi, x.zeta, r.momentum);
-  const PartCall counted = call(constraint_residual);
-  set_difference(r.momentum, x.gamma, r.momentum);
-  if (!constrained) return;
-  hidden_constraints(velocity_, [&](Index b) { return &r.constraint(0, b); });
+  with_stages([&](auto s, auto r) {
+    if (constrained) {
+      move_constraints(s, r);
+      project_multipliers(s, r, x.lambda, x.zeta);
+    }
+    {
+      const PartCall counted = call(gammas);
+      set_momenta(s, x.psi, x.zeta, residual.momentum);
+    }
+    const PartCall counted = call(constraint_residual);
+    set_difference(residual.momentum, x.gamma, residual.momentum);
+    if (!constrained) return;
+    S* const hidden = residual.constraint.data();
+    hidden_constraints(s, r, velocity_, [&](Index b) { return hidden + b * s; });
+  });
 }
 
 template <Scalar S>
 void StageEquations<S>::momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
   const PartCall counted = call(gammas);
-  set_momenta(psi, zeta, gamma);
+  with_constant_count<S>(method_.s, [&](auto s) { set_momenta(s, psi, zeta, gamma); });
 }
 
 template <Scalar S>
-void StageEquations<S>::set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
-  set_difference(pull_, psi, zeta);
-  with_constant_count<S>(method_.s, [&](auto s) {
-    const S* const X = method_.X_s.data();
-    S* __restrict const sums = gamma.data();
-    const S* const carry = p_carry_->data();
-    const S* const p0 = p0_->data();
-    const S* __restrict const pull = pull_.data();
-    const Held<S> h = h_;
-    const auto at = [&](Index i, Index j) { return i + j * s; };
-    for (Index j = 0; j < gamma.cols(); ++j) {
-      const S* const w = pull + j * s;
-      for (Index i = 0; i < s; ++i) {
-        S& sum = sums[j * s + i];
-        if (i == 0)
-          set_product(sum, X[0], w[0]);
-        else
-          set_product(sum, X[at(i, i - 1)], w[i - 1]);
-        if (i + 1 < s) add_product(sum, X[at(i, i + 1)], w[i + 1], t_);
-        set_product(sum, sum, h);
-      }
+template <class Stages>
+[[gnu::always_inline]] inline void StageEquations<S>::set_momenta(Stages s, const Matrix<S>& psi, const Matrix<S>& zeta,
+                                                                  Matrix<S>& gamma) {
+  const S* const X = method_.X_s.data();
+  S* __restrict const sums = gamma.data();
+  S* __restrict const pull = pull_.data();
+  const S* __restrict const forces = psi.data();
+  const S* __restrict const constraints = zeta.data();
+  const S* __restrict const carry = p_carry_->data();
+  const S* __restrict const p0 = p0_->data();
+  const Held<S> h = h_;
+  const Index m = gamma.cols();
+  const auto at = [&](Index i, Index j) { return i + j * s; };
+  const auto set_sums = [&](Index j) __attribute__((always_inline)) {
+    HeldScratch<S> t = t_;
+    for (Index i = 0; i < s; ++i) set_difference(pull[at(i, j)], forces[at(i, j)], constraints[at(i, j)]);
+    for (Index i = 0; i < s; ++i) {
+      S& sum = sums[at(i, j)];
+      if (i == 0)
+        set_product(sum, X[0], pull[at(0, j)]);
+      else
+        set_product(sum, X[at(i, i - 1)], pull[at(i - 1, j)]);
+      if (i + 1 < s) add_product(sum, X[at(i, i + 1)], pull[at(i + 1, j)], t);
+      set_product(sum, sum, h);
     }
-    auto pulled = pulled_.begin();
-    for (Index j = 0; j < gamma.cols(); ++j) {
-      if (pulled != pulled_.end() && *pulled == j) {
-        ++pulled;
-        continue;
-      }
-      set_sum(sums[j * s], sums[j * s], carry[j]);
-      set_sum(sums[j * s], sums[j * s], p0[j]);
+  };
+  const auto add_start = [&](Index j) __attribute__((always_inline)) {
+    set_sum(sums[at(0, j)], sums[at(0, j)], carry[j]);
+    set_sum(sums[at(0, j)], sums[at(0, j)], p0[j]);
+  };
+  const auto set_all = [&](Index first, Index end) __attribute__((always_inline)) {
+#pragma GCC ivdep
+    for (Index j = first; j < end; ++j) {
+      set_sums(j);
+      add_start(j);
     }
-  });
+  };
+  if (pulled_.empty()) return set_all(0, m);
+  Index first = 0;
   for (const Index j : pulled_) {
+    set_all(first, j);
+    set_sums(j);
+    first = j + 1;
     // As in StepChange: without the rest, gamma_0 = p0 + h/2 (psi_0 - zeta_0) + ... would have a bias.
     take_rest(psi, zeta, j);
     set_product(rest_, rest_, h_half_);
-    set_sum(rest_, rest_, (*p_carry_)[j]);
-    set(x_, gamma(0, j));
-    set_exact_sum(gamma(0, j), y_, x_, (*p0_)[j], t_);
+    set_sum(rest_, rest_, carry[j]);
+    set(x_, sums[at(0, j)]);
+    set_exact_sum(sums[at(0, j)], y_, x_, p0[j], t_);
     set_sum(rest_, rest_, y_);
-    set_sum(gamma(0, j), gamma(0, j), rest_);
+    set_sum(sums[at(0, j)], sums[at(0, j)], rest_);
   }
+  set_all(first, m);
 }
 
 template <Scalar S>

@@ -28,6 +28,15 @@ void shorten([[maybe_unused]] Sizes&... sizes) {
     (mpfr_prec_round(raw(sizes), std::numeric_limits<double>::digits, MPFR_RNDN), ...);
 }
 
+/// exceeds() of sizes, which are not negative.
+template <Scalar S>
+bool is_greater(const S& a, const S& b) {
+  if constexpr (std::same_as<S, Mpfr>)
+    return exceeds(a, b);
+  else
+    return a > b;
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -83,7 +92,7 @@ void StoppingRule<S>::set_condition(double kappa) {
 template <Scalar S>
 void StoppingRule<S>::show_change(const Matrix<S>& now, const Matrix<S>& before, const S* factor) {
   with_constant_count<S>(now.rows(), [&](auto rows) {
-    S& t = t_;
+    HeldScratch<S> t = t_;
     const S* a = now.data();
     const S* b = before.data();
     for (Coordinate& x : coordinates_) {
@@ -109,15 +118,12 @@ template <Scalar S>
 void StoppingRule<S>::show_terms(const Matrix<S>& terms, const S* factor) {
   terms_shown_ = true;
   with_constant_count<S>(terms.rows(), [&](auto rows) {
+    HeldScratch<S> t = t_;
     const S* a = terms.data();
     for (Coordinate& x : coordinates_) {
       for (Index i = 0; i < rows; ++i) {
-        if (factor) {
-          set_product(t_, a[i], *factor);
-          raise_magnitude(x.terms, t_);
-        } else {
-          raise_magnitude(x.terms, a[i]);
-        }
+        if (factor) set_product(t, a[i], *factor);
+        raise_magnitude(x.terms, factor ? t : a[i]);
       }
       a += rows;
     }
@@ -139,31 +145,37 @@ void StoppingRule<S>::take_scales() {
 }
 
 template <Scalar S>
-void StoppingRule<S>::find_rate() {
-  S& now = left_;
-  bool known = false;
-  if (sweeps_ > 1)
-    for (const Coordinate& x : coordinates_) {
-      if (!exceeds(x.last, x.rounding)) continue;
-      if (!known) set(now, least_rate_);
-      known = true;
-      set_product(t_, now, x.last);
-      if (exceeds(x.change, t_)) set_quotient(now, x.change, x.last);
-    }
-  rate_shown_ = known;
-  if (!known) {
-    if (sweeps_ == 1) set(last_rate_, rate_);
-    return;
+bool StoppingRule<S>::look_at_changes() {
+  HeldScratch<S> now = left_, t = t_;
+  set(now, least_rate_);
+  const bool first = sweeps_ == 1;
+  bool finite = true, coarse = false, known = false;
+  for (const Coordinate& x : coordinates_) {
+    finite = finite && is_finite(x.change);
+    coarse = coarse || is_greater(x.change, x.coarse);
+    if (first || !is_greater(x.last, x.rounding)) continue;
+    known = true;
+    set_product(t, now, x.last);
+    if (is_greater(x.change, t)) set_quotient(now, x.change, x.last);
   }
-  // The greater of this one and the one before, which in the second sweep is none.
-  set(last_rate_, sweeps_ > 2 && exceeds(rate_, now) ? rate_ : now);
-  set(rate_, now);
+  coarse_ = coarse;
+  if (!finite) return false;
+  rate_shown_ = known;
+  if (first) {
+    set(last_rate_, rate_);
+  } else if (known) {
+    // The greater of this one and the one before, which in the second sweep is none.
+    set(last_rate_, sweeps_ > 2 && is_greater(rate_, now) ? rate_ : now);
+    set(rate_, now);
+  }
+  fast_ = !is_greater(last_rate_, coarse_bound_);
+  return true;
 }
 
 template <Scalar S>
 void StoppingRule<S>::set_bounds(Coordinate& x) {
   set_product(x.noise, x.scale, bound_);
-  set_product(x.rounding, exceeds(x.scale, x.position) ? x.scale : x.position, bound_);
+  set_product(x.rounding, is_greater(x.scale, x.position) ? x.scale : x.position, bound_);
   set_product(x.negligible, x.scale, negligible_);
   set_product(x.coarse, x.scale, coarse_bound_);
   set_far(x);
@@ -172,103 +184,97 @@ void StoppingRule<S>::set_bounds(Coordinate& x) {
 template <Scalar S>
 void StoppingRule<S>::set_far(Coordinate& x) {
   set_product(x.far, x.rounding, kappa_);
-  if (exceeds(tiny_, x.far)) set(x.far, tiny_);
-}
-
-template <Scalar S>
-bool StoppingRule<S>::is_negligible(Coordinate& x) {
-  const bool first = sweeps_ == 1;
-  const bool clean = exceeds(x.change, x.noise);
-  if (first || clean)
-    set(x.expected, x.change);
-  else
-    set_product(x.expected, x.expected, last_rate_);
-  set_product(left_, x.expected, last_rate_);
-  if (!first && !exceeds(x.change, x.negligible) && !exceeds(x.last, x.negligible)) return true;
-  if (exceeds(left_, x.negligible)) return false;
-  if (first || !clean) return true;
-  // A coordinate much smaller than its body's others may have a rate of its own.
-  set_product(left_, last_rate_, x.last);
-  if (!exceeds(x.change, left_)) return true;
-  set_quotient(left_, x.change, x.last);
-  set_product(left_, left_, x.expected);
-  return !exceeds(left_, x.negligible);
-}
-
-template <Scalar S>
-void StoppingRule<S>::follow_least(Coordinate& x, bool first, bool rounding) {
-  set_product(t_, x.least, sixteen_);
-  const bool rises = !first && !rounding && exceeds(x.change, t_);
-  if (rises) ++x.risen;
-  if (first || rises || exceeds(x.least, x.change)) {
-    set(x.least, x.change);
-    x.waiting = 0;
-  } else {
-    ++x.waiting;
-  }
+  if (is_greater(tiny_, x.far)) set(x.far, tiny_);
 }
 
 template <Scalar S>
 bool StoppingRule<S>::is_lost(const Coordinate& x, const S& left) const {
-  return fast_ && !exceeds(x.scale, x.far) && !exceeds(left, x.lost);
+  return !is_greater(x.scale, x.far) && !is_greater(left, x.lost);
 }
 
 template <Scalar S>
-bool StoppingRule<S>::is_far(Coordinate& x) {
-  if (!exceeds(x.change, x.far)) return false;
-  set_product(t_, x.change, last_rate_);
-  if (!exceeds(t_, x.negligible) || is_lost(x, t_)) return false;
+[[gnu::always_inline]] inline void StoppingRule<S>::follow_least(Coordinate& x, bool rounding) {
+  HeldScratch<S> t = t_;
+  if (!is_greater(x.least, x.change)) {
+    set_product(t, x.least, sixteen_);
+    if (rounding || !is_greater(x.change, t)) {
+      ++x.waiting;
+      return;
+    }
+    ++x.risen;
+  }
+  set(x.least, x.change);
+  x.waiting = 0;
+}
+
+template <Scalar S>
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_negligible(Coordinate& x, const S& rate, bool fast) {
+  HeldScratch<S> left = left_, own = t_;
+  const bool clean = is_greater(x.change, x.noise);
+  if (clean)
+    set(x.expected, x.change);
+  else
+    set_product(x.expected, x.expected, rate);
+  if (!is_greater(x.change, x.negligible) && !is_greater(x.last, x.negligible)) return true;
+  set_product(left, x.expected, rate);
+  if (is_greater(left, x.negligible)) return fast && is_lost(x, left);
+  if (!clean) return true;
+  // A coordinate much smaller than its body's others may have a rate of its own.
+  set_product(own, rate, x.last);
+  if (!is_greater(x.change, own)) return true;
+  set_quotient(own, x.change, x.last);
+  set_product(own, own, x.expected);
+  return !is_greater(own, x.negligible) || (fast && is_lost(x, left));
+}
+
+template <Scalar S>
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled_at_once(Coordinate& x, const S& rate) {
+  HeldScratch<S> left = left_;
+  x.risen = x.waiting = x.vanishing = 0;
+  set(x.least, x.change);
   set(x.expected, x.change);
-  x.vanishing = 0;
-  if (exceeds(x.least, x.change)) {
-    set(x.least, x.change);
-    x.waiting = 0;
-  } else {
-    follow_least(x, false, false);
-  }
-  return true;
+  set_product(left, x.change, rate);
+  return !is_greater(left, x.negligible);
 }
 
 template <Scalar S>
-bool StoppingRule<S>::is_settled(Coordinate& x) {
-  const bool first = sweeps_ == 1;
-  bool negligible = is_negligible(x);
-  if (!first && !negligible) {
-    set_product(left_, x.expected, last_rate_);
-    negligible = is_lost(x, left_);
-  }
-  set_product(t_, x.rounding, kappa_);
-  const bool rounding = !exceeds(x.change, t_) || !exceeds(x.change, tiny_), only_rounding = !exceeds(x.scale, t_);
-  if (first) x.risen = 0;
-  follow_least(x, first, rounding);
-  if (first || !rounding) {
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled(Coordinate& x, const S& rate, bool fast) {
+  HeldScratch<S> t = t_;
+  const bool rounding = !is_greater(x.change, x.far);
+  follow_least(x, rounding);
+  if (!rounding) {
     x.vanishing = 0;
-  } else {
-    set_sum(t_, x.change, x.change);
-    x.vanishing = exceeds(x.scale, t_) ? 0 : x.vanishing + 1;
+    // Most coordinates in most sweeps.
+    set_product(t, x.change, rate);
+    if (is_greater(t, x.negligible) && !(fast && is_lost(x, t))) {
+      set(x.expected, x.change);
+      return false;
+    }
+    return is_negligible(x, rate, fast);
   }
-  const bool vanishes = x.vanishing >= (fast_ ? 1 : 2) || (!first && fast_ && rounding && only_rounding);
-  return negligible || (rounding && (x.waiting >= 2 || vanishes || (!first && x.settled)));
+  set_sum(t, x.change, x.change);
+  x.vanishing = is_greater(x.scale, t) ? 0 : x.vanishing + 1;
+  if (is_negligible(x, rate, fast) || x.waiting >= 2 || x.settled || x.vanishing >= (fast ? 1 : 2)) return true;
+  if (!fast) return false;
+  set_product(t, x.rounding, kappa_);
+  return !is_greater(x.scale, t);
 }
 
 template <Scalar S>
 typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
   ++sweeps_;
   take_scales();
-  coarse_ = false;
-  if (!finite_) return Verdict::not_finite;
-  for (const Coordinate& x : coordinates_) {
-    if (!is_finite(x.change)) return Verdict::not_finite;
-    if (exceeds(x.change, x.coarse)) coarse_ = true;
-  }
-  find_rate();
-  fast_ = !exceeds(last_rate_, coarse_bound_);
+  if (!finite_ || !look_at_changes()) return Verdict::not_finite;
 
+  const Held<S> rate = last_rate_;
+  const bool first = sweeps_ == 1, fast = fast_;
   bool all = true, waiting_long = false;
   for (Coordinate& x : coordinates_) {
-    x.settled = !(sweeps_ > 1 && is_far(x)) && is_settled(x);
-    all = all && x.settled;
-    waiting_long = waiting_long || (!x.settled && x.waiting + x.risen >= patience);
+    x.settled = first ? is_settled_at_once(x, rate) : is_settled(x, rate, fast);
+    if (!x.settled) {
+      all = false;
+      waiting_long = waiting_long || x.waiting + x.risen >= patience;
+    }
     set(x.last, x.change);
     set_zero(x.change);
   }

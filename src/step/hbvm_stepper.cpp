@@ -23,10 +23,11 @@ long HbvmStepper<S>::step(State<S>& state, const S& h) {
   const StageUnknowns<S>& x = solver_->unknowns();
   const StepChange<S>& change = solver_->change();
   const PartCall counted(update_, timed_);
+  HeldScratch<S> s = s_, t = t_;
   for (Index j = 0; j < problem_.m(); ++j) {
-    add_compensated(state.q[j], state.q_carry[j], change.q[j], s_, t_);
+    add_compensated(state.q[j], state.q_carry[j], change.q[j], s, t);
     set_sum(state.p_carry[j], state.p_carry[j], change.p_rest[j]);
-    add_compensated(state.p[j], state.p_carry[j], change.p[j], s_, t_);
+    add_compensated(state.p[j], state.p_carry[j], change.p[j], s, t);
   }
   for (Index a = 0; a < problem_.nu(); ++a) {
     set_zero(multiplier_[a]);

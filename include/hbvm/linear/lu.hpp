@@ -10,7 +10,8 @@ namespace hbvm {
 
 /// P a = L U with partial pivoting in the working precision, of a square matrix with all entries a_ij, |i - j| > b,
 /// zero for a half bandwidth b; b = n - 1 is a dense matrix. It takes O(n b^2) operations, and O(n b) to solve. Storage
-/// is kept from one factorisation to the next. A large dense matrix in double is factored block by block.
+/// is kept from one factorisation to the next. A large dense matrix in double is factored block by block. Of the pivots
+/// the reciprocals are kept, so that to solve takes no division.
 template <Scalar S>
 class Lu {
  public:
@@ -41,11 +42,15 @@ class Lu {
   void remember(Archive& archive);
 
  private:
+  /// \return false if a reciprocal is not finite
+  [[nodiscard]] bool invert_pivots();
+
   // Column j holds rows j - 2 b .. j + b: pivoting fills in b diagonals above the band. A dense matrix has no more.
   Index n_ = 0, b_ = 0, upper_ = 0, stride_ = 0, offset_ = 0;
   std::vector<S> data_;
-  std::vector<Index> pivots_;
+  std::vector<Index> pivots_;  // of few unknowns in double the rows that were exchanged
   bool blocked_ = false;
+  S one_ = 1;
 };
 
 #define HBVM_DECLARE(S) extern template class Lu<S>;

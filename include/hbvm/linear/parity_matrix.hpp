@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "hbvm/linear/aligned_matrix.hpp"
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/linear/operation_counts.hpp"
 #include "hbvm/linear/product.hpp"
 
@@ -27,6 +28,24 @@ class ParityMatrix {
 
   /// c = a b, resized.
   void times(Matrix<S>& c, const Matrix<S>& b);
+  /// The same with its numbers of rows and columns, which may be constants: then c must have its size.
+  template <class Rows, class Terms>
+  [[gnu::always_inline]] void times(Rows, Terms, Matrix<S>& c, const Matrix<S>& b) {
+    if constexpr (is_constant_count<Rows> && is_constant_count<Terms>)
+      multiply_few<Rows::value, Terms::value>(c.data(), whole_.a.data(), b.data(), c.cols());
+    else
+      times(c, b);
+  }
+  /// c_ij = (a b)_ij + plus_j, likewise.
+  template <class Rows, class Terms>
+  [[gnu::always_inline]] void times_plus(Rows, Terms, Matrix<S>& c, const Matrix<S>& b, const Vector<S>& plus) {
+    if constexpr (is_constant_count<Rows> && is_constant_count<Terms>) {
+      multiply_few<Rows::value, Terms::value>(c.data(), whole_.a.data(), b.data(), c.cols(), plus.data());
+    } else {
+      times(c, b);
+      add(c, plus);
+    }
+  }
   /// What times() takes for so many columns of b.
   OperationCounts operations(Index columns) const;
   /// Whether they take half of the multiplications.
@@ -42,6 +61,7 @@ class ParityMatrix {
     explicit Part(Matrix<S> matrix = {});
     void times(S* r, const S* x, Index stride);
   };
+  static void add(Matrix<S>& c, const Vector<S>& plus);
   /// r_{first + 2 i} = (a x)_i.
   void take_turns(S* r, Index first, Part& part, const S* x);
 
@@ -52,7 +72,6 @@ class ParityMatrix {
   Part even_, odd_;               ///< those functions at the first half of the nodes, the middle one with the even
   Vector<S> even_half_, odd_half_, turns_;  ///< scratch
   bool mirrored_ = false;
-  SmallProduct small_ = nullptr;  ///< for all of it
 };
 
 #define HBVM_DECLARE(S) extern template class ParityMatrix<S>;

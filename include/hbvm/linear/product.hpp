@@ -9,10 +9,22 @@ namespace hbvm {
 template <Scalar S>
 void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b);
 
-/// The same for a of few rows and columns, in double, without a look at sizes: a product to be made often asks once for
-/// what makes it. Null if there is none for these sizes.
-using SmallProduct = void (*)(double* c, const double* a, const double* b, Index columns);
-SmallProduct small_product(Index rows, Index terms);
+/// The same in double for an `a` of so few entries that they stay in registers, without a look at sizes.
+/// \param plus null, or plus[j] is added to the entries of column j
+template <Index rows, Index terms>
+[[gnu::always_inline]] inline void multiply_few(double* __restrict c, const double* __restrict a,
+                                                const double* __restrict b, Index columns,
+                                                const double* __restrict plus = nullptr) {
+  double factors[rows * terms];
+  for (Index i = 0; i < rows * terms; ++i) factors[i] = a[i];
+#pragma GCC ivdep
+  for (Index j = 0; j < columns; ++j)
+    for (Index i = 0; i < rows; ++i) {
+      double sum = factors[i] * b[j * terms];
+      for (Index l = 1; l < terms; ++l) sum += factors[i + l * rows] * b[l + j * terms];
+      c[i + j * rows] = plus ? sum + plus[j] : sum;
+    }
+}
 
 /// r = a x, for an x whose entries stand at x[l * x_stride]. r is neither a nor x.
 template <Scalar S>

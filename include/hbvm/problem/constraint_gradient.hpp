@@ -19,6 +19,20 @@ class ConstraintGradient {
   void update(Lanes<const S> q);
   /// The same and g, lanes x nu, from the same displacements.
   void update(Lanes<const S> q, Matrix<S>& g);
+  /// The same, or without g if it is null, with the number of lanes as a constant if it is one of its type.
+  template <class Count>
+  [[gnu::always_inline]] void update(Lanes<const S, Count> q, S* g) {
+    weighed_ = false;
+    const std::size_t count = patterns_.size();
+    for (std::size_t a = 0; a < count; ++a) {
+      const GradientTarget<S, Count> to = target(a, g ? g + static_cast<Index>(a) * q.count : nullptr, q.count);
+      // As most are.
+      if (const auto* const rod = std::get_if<typename Rod<S>::Gradient>(&gradients_[a]))
+        rod->update(q, to);
+      else
+        std::visit([&](const auto& gradient) { gradient.update(q, to); }, gradients_[a]);
+    }
+  }
 
   /// The operations of one update, and of M^-1 grad g, in all lanes.
   OperationCounts operations() const;
@@ -31,8 +45,22 @@ class ConstraintGradient {
 
   /// result_i = (grad g^T v)_a in lane i, for all lanes.
   void transposed_times(Index a, Lanes<const S> v, S* result);
+  /// The same for all a, from out(a) on, with the number of lanes as a constant if it is one of its type.
+  template <class Count, class Out>
+  [[gnu::always_inline]] void transposed_times(Lanes<const S, Count> v, Out out) {
+    with_run_length([&](auto length) __attribute__((always_inline)) {
+      const std::size_t count = patterns_.size();
+      for (std::size_t a = 0; a < count; ++a) transposed_times(length, patterns_[a], v, out(static_cast<Index>(a)));
+    });
+  }
   /// out += grad g lambda in every lane, with lambda (lanes x nu).
   void add_times(const Matrix<S>& lambda, Lanes<S> out);
+  template <class Count>
+  [[gnu::always_inline]] void add_times(const Matrix<S>& lambda, Lanes<S, Count> out) {
+    with_run_length([&](auto length) __attribute__((always_inline)) {
+      add_times(length, runs_, values_.data(), lambda.data(), out, t_);
+    });
+  }
   /// out += M^-1 grad g lambda in every lane.
   void add_weighted_times(const Matrix<S>& lambda, Lanes<S> out);
 
@@ -53,13 +81,16 @@ class ConstraintGradient {
   /// f(pair) for each of couplings(), with its numbers in `result`.
   template <class F>
   void for_each_coupling(const ConstraintGradient& right, S* result, F&& f) {
+    with_constant_count<S>(lanes_, [&](auto lanes) { for_each_coupling(lanes, right, result, f); });
+  }
+  /// The same with the number of lanes as a constant if it is one of its type.
+  template <class Count, class F>
+  void for_each_coupling(Count lanes, const ConstraintGradient& right, S* result, F&& f) {
     const S* const right_columns = right.weighted_values().data();
-    with_constant_count<S>(lanes_, [&](auto lanes) {
-      for (const Coupling& pair : couplings_) {
-        couple(lanes, pair, right_columns, result);
-        f(pair);
-      }
-    });
+    for (const Coupling& pair : couplings_) {
+      couple(lanes, pair, right_columns, result);
+      f(pair);
+    }
   }
   /// The Gram matrix grad g^T M^-1 grad g of the first lane, nu x nu.
   void gram(Matrix<S>& result);
@@ -68,6 +99,7 @@ class ConstraintGradient {
   struct Pattern {
     Index first = 0;
     std::vector<Index> coordinates;  ///< ascending
+    std::size_t first_run = 0, runs = 0;
     /// The second half of the columns are the negatives of the first, as of a rod between two bodies: half of the
     /// products do.
     bool opposite = false;
@@ -89,14 +121,29 @@ class ConstraintGradient {
   }
 
  private:
-  /// Where a stored column belongs: what it is the derivative of, and by what; and by what its negative is.
-  struct Place {
+  /// Where stored columns next to each other belong, as many as run_length_: what they are derivatives of, by which
+  /// coordinate the first is, and by which one its negative.
+  struct Run {
     Index column, constraint, coordinate, opposite;
   };
   static constexpr Index none = -1;
+  /// run_length_ = the dimension, if all columns are of vectors in space, else 1; and the runs.
+  void find_runs();
   void weigh() const;
-  static void add_times(const std::vector<Place>& places, const Matrix<S>& values, const Matrix<S>& lambda,
-                        Lanes<S> out, S& scratch);
+  /// f(run_length_), as a constant of its type if it is a dimension in double.
+  template <class F>
+  [[gnu::always_inline]] void with_run_length(F f) const {
+    if constexpr (std::same_as<S, double>) {
+      if (run_length_ == 3) return f(std::integral_constant<Index, 3>());
+      if (run_length_ == 2) return f(std::integral_constant<Index, 2>());
+    }
+    f(run_length_);
+  }
+  template <class Length, class Count>
+  static void add_times(Length length, const std::vector<Run>& runs, const S* values, const S* lambda,
+                        Lanes<S, Count> out, S& scratch);
+  template <class Length, class Count>
+  void transposed_times(Length length, const Pattern& pattern, Lanes<const S, Count> v, S* result);
   /// So many columns of M^-1 grad g: to = factor from, or += if it is not the first; no factor stands for 1.
   struct Weighing {
     Index to, from, count;
@@ -105,16 +152,18 @@ class ConstraintGradient {
   };
   void prepare_weighing(const Pattern& from, const Pattern& to);
   void add_weighing(const Weighing& next);  ///< together with the last one, if they are alike
-  void update_all(Lanes<const S> q, Matrix<S>* g);
   template <class Count>
-  GradientTarget<S, Count> target(std::size_t a, S* g, Count lanes);
+  [[gnu::always_inline]] GradientTarget<S, Count> target(std::size_t a, S* g, Count lanes) {
+    return {lanes, values_.data() + patterns_[a].first * lanes, g, x_, y_, t_};
+  }
   template <class Count>
   void couple(Count lanes, const Coupling& pair, const S* right_columns, S* result);
 
   const Problem<S>& problem_;
   Index lanes_;
   std::vector<Pattern> patterns_, weighted_patterns_;
-  std::vector<Place> places_, weighted_places_;
+  std::vector<Run> runs_, weighted_runs_;  // the latter of length 1
+  Index run_length_ = 1;
   std::vector<typename GradientsOf<ConstraintForms<S>>::type> gradients_;
   std::vector<Weighing> weighings_;
   Matrix<S> values_;             // lanes x stored columns
@@ -126,8 +175,71 @@ class ConstraintGradient {
 };
 
 template <Scalar S>
+template <class Length, class Count>
+[[gnu::always_inline]] inline void ConstraintGradient<S>::add_times(Length length, const std::vector<Run>& runs,
+                                                                    const S* values, const S* lambda,
+                                                                    Lanes<S, Count> out, S& scratch) {
+  const Count lanes = out.count;
+  HeldScratch<S> t = scratch;
+  for (const Run& run : runs) {
+    const S* __restrict column = values + run.column * lanes;
+    const S* __restrict const multiplier = lambda + run.constraint * lanes;
+    S* sum = out[run.coordinate];
+    S* opposite = run.opposite == none ? nullptr : out[run.opposite];
+    for (Index c = 0; c < length; ++c, column += lanes, sum += lanes) {
+      if (!opposite) {
+        for (Index i = 0; i < lanes; ++i) add_product(sum[i], column[i], multiplier[i], t);
+        continue;
+      }
+      for (Index i = 0; i < lanes; ++i) {
+        set_product(t, column[i], multiplier[i]);
+        set_sum(sum[i], sum[i], t);
+        set_difference(opposite[i], opposite[i], t);
+      }
+      opposite += lanes;
+    }
+  }
+}
+
+template <Scalar S>
+template <class Length, class Count>
+[[gnu::always_inline]] inline void ConstraintGradient<S>::transposed_times(Length length, const Pattern& pattern,
+                                                                           Lanes<const S, Count> v, S* result) {
+  const Count lanes = v.count;
+  HeldScratch<S> t = t_, difference = u_;
+  const Run* const runs = runs_.data() + pattern.first_run;
+  const auto add_to = [&](S * sums) __attribute__((always_inline)) {
+    bool first = true;
+    for (std::size_t r = 0; r < pattern.runs; ++r) {
+      const Run& run = runs[r];
+      const S* column = values_.data() + run.column * lanes;
+      const S* in = v[run.coordinate];
+      const S* opposite = run.opposite == none ? nullptr : v[run.opposite];
+      for (Index c = 0; c < length; ++c, column += lanes, in += lanes, first = false) {
+        for (Index i = 0; i < lanes; ++i) {
+          if (opposite) set_difference(difference, in[i], opposite[i]);
+          if (first)
+            set_product(sums[i], column[i], opposite ? difference : in[i]);
+          else
+            add_product(sums[i], column[i], opposite ? difference : in[i], t);
+        }
+        if (opposite) opposite += lanes;
+      }
+    }
+  };
+  if constexpr (is_constant_count<Count>) {
+    S sums[Count::value] = {};
+    add_to(sums);
+    for (Index i = 0; i < lanes; ++i) result[i] = sums[i];
+  } else {
+    add_to(result);
+  }
+}
+
+template <Scalar S>
 template <class Count>
-void ConstraintGradient<S>::couple(Count lanes, const Coupling& pair, const S* right_columns, S* result) {
+[[gnu::always_inline]] inline void ConstraintGradient<S>::couple(Count lanes, const Coupling& pair,
+                                                                 const S* right_columns, S* result) {
   const S* const columns = values_.data();
   if constexpr (is_constant_count<Count>) {
     S sums[Count::value * Count::value] = {};

@@ -30,6 +30,23 @@ class MassMatrix {
   /// v = M^-1 p in every lane, in double and MPFR with about one rounding; v must not be p. The roundings of a sum of
   /// rounded products are not of either sign alike along the motion of a rigid body: H of a heavy top drifts by them.
   void velocity(Lanes<const S> p, Lanes<S> v) const;
+  /// The same with the number of lanes as a constant if it is one of its type.
+  template <class Count>
+  [[gnu::always_inline]] void velocity(Lanes<const S, Count> p, Lanes<S, Count> v) const {
+    if constexpr (!std::same_as<Count, Index>) {
+      if (full_.empty()) {
+        S* __restrict const out = v.data;
+        const S* __restrict const in = p.data;
+        const S* __restrict const inverse = inverse_masses_.data();
+        const auto m = static_cast<Index>(inverse_masses_.size());
+#pragma GCC ivdep
+        for (Index j = 0; j < m; ++j)
+          for (Index i = 0; i < p.count; ++i) out[j * p.count + i] = inverse[j] * in[j * p.count + i];
+        return;
+      }
+    }
+    velocity(Lanes<const S>{p.data, p.count}, Lanes<S>{v.data, v.count});
+  }
   /// The operations of velocity() in one lane, as of dots that are rounded as usual.
   OperationCounts operations() const {
     OperationCounts counts;
@@ -54,6 +71,7 @@ class MassMatrix {
   Index m_ = 0;
   std::vector<Block> blocks_;
   std::vector<Span> spans_;
+  std::vector<S> inverse_masses_;  ///< of each coordinate, if all blocks are scalar
   std::vector<std::size_t> full_;  ///< blocks
 };
 

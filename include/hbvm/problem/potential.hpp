@@ -36,13 +36,15 @@ template <Scalar S>
 class PotentialEvaluator {
  public:
   PotentialEvaluator(const Potential<S>& potential, Index lanes);
+  PotentialEvaluator(const PotentialEvaluator&) = delete;
+  PotentialEvaluator& operator=(const PotentialEvaluator&) = delete;
 
   /// U in each lane.
   void values(Lanes<const S> q, Vector<S>& U);
 
   /// The part of grad U that is the same everywhere: computed once, m entries.
   const Vector<S>& constant_force() const { return constant_force_; }
-  bool has_varying_force() const { return varying_; }
+  bool has_varying_force() const { return !varying_.empty(); }
   /// force = the part of grad U that varies with q: lanes x m, overwritten.
   void varying_force(Lanes<const S> q, Matrix<S>& force);
   /// force = grad U: lanes x m, overwritten.
@@ -63,18 +65,29 @@ class PotentialEvaluator {
     Work(const EffectTerm<S>& term, Index dimension, Index lanes);
   };
 
-  /// force += the gradient of term t.
-  void add_force(std::size_t term, Lanes<const S> q, Matrix<S>& force);
-  void displace_all(std::size_t term, Lanes<const S> q);
+  /// A term whose force varies, and the kernel of it, if there is one, with the sites that it acts on.
+  struct Varying {
+    const EffectTerm<S>* term;
+    Work* work;
+    EffectCount* count;
+    decltype(Kernel::add_force) kernel;
+    const KernelSite* sites;
+    std::size_t site_count;
+  };
+
+  /// force += the gradient of a term, as it is interpreted.
+  void add_force(const EffectTerm<S>& term, Work& work, Lanes<const S> q, Matrix<S>& force);
+  void displace_all(const EffectTerm<S>& term, Work& work, Lanes<const S> q);
   /// f(output of the gradient, instance, coordinate whose force it is part of, weight), for all of them.
   template <class F>
   void for_each_force(const EffectTerm<S>& term, F f) const;
 
   const Potential<S>& potential_;
   Index lanes_;
-  bool varying_ = false, timed_ = false;
+  bool timed_ = false;
   std::deque<Work> work_;
   std::vector<EffectCount> counts_;
+  std::vector<Varying> varying_;
   Vector<S> constant_force_;
   S t_;  // scratch
 };

@@ -94,14 +94,22 @@ class Extrapolation {
     for (Index& order : orders_) order = 0;
     with_constant_count<S>(rows_, [&](auto rows) {
       const S* difference = differences_.data() + size_;
-      S& norm = norm_;
+      S* __restrict const least = least_.data();
+      Index* __restrict const orders = orders_.data();
+      const std::size_t columns = orders_.size();
+      HeldScratch<S> norm = norm_;
       for (Index r = 1; r < known_; ++r)
-        for (std::size_t column = 0; column < orders_.size(); ++column, difference += rows) {
+        for (std::size_t column = 0; column < columns; ++column, difference += rows) {
           set_zero(norm);
           for (Index i = 0; i < rows; ++i) raise_magnitude(norm, difference[i]);
-          if (r > 1 && !exceeds(least_[column], norm)) continue;
-          set(least_[column], norm);
-          orders_[column] = r - 1;
+          const bool better = r == 1 || exceeds(least[column], norm);
+          if constexpr (std::same_as<S, Mpfr>) {
+            if (better) set(least[column], norm);
+          } else {
+            // Either way, as which of them is less is no more than chance: no branch could be foreseen.
+            least[column] = better ? norm : least[column];
+          }
+          orders[column] = better ? r - 1 : orders[column];
         }
     });
   }

@@ -26,10 +26,11 @@ struct PartCount {
 /// Counts a call of a part, and measures it if asked to, for as long as it lives.
 class PartCall {
  public:
-  PartCall(PartCount& part, bool timed) : part_(part), timed_(timed), before_(timed ? elapsed_seconds() : 0) {
+  [[gnu::always_inline]] PartCall(PartCount& part, bool timed)
+      : part_(part), timed_(timed), before_(timed ? elapsed_seconds() : 0) {
     ++part_.calls;
   }
-  ~PartCall() {
+  [[gnu::always_inline]] ~PartCall() {
     if (timed_) part_.seconds += elapsed_seconds() - before_;
   }
   PartCall(const PartCall&) = delete;

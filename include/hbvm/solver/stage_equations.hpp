@@ -138,21 +138,32 @@ class StageEquations {
   PartCall call(Part part) { return {parts_[part], timed_}; }
   void describe_parts();
 
-  void positions(Parity& integrals, Matrix<S>& u);
+  /// f(s, r), as constants of their types where they are few: what a sweep in double does is then compiled as one
+  /// function for each s.
+  template <class F>
+  decltype(auto) with_stages(F f);
+  template <class Stages, class Nodes>
+  void forces(Stages s, Nodes k, Matrix<S>& psi);
+  template <class Stages, class Nodes>
+  void multipliers(Stages s, Nodes r, const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta);
   /// Positions at c (unless they are those at c_hat) and the constraints' gradients there.
-  void move_constraints();
-  void set_momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
+  template <class Stages, class Nodes>
+  void move_constraints(Stages s, Nodes r);
+  template <class Stages>
+  void set_momenta(Stages s, const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
   /// rest_ = (psi_0 - zeta_0)_j, for a j of pulled_, less its rounded value.
   void take_rest(const Matrix<S>& psi, const Matrix<S>& zeta, Index j);
-  void project_multipliers(const Matrix<S>& lambda, Matrix<S>& zeta);
+  template <class Stages, class Nodes>
+  void project_multipliers(Stages s, Nodes r, const Matrix<S>& lambda, Matrix<S>& zeta);
   /// The matrix of (lam) at the current nodes, factored.
-  [[nodiscard]] bool factor_matrix();
+  template <class Stages, class Nodes>
+  [[nodiscard]] bool factor_matrix(Stages s, Nodes r);
   /// block_ = projection (A coupling_, entry by entry) P_s: takes a block at the nodes to one of coefficients.
   void set_block();
   /// What gamma leaves of the hidden constraints at the current nodes, grad g_i^T M^-1 v_i, or of its coefficients, in
   /// column b from out(b) on.
-  template <class Out>
-  void hidden_constraints(const Matrix<S>& velocity, Out out);
+  template <class Stages, class Nodes, class Out>
+  void hidden_constraints(Stages s, Nodes r, const Matrix<S>& velocity, Out out);
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
@@ -168,19 +179,19 @@ class StageEquations {
   Vector<S> no_carry_;                // m
   Parity I_centred_, I_hat_centred_;  ///< I_s and I_hat with c - 1/2 for c in column 0
   Parity P_, projection_, projection_hat_;
-  Vector<S> middle_;                        // m: q0 + h/2 M^-1 gamma_0
-  std::vector<Index> pulled_;               // the coordinates on which a constant force acts
-  Vector<S> psi_rest_;                      // m: what rounding took from their psi_0 in the last forces()
-  Matrix<S> velocity_, h_velocity_;         // s x m
-  Matrix<S> u_hat_, force_;                 // k x m
-  Matrix<S> u_, w_;                         // r x m
-  Matrix<S> stage_, pull_;                  // s x m
-  Matrix<S> coupling_;                      // r x r
-  Matrix<S> lambda_;                        // r x nu, if lambda has coefficients; as are the next two
-  Vector<S> hidden_;                        // r: one of the hidden constraints at the nodes
-  Matrix<S> right_, block_;                 // r x s and s x s: of the matrix of (lam)
-  Vector<S> rhs_;                           // s nu
-  S half_, h_half_ = 0, rest_, t_, x_, y_;  // the last three are scratch
+  Vector<S> middle_;                 // m: q0 + h/2 M^-1 gamma_0
+  std::vector<Index> pulled_;        // the coordinates on which a constant force acts
+  Vector<S> psi_rest_;               // m: what rounding took from their psi_0 in the last forces()
+  Matrix<S> velocity_, h_velocity_;  // s x m
+  Matrix<S> u_hat_, force_;          // k x m
+  Matrix<S> u_, w_;                  // r x m
+  Matrix<S> stage_, pull_;           // s x m
+  Matrix<S> coupling_;               // r x r
+  Matrix<S> lambda_;                 // r x nu, if lambda has coefficients; as are the next two
+  Vector<S> hidden_;                 // r: one of the hidden constraints at the nodes
+  Matrix<S> right_, block_;          // r x s and s x s: of the matrix of (lam)
+  Vector<S> rhs_;                    // s nu
+  S half_, h_half_ = 0, inverse_h_ = 0, rest_, t_, x_, y_;  // the last three are scratch
   std::vector<PartCount> parts_;
   bool timed_ = false;
 };

@@ -91,19 +91,20 @@ class StoppingRule {
     bool settled = false;
   };
   Coordinate& at(Index j) { return coordinates_[static_cast<std::size_t>(j)]; }
+  /// Finds whether changes are finite and coarse, and at which rate they fall. \return false if one is not finite
+  bool look_at_changes();
   /// Whether all that is left to change is negligible; updates what is expected of the next change.
-  bool is_negligible(Coordinate& x);
-  bool is_settled(Coordinate& x);
-  /// Whether it is rounding altogether, beside which what is left to change counts for nothing.
+  bool is_negligible(Coordinate& x, const S& rate, bool fast);
+  /// In the first sweep, and in others.
+  bool is_settled_at_once(Coordinate& x, const S& rate);
+  bool is_settled(Coordinate& x, const S& rate, bool fast);
+  /// Whether it is rounding altogether, beside which what is left to change counts for nothing, where changes fall
+  /// fast.
   bool is_lost(const Coordinate& x, const S& left) const;
-  /// What is_settled() says of most coordinates in most sweeps, sooner: that neither may its change be rounding nor is
-  /// what is left negligible. Not for the first sweep.
-  bool is_far(Coordinate& x);
   /// Updates the least change, and for how long there was none below it.
-  void follow_least(Coordinate& x, bool first, bool rounding);
+  void follow_least(Coordinate& x, bool rounding);
   bool grows() const;
   void take_scales();
-  void find_rate();
   /// The bounds of a coordinate, from its scale and what rounding of its position amounts to.
   void set_bounds(Coordinate& x);
   void set_far(Coordinate& x);

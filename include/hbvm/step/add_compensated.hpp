@@ -9,7 +9,7 @@ namespace hbvm {
 /// constant increment step after step. s and t are scratch.
 template <Scalar S>
 void add_compensated(S& x, S& carry, const S& increment, S& s, S& t) {
-  S& rest = scratch<S>();
+  HeldScratch<S> rest = scratch<S>();
   set_exact_sum(s, rest, x, increment, t);
   set_sum(rest, rest, carry);
   set_exact_sum(x, carry, s, rest, t);

@@ -1,39 +1,60 @@
 #pragma once
 
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/problem/effect/kernel.hpp"
 
 namespace hbvm {
 
-/// Kernel::add_force for a formula with a static gradient(x, c, g) and its dimension d. The forces are another array
-/// than q, so that lanes may be done several at a time.
-template <class Formula>
-void add_force(const KernelSite* sites, std::size_t count, Lanes<const double> q, double* force) {
+/// f(i) for every lane. The forces are another array than q, so that several lanes may be done at a time.
+template <class Count, class F>
+[[gnu::always_inline]] inline void for_each_lane(Count lanes, F f) {
+  if constexpr (is_constant_count<Count>) {
+    for (Index i = 0; i < lanes; ++i) f(i);
+  } else {
+#pragma GCC ivdep
+    for (Index i = 0; i < lanes; ++i) f(i);
+  }
+}
+
+/// Kernel::add_force for a formula with a static gradient(x, c, g) and its dimension d, where the number of lanes may
+/// be a constant.
+template <class Formula, class Count>
+[[gnu::always_inline]] inline void add_force_in(const KernelSite* sites, std::size_t count,
+                                                Lanes<const double, Count> q, double* force) {
   constexpr Index d = Formula::dimension;
-  const Index lanes = q.count;
+  const Count lanes = q.count;
   for (const KernelSite* site = sites; site != sites + count; ++site) {
     const double* const c = site->coefficients;
-    const double* const a = q.data + site->a * lanes;
+    const double* const a = q[site->a];
     double* const f = force + site->a * lanes;
     double x[d], g[d];
     if (site->b >= 0) {
-      const double* const b = q.data + site->b * lanes;
+      const double* const b = q[site->b];
       double* const opposite = force + site->b * lanes;
-#pragma GCC ivdep
-      for (Index i = 0; i < lanes; ++i) {
+      for_each_lane(lanes, [&](Index i) {
         for (Index j = 0; j < d; ++j) x[j] = a[j * lanes + i] - b[j * lanes + i];
         Formula::gradient(x, c, g);
         for (Index j = 0; j < d; ++j) f[j * lanes + i] += g[j];
         for (Index j = 0; j < d; ++j) opposite[j * lanes + i] -= g[j];
-      }
+      });
     } else {
-#pragma GCC ivdep
-      for (Index i = 0; i < lanes; ++i) {
+      for_each_lane(lanes, [&](Index i) {
         for (Index j = 0; j < d; ++j) x[j] = a[j * lanes + i] + site->shift[j];
         Formula::gradient(x, c, g);
         for (Index j = 0; j < d; ++j) f[j * lanes + i] += g[j];
-      }
+      });
     }
   }
+}
+
+/// The same; of a single lane, of which a loop would be mostly what surrounds it, as a formula.
+template <class Formula>
+void add_force(const KernelSite* sites, std::size_t count, Lanes<const double> q, double* force) {
+  using One = std::integral_constant<Index, 1>;
+  if (q.count == 1)
+    add_force_in<Formula>(sites, count, Lanes<const double, One>{q.data, One()}, force);
+  else
+    add_force_in<Formula>(sites, count, q, force);
 }
 
 }  // namespace hbvm
