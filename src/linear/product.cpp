@@ -52,13 +52,19 @@ void product(Matrix<S>& c, const Matrix<S>& a, const Matrix<S>& b) {
   if constexpr (std::same_as<S, double>) {
     if (inner == 0) return set_zero(c);
     return with_constant_count<S>(rows, [&]<class Rows>(Rows count) {
-      with_constant_count<S>(inner, [&]<class Terms>(Terms) {
-        if constexpr (is_constant_count<Rows> && is_constant_count<Terms>)
-          multiply_few<Rows::value, Terms::value>(c.data(), a.data(), b.data(), columns);
-        else
-          for (Index j = 0; j < columns; ++j)
-            add_columns(c.data() + j * count, count, a.data(), inner, b.data() + j * inner, 1);
-      });
+      const auto any_terms = [&] {
+        for (Index j = 0; j < columns; ++j)
+          add_columns(c.data() + j * count, count, a.data(), inner, b.data() + j * inner, 1);
+      };
+      if constexpr (is_constant_count<Rows>)
+        with_constant_count<S>(inner, [&]<class Terms>(Terms) {
+          if constexpr (is_constant_count<Terms>)
+            multiply_few<Rows::value, Terms::value>(c.data(), a.data(), b.data(), columns);
+          else
+            any_terms();
+        });
+      else
+        any_terms();
     });
   }
   for (Index j = 0; j < columns; ++j) set_times(c.data() + j * rows, a, b.data() + j * inner, 1);

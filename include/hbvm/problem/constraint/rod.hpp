@@ -105,10 +105,14 @@ struct Rod {
    private:
     /// g = x.x - square, from a displacement with its components `lanes` apart.
     template <class Count>
-    void set_value(const S* x, const GradientTarget<S, Count>& to) const {
+    void set_value(const S* components, const GradientTarget<S, Count>& to) const {
       for (Index i = 0; i < to.lanes; ++i) {
-        set_product(to.g[i], x[i], x[i]);
-        for (Index j = 1; j < dimension_; ++j) add_product(to.g[i], x[j * to.lanes + i], x[j * to.lanes + i], to.t);
+        const S* component = components + i;
+        set_product(to.g[i], *component, *component);
+        for (Index j = 1; j < dimension_; ++j) {
+          component += to.lanes;
+          add_product(to.g[i], *component, *component, to.t);
+        }
         set_difference(to.g[i], to.g[i], form_.square);
       }
     }
