@@ -1,7 +1,6 @@
 #include "linear/dense_lu.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -77,33 +76,12 @@ void subtract_product(double* c, const double* l, const double* u, Index rows, I
     subtract_product_of_blocks(c, l, u, rows, columns, depth, stride);
 }
 
-/// The factors of the columns from `first` to `end`, from row `first` on. Rows are exchanged in these columns alone.
-bool factor_columns(double* a, Index n, Index first, Index end, std::vector<Index>& pivots) {
-  for (Index k = first; k < end; ++k) {
-    double* const column = a + k * n;
-    Index pivot = k;
-    for (Index i = k + 1; i < n; ++i)
-      if (std::abs(column[i]) > std::abs(column[pivot])) pivot = i;
-    pivots[static_cast<std::size_t>(k)] = pivot;
-    if (column[pivot] == 0 || !std::isfinite(column[pivot])) return false;
-    if (pivot != k)
-      for (Index j = first; j < end; ++j) std::swap(a[k + j * n], a[pivot + j * n]);
-    for (Index i = k + 1; i < n; ++i) column[i] /= column[k];
-    for (Index j = k + 1; j < end; ++j) {
-      double* const target = a + j * n;
-      const double factor = target[k];
-      for (Index i = k + 1; i < n; ++i) target[i] -= column[i] * factor;
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 bool factor_dense(double* a, Index n, std::vector<Index>& pivots) {
   for (Index first = 0; first < n; first += block) {
     const Index end = std::min(first + block, n);
-    if (!factor_columns(a, n, first, end, pivots)) return false;
+    if (!factor_columns(a, n, first, end, pivots.data())) return false;
     for (Index j = 0; j < n; ++j) {
       if (j == first) j = end;
       if (j >= n) break;

@@ -37,31 +37,20 @@ void Lu<S>::set(const Matrix<S>& a) {
 
 namespace {
 
-/// Lu::factor() of a full matrix. Whole rows are exchanged: rows[i] is the one that came to be the i-th.
-template <Index n>
-bool factor_few(double* a, Index* rows) {
+/// Lu::factor() of a full matrix: rows[i] is the one that came to be the i-th.
+template <class Count>
+bool factor_few(double* a, Count n, Index* rows) {
+  Index pivots[Count::value];
+  if (!factor_columns(a, n, 0, n, pivots)) return false;
   for (Index k = 0; k < n; ++k) rows[k] = k;
-  for (Index k = 0; k < n; ++k) {
-    double* const column = a + k * n;
-    Index pivot = k;
-    for (Index i = k + 1; i < n; ++i)
-      if (std::abs(column[i]) > std::abs(column[pivot])) pivot = i;
-    if (column[pivot] == 0 || !is_finite(column[pivot])) return false;
-    if (pivot != k) {
-      std::swap(rows[k], rows[pivot]);
-      for (Index j = 0; j < n; ++j) std::swap(a[k + j * n], a[pivot + j * n]);
-    }
-    for (Index i = k + 1; i < n; ++i) column[i] /= column[k];
-    for (Index j = k + 1; j < n; ++j)
-      for (Index i = k + 1; i < n; ++i) a[i + j * n] -= column[i] * a[k + j * n];
-  }
+  for (Index k = 0; k < n; ++k) std::swap(rows[k], rows[pivots[k]]);
   return true;
 }
 
 /// Lu::solve() of what factor_few() left.
-template <Index n>
-void solve_few(const double* a, const Index* rows, double* x) {
-  double y[n];
+template <class Count>
+void solve_few(const double* a, Count n, const Index* rows, double* x) {
+  double y[Count::value];
   for (Index k = 0; k < n; ++k) y[k] = x[rows[k]];
   for (Index k = 0; k < n; ++k)
     for (Index i = k + 1; i < n; ++i) y[i] -= a[i + k * n] * y[k];
@@ -91,7 +80,7 @@ bool Lu<S>::factor() {
   if constexpr (std::same_as<S, double>) {
     if (blocked_) return factor_dense(data_.data(), n_, pivots_) && invert_pivots();
     bool regular = false;
-    const auto factor_in_place = [&](auto n) { regular = factor_few<n>(data_.data(), pivots_.data()); };
+    const auto factor_in_place = [&](auto n) { regular = factor_few(data_.data(), n, pivots_.data()); };
     if (with_few<S>(n_, stride_, factor_in_place)) return regular && invert_pivots();
   }
   S& t = scratch<S>();
@@ -132,7 +121,7 @@ bool Lu<S>::invert_pivots() {
 template <Scalar S>
 void Lu<S>::solve(S* x) {
   if constexpr (std::same_as<S, double>) {
-    const auto solve_in_place = [&](auto n) { solve_few<n>(data_.data(), pivots_.data(), x); };
+    const auto solve_in_place = [&](auto n) { solve_few(data_.data(), n, pivots_.data(), x); };
     if (with_few<S>(n_, stride_, solve_in_place)) return;
   }
   S& t = scratch<S>();

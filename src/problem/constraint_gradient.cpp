@@ -194,7 +194,7 @@ template <Scalar S>
 void ConstraintGradient<S>::transposed_times(Index a, Lanes<const S> v, S* result) {
   const Pattern& pattern = patterns_[static_cast<std::size_t>(a)];
   with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
-    with_run_length([&](auto length) {
+    with_constant_dimension<S>(run_length_, [&](auto length) {
       transposed_times(length, pattern, Lanes<const S, Count>{v.data, lanes}, result);
     });
   });
@@ -203,7 +203,7 @@ void ConstraintGradient<S>::transposed_times(Index a, Lanes<const S> v, S* resul
 template <Scalar S>
 void ConstraintGradient<S>::add_times(const Matrix<S>& lambda, Lanes<S> out) {
   with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
-    with_run_length([&](auto length) {
+    with_constant_dimension<S>(run_length_, [&](auto length) {
       add_times(length, runs_, values_.data(), lambda.data(), Lanes<S, Count>{out.data, lanes}, t_);
     });
   });

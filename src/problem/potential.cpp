@@ -55,8 +55,7 @@ PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index l
     Work& work = work_.emplace_back(term, potential.dimension, lanes);
     counts_[t].per_evaluation = operations_of(term, potential.dimension);
     if (!term.constant_force) {
-      varying_.push_back({&term, &work, &counts_[t], work.kernel ? work.kernel->add_force : nullptr, work.sites.data(),
-                          work.sites.size()});
+      varying_.push_back({&term, &work, &counts_[t]});
       continue;
     }
     // The same everywhere: evaluated once, here.
@@ -105,11 +104,7 @@ void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
     const double before = timed_ ? elapsed_seconds() : 0;
     ++own.count->calls;
     own.count->evaluations += static_cast<std::uint64_t>(lanes_);
-    if (own.kernel != nullptr) {
-      if constexpr (std::same_as<S, double>) own.kernel(own.sites, own.site_count, q, force.data());
-    } else {
-      add_force(*own.term, *own.work, q, force);
-    }
+    add_force(*own.term, *own.work, q, force);
     if (timed_) own.count->seconds += elapsed_seconds() - before;
   }
 }
@@ -123,6 +118,8 @@ void PotentialEvaluator<S>::force(Lanes<const S> q, Matrix<S>& force) {
 
 template <Scalar S>
 void PotentialEvaluator<S>::add_force(const EffectTerm<S>& term, Work& work, Lanes<const S> q, Matrix<S>& force) {
+  if constexpr (std::same_as<S, double>)
+    if (work.kernel != nullptr) return work.kernel->add_force(work.sites.data(), work.sites.size(), q, force.data());
   displace_all(term, work, q);
   work.gradient.run();
   for_each_force(term, [&](Index output, Index instance, Index coordinate, const S& weight) {

@@ -296,17 +296,14 @@ template <class Stages, class Nodes>
     system_.set_zero();
     gradient_.for_each_coupling(r, gradient_, coupling_.data(), [&](const auto& pair) {
       const Index row = position[pair.a] * s, column = position[pair.b] * s;
-      if (method_.has_coefficients_of_lambda()) set_block();
-      const S* const block = method_.has_coefficients_of_lambda() ? block_.data() : coupling_.data();
-      const S* const A = method_.has_coefficients_of_lambda() ? nullptr : method_.A.data();
+      if (method_.has_coefficients_of_lambda()) {
+        set_block();
+        for (Index j = 0; j < s; ++j)
+          for (Index i = 0; i < s; ++i) set(system_.entry(row + i, column + j), block_(i, j));
+        return;
+      }
       for (Index j = 0; j < s; ++j)
-        for (Index i = 0; i < s; ++i) {
-          S& entry = system_.entry(row + i, column + j);
-          if (A)
-            set_product(entry, block[i + j * s], A[i + j * s]);
-          else
-            set(entry, block[i + j * s]);
-        }
+        for (Index i = 0; i < s; ++i) set_product(system_.entry(row + i, column + j), coupling_(i, j), method_.A(i, j));
     });
   }
   const PartCall counted = call(factors);

@@ -32,6 +32,16 @@ decltype(auto) with_constant_count(Index n, F&& f) {
   return std::forward<F>(f)(n);
 }
 
+/// The same for a dimension of space, inlined.
+template <Scalar S, class F>
+[[gnu::always_inline]] inline void with_constant_dimension(Index dimension, F f) {
+  if constexpr (std::same_as<S, double>) {
+    if (dimension == 3) return f(std::integral_constant<Index, 3>());
+    if (dimension == 2) return f(std::integral_constant<Index, 2>());
+  }
+  f(dimension);
+}
+
 /// Whether the type of a count is that of a constant: sums of so many numbers can stay in registers.
 template <class Count>
 inline constexpr bool is_constant_count = !std::same_as<Count, Index>;

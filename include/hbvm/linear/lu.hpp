@@ -48,7 +48,7 @@ class Lu {
   // Column j holds rows j - 2 b .. j + b: pivoting fills in b diagonals above the band. A dense matrix has no more.
   Index n_ = 0, b_ = 0, upper_ = 0, stride_ = 0, offset_ = 0;
   std::vector<S> data_;
-  std::vector<Index> pivots_;  // of few unknowns in double the rows that were exchanged
+  std::vector<Index> pivots_;  // of few unknowns in double the rows in their new order
   bool blocked_ = false;
   S one_ = 1;
 };

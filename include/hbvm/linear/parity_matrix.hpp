@@ -28,7 +28,8 @@ class ParityMatrix {
 
   /// c = a b, resized.
   void times(Matrix<S>& c, const Matrix<S>& b);
-  /// The same with its numbers of rows and columns, which may be constants: then c must have its size.
+  /// The same with its numbers of rows and columns, which may be constants: then c must have its size, and it is so
+  /// small a matrix of double that it is multiplied as it stands.
   template <class Rows, class Terms>
   [[gnu::always_inline]] void times(Rows, Terms, Matrix<S>& c, const Matrix<S>& b) {
     if constexpr (is_constant_count<Rows> && is_constant_count<Terms>)

@@ -26,7 +26,7 @@ class ConstraintGradient {
     const std::size_t count = patterns_.size();
     for (std::size_t a = 0; a < count; ++a) {
       const GradientTarget<S, Count> to = target(a, g ? g + static_cast<Index>(a) * q.count : nullptr, q.count);
-      // As most are.
+      // As most are: to call it by std::visit takes as long as it does itself.
       if (const auto* const rod = std::get_if<typename Rod<S>::Gradient>(&gradients_[a]))
         rod->update(q, to);
       else
@@ -48,18 +48,20 @@ class ConstraintGradient {
   /// The same for all a, from out(a) on, with the number of lanes as a constant if it is one of its type.
   template <class Count, class Out>
   [[gnu::always_inline]] void transposed_times(Lanes<const S, Count> v, Out out) {
-    with_run_length([&](auto length) __attribute__((always_inline)) {
-      const std::size_t count = patterns_.size();
-      for (std::size_t a = 0; a < count; ++a) transposed_times(length, patterns_[a], v, out(static_cast<Index>(a)));
-    });
+    with_constant_dimension<S>(
+        run_length_, [&](auto length) __attribute__((always_inline)) {
+          const std::size_t count = patterns_.size();
+          for (std::size_t a = 0; a < count; ++a) transposed_times(length, patterns_[a], v, out(static_cast<Index>(a)));
+        });
   }
   /// out += grad g lambda in every lane, with lambda (lanes x nu).
   void add_times(const Matrix<S>& lambda, Lanes<S> out);
   template <class Count>
   [[gnu::always_inline]] void add_times(const Matrix<S>& lambda, Lanes<S, Count> out) {
-    with_run_length([&](auto length) __attribute__((always_inline)) {
-      add_times(length, runs_, values_.data(), lambda.data(), out, t_);
-    });
+    with_constant_dimension<S>(
+        run_length_, [&](auto length) __attribute__((always_inline)) {
+          add_times(length, runs_, values_.data(), lambda.data(), out, t_);
+        });
   }
   /// out += M^-1 grad g lambda in every lane.
   void add_weighted_times(const Matrix<S>& lambda, Lanes<S> out);
@@ -130,15 +132,6 @@ class ConstraintGradient {
   /// run_length_ = the dimension, if all columns are of vectors in space, else 1; and the runs.
   void find_runs();
   void weigh() const;
-  /// f(run_length_), as a constant of its type if it is a dimension in double.
-  template <class F>
-  [[gnu::always_inline]] void with_run_length(F f) const {
-    if constexpr (std::same_as<S, double>) {
-      if (run_length_ == 3) return f(std::integral_constant<Index, 3>());
-      if (run_length_ == 2) return f(std::integral_constant<Index, 2>());
-    }
-    f(run_length_);
-  }
   template <class Length, class Count>
   static void add_times(Length length, const std::vector<Run>& runs, const S* values, const S* lambda,
                         Lanes<S, Count> out, S& scratch);

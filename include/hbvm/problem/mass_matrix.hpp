@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hbvm/linear/constant_count.hpp"
 #include "hbvm/linear/operation_counts.hpp"
 #include "hbvm/problem/space/lanes.hpp"
 
@@ -33,7 +34,7 @@ class MassMatrix {
   /// The same with the number of lanes as a constant if it is one of its type.
   template <class Count>
   [[gnu::always_inline]] void velocity(Lanes<const S, Count> p, Lanes<S, Count> v) const {
-    if constexpr (!std::same_as<Count, Index>) {
+    if constexpr (is_constant_count<Count>) {
       if (full_.empty()) {
         S* __restrict const out = v.data;
         const S* __restrict const in = p.data;

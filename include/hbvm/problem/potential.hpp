@@ -65,17 +65,14 @@ class PotentialEvaluator {
     Work(const EffectTerm<S>& term, Index dimension, Index lanes);
   };
 
-  /// A term whose force varies, and the kernel of it, if there is one, with the sites that it acts on.
+  /// A term whose force varies.
   struct Varying {
     const EffectTerm<S>* term;
     Work* work;
     EffectCount* count;
-    decltype(Kernel::add_force) kernel;
-    const KernelSite* sites;
-    std::size_t site_count;
   };
 
-  /// force += the gradient of a term, as it is interpreted.
+  /// force += the gradient of a term.
   void add_force(const EffectTerm<S>& term, Work& work, Lanes<const S> q, Matrix<S>& force);
   void displace_all(const EffectTerm<S>& term, Work& work, Lanes<const S> q);
   /// f(output of the gradient, instance, coordinate whose force it is part of, weight), for all of them.

@@ -85,11 +85,9 @@ struct Rod {
 
     template <class Count>
     [[gnu::always_inline]] void update(Lanes<const S, Count> q, const GradientTarget<S, Count>& to) const {
-      if (is_pair_) {
-        if (dimension_ == 3) return update_pair(std::integral_constant<Index, 3>(), q, to);
-        if (dimension_ == 2) return update_pair(std::integral_constant<Index, 2>(), q, to);
-        return update_pair(dimension_, q, to);
-      }
+      if (is_pair_)
+        return with_constant_dimension<S>(
+            dimension_, [&](auto dimension) __attribute__((always_inline)) { update_pair(dimension, q, to); });
       displace(form_.x, dimension_, q, to.x.data(), to.lanes);
       if (to.g) set_value(to.x.data(), to);
       for (Index i = 0; i < to.x.size(); ++i) set_sum(to.x.data()[i], to.x.data()[i], to.x.data()[i]);
@@ -126,12 +124,9 @@ struct Rod {
       const S* __restrict const b = q[minus_];
       S* __restrict const columns = to.column(column_);
       S* __restrict const opposite = to.column(opposite_);
-      if (to.g) {
-        for (Index i = 0; i < size; ++i) set_difference(columns[i], a[i], b[i]);
-        set_value(columns, to);
-      }
+      for (Index i = 0; i < size; ++i) set_difference(columns[i], a[i], b[i]);
+      if (to.g) set_value(columns, to);
       for (Index i = 0; i < size; ++i) {
-        set_difference(columns[i], a[i], b[i]);
         set_sum(columns[i], columns[i], columns[i]);
         set_negative(opposite[i], columns[i]);
       }
