@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/constant_count.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -28,13 +30,26 @@ void shorten([[maybe_unused]] Sizes&... sizes) {
     (mpfr_prec_round(raw(sizes), std::numeric_limits<double>::digits, MPFR_RNDN), ...);
 }
 
-/// exceeds() of sizes, which are not negative.
+/// size = |x| or, if something was shown before, the greater of both.
 template <Scalar S>
-bool is_greater(const S& a, const S& b) {
-  if constexpr (std::same_as<S, Mpfr>)
-    return exceeds(a, b);
+void show(S& size, const S& x, bool first) {
+  if (!first)
+    raise_magnitude(size, x);
   else
-    return a > b;
+    set_magnitude(size, x);
+}
+
+/// bound = max(bound, a / b) if `wanted`. Whether it is raised is chance: in double, to divide takes less time than a
+/// branch that was not foreseen.
+template <Scalar S>
+void raise_to_quotient(S& bound, const S& a, const S& b, bool wanted, [[maybe_unused]] S& t) {
+  if constexpr (std::same_as<S, double>) {
+    const double quotient = wanted ? a / b : 0;
+    bound = quotient > bound ? quotient : bound;
+  } else if (wanted) {
+    set_product(t, bound, b);
+    if (is_greater(a, t)) set_quotient(bound, a, b);
+  }
 }
 
 }  // namespace
@@ -48,18 +63,21 @@ StoppingRule<S>::StoppingRule(Index coordinates, long roundings, int least_rate_
       tiny_(S(roundings) * least_number<S>()),
       least_rate_(power_of_two<S>(-least_rate_bits)),
       coarse_bound_(power_of_two<S>(-10)),
+      change_(Vector<S>::Zero(coordinates)),
+      last_(change_),
       coordinates_(static_cast<std::size_t>(coordinates)) {
   shorten<S>(bound_, negligible_, tiny_, least_rate_, coarse_bound_, kappa_, rate_, last_rate_, t_, left_);
   for (Coordinate& x : coordinates_)
-    shorten<S>(x.change, x.terms, x.scale, x.position, x.last, x.least, x.expected, x.noise, x.rounding, x.negligible,
-               x.coarse, x.far, x.lost);
+    shorten<S>(x.terms, x.scale, x.position, x.least, x.expected, x.noise, x.rounding, x.negligible, x.coarse, x.far,
+               x.lost, x.open);
+  for (Index j = 0; j < coordinates; ++j) shorten<S>(change_[j], last_[j]);
 }
 
 template <Scalar S>
 void StoppingRule<S>::start(const Vector<S>& p0, const Vector<S>& positions) {
   sweeps_ = 0;
   coarse_ = true;
-  terms_shown_ = false;
+  changes_shown_ = terms_shown_ = false;
   p0_ = &p0;
   set(kappa_, one_);
   set(rate_, one_);
@@ -68,8 +86,6 @@ void StoppingRule<S>::start(const Vector<S>& p0, const Vector<S>& positions) {
     set(x.position, positions[j]);
     set_product(x.lost, x.position, negligible_);
     set_zero(x.scale);
-    set_zero(x.terms);
-    set_zero(x.change);
     set_bounds(x);
   }
   finite_ = true;
@@ -91,39 +107,45 @@ void StoppingRule<S>::set_condition(double kappa) {
 
 template <Scalar S>
 void StoppingRule<S>::show_change(const Matrix<S>& now, const Matrix<S>& before, const S* factor) {
+  const bool first = !std::exchange(changes_shown_, true);
   with_constant_count<S>(now.rows(), [&](auto rows) {
     HeldScratch<S> t = t_;
-    const S* a = now.data();
-    const S* b = before.data();
-    for (Coordinate& x : coordinates_) {
+    const S* __restrict const a = now.data();
+    const S* __restrict const b = before.data();
+    S* __restrict const change = change_.data();
+    const Index columns = now.cols();
+    for (Index j = 0; j < columns; ++j)
       for (Index i = 0; i < rows; ++i) {
-        set_difference(t, a[i], b[i]);
+        set_difference(t, a[j * rows + i], b[j * rows + i]);
         if (factor) set_product(t, t, *factor);
-        raise_magnitude(x.change, t);
+        show(change[j], t, first && i == 0);
       }
-      a += rows;
-      b += rows;
-    }
   });
 }
 
 template <Scalar S>
 void StoppingRule<S>::show_change(const Matrix<S>& change) {
-  const S* a = change.data();
-  for (Coordinate& x : coordinates_)
-    for (Index i = 0; i < change.rows(); ++i) raise_magnitude(x.change, *a++);
+  const bool first = !std::exchange(changes_shown_, true);
+  for (Index j = 0; j < change.cols(); ++j)
+    for (Index i = 0; i < change.rows(); ++i) show(change_[j], change(i, j), first && i == 0);
+}
+
+template <Scalar S>
+void StoppingRule<S>::show_change(Index j, const S& change) {
+  if (!std::exchange(changes_shown_, true)) set_zero(change_);
+  raise_magnitude(change_[j], change);
 }
 
 template <Scalar S>
 void StoppingRule<S>::show_terms(const Matrix<S>& terms, const S* factor) {
-  terms_shown_ = true;
+  const bool first = !std::exchange(terms_shown_, true);
   with_constant_count<S>(terms.rows(), [&](auto rows) {
     HeldScratch<S> t = t_;
     const S* a = terms.data();
     for (Coordinate& x : coordinates_) {
       for (Index i = 0; i < rows; ++i) {
         if (factor) set_product(t, a[i], *factor);
-        raise_magnitude(x.terms, factor ? t : a[i]);
+        show(x.terms, factor ? t : a[i], first && i == 0);
       }
       a += rows;
     }
@@ -138,7 +160,6 @@ void StoppingRule<S>::take_scales() {
   for (Coordinate& x : coordinates_) {
     raise_magnitude(x.terms, *p0++);
     set(x.scale, x.terms);
-    set_zero(x.terms);
     set_bounds(x);
     finite_ = finite_ && is_finite(x.scale);
   }
@@ -148,20 +169,27 @@ template <Scalar S>
 bool StoppingRule<S>::look_at_changes() {
   HeldScratch<S> now = left_, t = t_;
   set(now, least_rate_);
-  const bool first = sweeps_ == 1;
   bool finite = true, coarse = false, known = false;
-  for (const Coordinate& x : coordinates_) {
-    finite = finite && is_finite(x.change);
-    coarse = coarse || is_greater(x.change, x.coarse);
-    if (first || !is_greater(x.last, x.rounding)) continue;
-    known = true;
-    set_product(t, now, x.last);
-    if (is_greater(x.change, t)) set_quotient(now, x.change, x.last);
+  if (sweeps_ == 1) {
+    for (Index j = 0; j < change_.size(); ++j) {
+      finite &= is_finite(change_[j]);
+      coarse |= is_greater(change_[j], at(j).coarse);
+    }
+  } else {
+    for (Index j = 0; j < change_.size(); ++j) {
+      const Coordinate& x = at(j);
+      const Held<S> change = change_[j], last = last_[j];
+      finite &= is_finite(change);
+      coarse |= is_greater(change, x.coarse);
+      const bool shows = is_greater(last, x.rounding);
+      known |= shows;
+      raise_to_quotient(now, change, last, shows, t);
+    }
   }
   coarse_ = coarse;
   if (!finite) return false;
   rate_shown_ = known;
-  if (first) {
+  if (sweeps_ == 1) {
     set(last_rate_, rate_);
   } else if (known) {
     // The greater of this one and the one before, which in the second sweep is none.
@@ -185,79 +213,98 @@ template <Scalar S>
 void StoppingRule<S>::set_far(Coordinate& x) {
   set_product(x.far, x.rounding, kappa_);
   if (is_greater(tiny_, x.far)) set(x.far, tiny_);
+  x.small = !is_greater(x.scale, x.far);
+  set(x.open, x.small && is_greater(x.lost, x.negligible) ? x.lost : x.negligible);
 }
 
 template <Scalar S>
 bool StoppingRule<S>::is_lost(const Coordinate& x, const S& left) const {
-  return !is_greater(x.scale, x.far) && !is_greater(left, x.lost);
+  const bool beside = !is_greater(left, x.lost);
+  return x.small & beside;
 }
 
 template <Scalar S>
-[[gnu::always_inline]] inline void StoppingRule<S>::follow_least(Coordinate& x, bool rounding) {
-  HeldScratch<S> t = t_;
-  if (!is_greater(x.least, x.change)) {
+[[gnu::always_inline]] inline void StoppingRule<S>::follow_least(Coordinate& x, const S& change) {
+  if (!is_greater(x.least, change)) {
+    HeldScratch<S> t = t_;
     set_product(t, x.least, sixteen_);
-    if (rounding || !is_greater(x.change, t)) {
+    if (!is_greater(change, t)) {
       ++x.waiting;
       return;
     }
     ++x.risen;
   }
-  set(x.least, x.change);
+  set(x.least, change);
   x.waiting = 0;
 }
 
 template <Scalar S>
-[[gnu::always_inline]] inline bool StoppingRule<S>::is_negligible(Coordinate& x, const S& rate, bool fast) {
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_negligible(Coordinate& x, const S& change, const S& last,
+                                                                  const S& rate, bool fast) {
   HeldScratch<S> left = left_, own = t_;
-  const bool clean = is_greater(x.change, x.noise);
-  if (clean)
-    set(x.expected, x.change);
-  else
-    set_product(x.expected, x.expected, rate);
-  if (!is_greater(x.change, x.negligible) && !is_greater(x.last, x.negligible)) return true;
+  const bool clean = is_greater(change, x.noise);
   set_product(left, x.expected, rate);
-  if (is_greater(left, x.negligible)) return fast && is_lost(x, left);
-  if (!clean) return true;
+  choose(x.expected, clean, change, left);
+  set_product(left, x.expected, rate);
+  const bool goes_on = is_greater(change, x.negligible), went_on = is_greater(last, x.negligible);
+  const bool open = is_greater(left, x.negligible), lost = fast & is_lost(x, left), ended = !(goes_on | went_on);
+  if (ended | open | !clean) return ended | !open | lost;
   // A coordinate much smaller than its body's others may have a rate of its own.
-  set_product(own, rate, x.last);
-  if (!is_greater(x.change, own)) return true;
-  set_quotient(own, x.change, x.last);
+  set_product(own, rate, last);
+  if (!is_greater(change, own)) return true;
+  set_quotient(own, change, last);
   set_product(own, own, x.expected);
-  return !is_greater(own, x.negligible) || (fast && is_lost(x, left));
+  return lost || !is_greater(own, x.negligible);
 }
 
 template <Scalar S>
-[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled_at_once(Coordinate& x, const S& rate) {
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled_at_once(Coordinate& x, const S& change, const S& rate) {
   HeldScratch<S> left = left_;
   x.risen = x.waiting = x.vanishing = 0;
-  set(x.least, x.change);
-  set(x.expected, x.change);
-  set_product(left, x.change, rate);
-  return !is_greater(left, x.negligible);
+  set(x.least, change);
+  set(x.expected, change);
+  set_product(left, change, rate);
+  x.falls = is_greater(left, x.negligible);
+  return !x.falls;
 }
 
 template <Scalar S>
-[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled(Coordinate& x, const S& rate, bool fast) {
+[[gnu::always_inline]] inline bool StoppingRule<S>::still_falls(const Coordinate& x, const S& change, const S& last,
+                                                                const S& rate) {
+  if (!x.falls || !is_greater(last, change) || !is_greater(change, x.far)) return false;
+  HeldScratch<S> left = left_;
+  set_product(left, change, rate);
+  return is_greater(left, x.open);
+}
+
+template <Scalar S>
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled(Coordinate& x, const S& change, const S& last,
+                                                               const S& rate, bool fast) {
   HeldScratch<S> t = t_;
-  const bool rounding = !is_greater(x.change, x.far);
-  follow_least(x, rounding);
-  if (!rounding) {
+  if (x.falls) {
+    x.falls = false;
+    set(x.least, last);
+    set(x.expected, last);
+  }
+  if (is_greater(change, x.far)) {
+    follow_least(x, change);
     x.vanishing = 0;
-    // Most coordinates in most sweeps.
-    set_product(t, x.change, rate);
+    set_product(t, change, rate);
     if (is_greater(t, x.negligible) && !(fast && is_lost(x, t))) {
-      set(x.expected, x.change);
+      set(x.expected, change);
+      x.falls = x.waiting + x.risen == 0;
       return false;
     }
-    return is_negligible(x, rate, fast);
+    return is_negligible(x, change, last, rate, fast);
   }
-  set_sum(t, x.change, x.change);
-  x.vanishing = is_greater(x.scale, t) ? 0 : x.vanishing + 1;
-  if (is_negligible(x, rate, fast) || x.waiting >= 2 || x.settled || x.vanishing >= (fast ? 1 : 2)) return true;
-  if (!fast) return false;
-  set_product(t, x.rounding, kappa_);
-  return !is_greater(x.scale, t);
+  // What rounding does is chance, which no branch can foresee.
+  const bool lower = is_greater(x.least, change);
+  lower_finite(x.least, change);
+  x.waiting = by_chance(lower) ? 0 : x.waiting + 1;
+  set_sum(t, change, change);
+  x.vanishing = by_chance(is_greater(x.scale, t)) ? 0 : x.vanishing + 1;
+  const bool negligible = is_negligible(x, change, last, rate, fast);
+  return negligible | (x.waiting >= 2) | x.settled | (x.vanishing >= (fast ? 1 : 2)) | (fast & x.small);
 }
 
 template <Scalar S>
@@ -269,15 +316,19 @@ typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
   const Held<S> rate = last_rate_;
   const bool first = sweeps_ == 1, fast = fast_;
   bool all = true, waiting_long = false;
-  for (Coordinate& x : coordinates_) {
-    x.settled = first ? is_settled_at_once(x, rate) : is_settled(x, rate, fast);
-    if (!x.settled) {
+  for (Index j = 0; j < change_.size(); ++j) {
+    Coordinate& x = at(j);
+    const Held<S> change = change_[j], last = last_[j];
+    if (!first && still_falls(x, change, last, rate)) {
       all = false;
-      waiting_long = waiting_long || x.waiting + x.risen >= patience;
+      continue;
     }
-    set(x.last, x.change);
-    set_zero(x.change);
+    x.settled = first ? is_settled_at_once(x, change, rate) : is_settled(x, change, last, rate, fast);
+    all &= x.settled;
+    waiting_long |= !x.settled & (x.waiting + x.risen >= patience);
   }
+  change_.swap(last_);
+  changes_shown_ = false;
   if (all) return Verdict::converged;
   if (waiting_long) return Verdict::stagnant;
   return sweeps_ >= max_sweeps_ ? Verdict::endless : Verdict::go_on;
@@ -287,8 +338,8 @@ template <Scalar S>
 long StoppingRule<S>::least_left() const {
   long least = 0;
   for (const Coordinate& x : coordinates_)
-    if (x.expected != 0)
-      least = std::min(least, binary_exponent(x.expected) + binary_exponent(last_rate_) - binary_exponent(x.scale));
+    if (expected(x) != 0)
+      least = std::min(least, binary_exponent(expected(x)) + binary_exponent(last_rate_) - binary_exponent(x.scale));
   return least;
 }
 
@@ -296,14 +347,15 @@ template <Scalar S>
 S StoppingRule<S>::relative_change() const {
   S greatest = 0;
   for (const Coordinate& x : coordinates_)
-    if (x.last != 0) raise_to(greatest, S(x.last / x.scale));
+    if (last(x) != 0) raise_to(greatest, S(last(x) / x.scale));
   return greatest;
 }
 
 template <Scalar S>
 bool StoppingRule<S>::grows() const {
-  return std::any_of(coordinates_.begin(), coordinates_.end(),
-                     [](const Coordinate& x) { return !x.settled && (x.risen > 1 || x.last > 2 * x.least); });
+  return std::any_of(coordinates_.begin(), coordinates_.end(), [&](const Coordinate& x) {
+    return !x.settled && !x.falls && (x.risen > 1 || last(x) > 2 * x.least);
+  });
 }
 
 template <Scalar S>
@@ -319,7 +371,7 @@ template <Scalar S>
 double StoppingRule<S>::condition_wanted() const {
   double wanted = 1;
   for (const Coordinate& x : coordinates_)
-    if (!x.settled) wanted = std::max(wanted, approximately(S(x.last / x.rounding)));
+    if (!x.settled) wanted = std::max(wanted, approximately(S(last(x) / x.rounding)));
   return wanted;
 }
 

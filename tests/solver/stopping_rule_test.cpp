@@ -96,6 +96,23 @@ TYPED_TEST(StoppingRuleTest, TakesWhatDoesNotFallForRoundingBelowItsBoundOnly) {
   EXPECT_LT(above.rule.condition_wanted(), 2);
 }
 
+/// Sweeps without a least change are counted from the last one on, and a rise is one more, whatever came before.
+TYPED_TEST(StoppingRuleTest, CountsTheSweepsSinceALeastChange) {
+  using S = TypeParam;
+  using Rule = StoppingRule<S>;
+  Sequence<S> stays({S(1), power_of_two<S>(-30)});
+  EXPECT_EQ(stays.run(1000, [](long n, Index) { return power_of_two<S>(-std::min(n, 10L)); }), Rule::Verdict::stagnant);
+  EXPECT_EQ(stays.rule.sweeps(), 10 + Rule::patience);
+  Sequence<S> creeps({S(1), power_of_two<S>(-30)});
+  const auto above = [](long n, Index) { return n <= 10 ? power_of_two<S>(-n) : S(S(2000 - n) / 2000 / 128); };
+  EXPECT_EQ(creeps.run(1000, above), Rule::Verdict::stagnant);
+  EXPECT_EQ(creeps.rule.sweeps(), 10 + Rule::patience);
+  Sequence<S> rises({S(1), power_of_two<S>(-30)});
+  const auto change = [](long n, Index) { return power_of_two<S>(n <= 10 ? -n : n == 11 ? -5 : -6); };
+  EXPECT_EQ(rises.run(1000, change), Rule::Verdict::stagnant);
+  EXPECT_EQ(rises.rule.sweeps(), 12 + Rule::patience - 1);
+}
+
 /// The bound is relative to what positions are rounded to, too, if that is more, and to the condition.
 TYPED_TEST(StoppingRuleTest, RoundingOfPositionsAndConditionRaiseTheBound) {
   using S = TypeParam;

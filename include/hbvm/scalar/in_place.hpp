@@ -1,10 +1,20 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "hbvm/scalar/scalar.hpp"
 
 namespace hbvm {
+
+/// A condition of which the compiler is told that no branch can foresee it: what depends on it is chosen without one.
+inline bool by_chance(bool condition) {
+#if defined(__GNUC__) && !defined(__clang__)
+  return __builtin_expect_with_probability(condition, true, static_cast<double>(1) / 2);
+#else
+  return condition;
+#endif
+}
 
 /// Arithmetic that writes into an existing value: r = a op b. For Mpfr this is the mpfr call itself, without the
 /// temporary (an allocation) that an operator returns; for the others it is the operator.
@@ -23,6 +33,23 @@ void set_zero(S& r) {
     mpfr_set_zero(raw(r), 1);
   else
     r = 0;
+}
+
+template <Scalar S>
+void set_magnitude(S& r, const S& a) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_abs(raw(r), raw(a), MPFR_RNDN);
+  else
+    r = magnitude(a);
+}
+
+/// r = which ? a : b, for double without a branch.
+template <Scalar S>
+void choose(S& r, bool which, const S& a, const S& b) {
+  if constexpr (std::same_as<S, Mpfr>)
+    mpfr_set(raw(r), which ? raw(a) : raw(b), MPFR_RNDN);
+  else
+    r = by_chance(which) ? a : b;
 }
 
 template <Scalar S>
@@ -114,6 +141,35 @@ bool exceeds(const S& a, const S& b) {
     return mpfr_cmpabs(raw(a), raw(b)) > 0;
   else
     return magnitude(a) > magnitude(b);
+}
+
+/// a > b of sizes, which are not negative.
+template <Scalar S>
+bool is_greater(const S& a, const S& b) {
+  if constexpr (std::same_as<S, Mpfr>)
+    return exceeds(a, b);
+  else
+    return a > b;
+}
+
+/// size = max(size, |x|) and size = min(size, other) of numbers that are finite: in double without a branch, where
+/// chance decides and none could be foreseen.
+template <Scalar S>
+void raise_finite(S& size, const S& x) {
+  if constexpr (std::same_as<S, Mpfr>) {
+    if (exceeds(x, size)) set_magnitude(size, x);
+  } else {
+    size = std::max(size, magnitude(x));
+  }
+}
+
+template <Scalar S>
+void lower_finite(S& size, const S& other) {
+  if constexpr (std::same_as<S, Mpfr>) {
+    if (exceeds(size, other)) set(size, other);
+  } else {
+    size = std::min(size, other);
+  }
 }
 
 /// r += a b and r -= a b, each rounded twice; `t` is scratch.

@@ -25,8 +25,7 @@ class Extrapolation {
         size_(rows * columns),
         differences_(size_, max_order + 2),
         scratch_(size_),
-        orders_(static_cast<std::size_t>(columns)),
-        least_(static_cast<std::size_t>(columns), S(0)) {}
+        orders_(static_cast<std::size_t>(columns)) {}
 
   void clear() { known_ = 0; }
   bool empty() const { return known_ == 0; }
@@ -91,35 +90,39 @@ class Extrapolation {
 
  private:
   void choose_orders() {
-    for (Index& order : orders_) order = 0;
+    if (known_ < 2) {
+      for (Index& order : orders_) order = 0;
+      return;
+    }
     with_constant_count<S>(rows_, [&](auto rows) {
-      const S* difference = differences_.data() + size_;
-      S* __restrict const least = least_.data();
-      Index* __restrict const orders = orders_.data();
-      const std::size_t columns = orders_.size();
-      HeldScratch<S> norm = norm_;
-      for (Index r = 1; r < known_; ++r)
-        for (std::size_t column = 0; column < columns; ++column, difference += rows) {
-          set_zero(norm);
-          for (Index i = 0; i < rows; ++i) raise_magnitude(norm, difference[i]);
-          const bool better = r == 1 || exceeds(least[column], norm);
-          if constexpr (std::same_as<S, Mpfr>) {
-            if (better) set(least[column], norm);
-          } else {
-            // Either way, as which of them is less is no more than chance: no branch could be foreseen.
-            least[column] = better ? norm : least[column];
-          }
-          orders[column] = better ? r - 1 : orders[column];
+      HeldScratch<S> least = least_, norm = norm_;
+      const S* column = differences_.data() + size_;
+      for (Index& order : orders_) {
+        const S* difference = column;
+        set_norm(rows, least, difference);
+        Index best = 1;
+        for (Index r = 2; r < known_; ++r) {
+          difference += size_;
+          set_norm(rows, norm, difference);
+          best = by_chance(is_greater(least, norm)) ? r : best;
+          lower_finite(least, norm);
         }
+        order = best - 1;
+        column += rows;
+      }
     });
+  }
+  template <class Rows>
+  static void set_norm(Rows rows, S& norm, const S* x) {
+    set_magnitude(norm, x[0]);
+    for (Index i = 1; i < rows; ++i) raise_finite(norm, x[i]);
   }
 
   Index rows_, size_, known_ = 0;
   Matrix<S> differences_;
   Vector<S> scratch_;
   std::vector<Index> orders_;
-  std::vector<S> least_;  // of the differences, by column
-  S norm_ = 0;
+  S least_ = 0, norm_ = 0;
 };
 
 }  // namespace hbvm

@@ -54,7 +54,7 @@ class StoppingRule {
   /// The change of each column in this sweep: now - before, times `factor` if there is one.
   void show_change(const Matrix<S>& now, const Matrix<S>& before, const S* factor = nullptr);
   void show_change(const Matrix<S>& change);
-  void show_change(Index j, const S& change) { raise_magnitude(at(j).change, change); }
+  void show_change(Index j, const S& change);
   /// Terms of each column, times `factor` if there is one; wanted in every sweep as long as changes are coarse.
   void show_terms(const Matrix<S>& terms, const S* factor = nullptr);
 
@@ -80,29 +80,38 @@ class StoppingRule {
 
  private:
   struct Coordinate {
-    S change = 0, terms = 0;  ///< shown since the last judgement
-    S scale = 0, position = 0, last = 0, least = 0, expected = 0;
+    S terms = 0;  ///< shown since the last judgement
+    S scale = 0, position = 0, least = 0, expected = 0;
     /// Parts of the scale: C epsilon (of what rounding of the position amounts to, if that is larger), 2^-12 epsilon,
     /// ...
     S noise = 0, rounding = 0, negligible = 0, coarse = 0;
     S far = 0;   ///< a greater change is no rounding
     S lost = 0;  ///< 2^-12 of what rounding of the position amounts to
+    S open = 0;  ///< with more than that left to change it is not settled
     long waiting = 0, risen = 0, vanishing = 0;
     bool settled = false;
+    bool small = false;  ///< no greater than its rounding may be
+    /// It has come down sweep after sweep, and is neither rounding nor settled: `least` and `expected` are its last
+    /// change then, and are not written down before that ends.
+    bool falls = false;
   };
   Coordinate& at(Index j) { return coordinates_[static_cast<std::size_t>(j)]; }
+  const S& last(const Coordinate& x) const { return last_[&x - coordinates_.data()]; }
+  const S& expected(const Coordinate& x) const { return x.falls ? last(x) : x.expected; }
   /// Finds whether changes are finite and coarse, and at which rate they fall. \return false if one is not finite
   bool look_at_changes();
   /// Whether all that is left to change is negligible; updates what is expected of the next change.
-  bool is_negligible(Coordinate& x, const S& rate, bool fast);
+  bool is_negligible(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
   /// In the first sweep, and in others.
-  bool is_settled_at_once(Coordinate& x, const S& rate);
-  bool is_settled(Coordinate& x, const S& rate, bool fast);
+  bool is_settled_at_once(Coordinate& x, const S& change, const S& rate);
+  bool is_settled(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
+  /// Whether a coordinate that falls does so in this sweep, too, as most do in most sweeps: nothing has to be noted.
+  bool still_falls(const Coordinate& x, const S& change, const S& last, const S& rate);
   /// Whether it is rounding altogether, beside which what is left to change counts for nothing, where changes fall
   /// fast.
   bool is_lost(const Coordinate& x, const S& left) const;
   /// Updates the least change, and for how long there was none below it.
-  void follow_least(Coordinate& x, bool rounding);
+  void follow_least(Coordinate& x, const S& change);
   bool grows() const;
   void take_scales();
   /// The bounds of a coordinate, from its scale and what rounding of its position amounts to.
@@ -110,12 +119,13 @@ class StoppingRule {
   void set_far(Coordinate& x);
 
   long sweeps_ = 0, max_sweeps_;
-  bool coarse_ = true, terms_shown_ = false, finite_ = true, rate_shown_ = false;
+  bool coarse_ = true, changes_shown_ = false, terms_shown_ = false, finite_ = true, rate_shown_ = false;
   bool fast_ = false;                         ///< changes fall to 2^-10 a sweep
   S bound_, negligible_, tiny_, least_rate_;  // C epsilon, 2^-12 epsilon, C times the least number
   S coarse_bound_, kappa_ = 1, rate_ = 1, last_rate_ = 1;
   S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16;
   const Vector<S>* p0_ = nullptr;
+  Vector<S> change_, last_;  ///< of each coordinate: shown since the last judgement, and before
   std::vector<Coordinate> coordinates_;
 };
 
