@@ -49,7 +49,7 @@ std::string to_text(const Account& account) {
                     number(evaluations), adds, n[Op::multiply], n[Op::reciprocal], n[Op::sqrt], others, share(time));
   };
   const auto section = [&](Kind kind, const char* heading, const char* name) {
-    OperationCounts sum;
+    OperationCounts sum, done_before;
     double time = 0;
     bool any = false;
     for (const AccountLine& line : account.lines) {
@@ -58,9 +58,11 @@ std::string to_text(const Account& account) {
       any = true;
       row(line.name, line.calls, line.evaluations, line.operations, line.seconds);
       sum += line.operations;
+      done_before += line.done_before;
       time += line.seconds;
     }
     if (any) row(name, 0, 0, sum, time);
+    if (done_before.total() > 0) row("of these not done again, but in common", 0, 0, done_before, 0);
   };
   section(Kind::effect, "effects, in the working precision or in the digits that one of Newton's sweeps needs\n",
           "all effects");

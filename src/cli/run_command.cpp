@@ -153,6 +153,8 @@ std::string json_of(const RunRequest& request, const RunResult& result, const st
       if (line.kind == AccountLine::Kind::effect) entry["evaluations"] = line.evaluations;
       for (std::size_t op = 0; op < op_count; ++op)
         entry["operations"][name_of(static_cast<Op>(op))] = line.operations[static_cast<Op>(op)];
+      for (std::size_t op = 0; line.done_before.total() > 0 && op < op_count; ++op)
+        entry["done_before"][name_of(static_cast<Op>(op))] = line.done_before[static_cast<Op>(op)];
       entry["seconds"] = line.seconds;
       j["account"].push_back(entry);
     }

@@ -1,5 +1,7 @@
 #include "hbvm/problem/potential.hpp"
 
+#include <utility>
+
 #include "hbvm/clock.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -9,8 +11,7 @@ namespace hbvm {
 template <Scalar S>
 PotentialEvaluator<S>::Work::Work(const EffectTerm<S>& term, Index dimension, Index lanes)
     : displacement(Matrix<S>::Zero(term.instances() * lanes, term.arguments * dimension)),
-      value(term.value, term.value_coefficients, displacement, lanes),
-      gradient(term.gradient, term.gradient_coefficients, displacement, lanes) {
+      value(term.value, term.value_coefficients, displacement, lanes) {
   if constexpr (std::same_as<S, double>) {
     if (term.arguments == 1) kernel = find_kernel(term.gradient, dimension);
     for (std::size_t n = 0; kernel != nullptr && n < term.displacements.size(); ++n) {
@@ -32,19 +33,53 @@ PotentialEvaluator<S>::Work::Work(const EffectTerm<S>& term, Index dimension, In
 
 namespace {
 
+template <Scalar S>
+OperationCounts displacements_of(const EffectTerm<S>& term, Index dimension) {
+  OperationCounts counts;
+  for (const Displacement<S>& x : term.displacements) counts += operations(x, dimension);
+  return counts;
+}
+
 /// One evaluation at a node: the displacements, the program for each body or pair, the sum into the force.
 template <Scalar S>
 OperationCounts operations_of(const EffectTerm<S>& term, Index dimension) {
-  OperationCounts counts;
-  for (const Displacement<S>& x : term.displacements) {
-    counts += operations(x, dimension);
+  OperationCounts counts = displacements_of(term, dimension);
+  for (const Displacement<S>& x : term.displacements)
     for (const auto& block : x.blocks) counts += weighted_sum(block.weight, dimension);
-  }
   counts += static_cast<std::uint64_t>(term.instances()) * term.gradient.operations();
   return counts;
 }
 
+template <Scalar S>
+JointProgram<S> joined(const std::vector<const EffectTerm<S>*>& terms, Index inputs) {
+  std::vector<JointPart<S>> parts;
+  for (const EffectTerm<S>* term : terms)
+    parts.push_back({&term->gradient, static_cast<std::size_t>(term->gradient_coefficients.cols())});
+  return join(parts, static_cast<std::size_t>(inputs));
+}
+
+/// The coefficients of one term beside those of another, instance by instance.
+template <Scalar S>
+Matrix<S> coefficients_of(const std::vector<const EffectTerm<S>*>& terms) {
+  Index columns = 0;
+  for (const EffectTerm<S>* term : terms) columns += term->gradient_coefficients.cols();
+  Matrix<S> result(terms.front()->instances(), columns);
+  columns = 0;
+  for (const EffectTerm<S>* term : terms) {
+    const Matrix<S>& own = term->gradient_coefficients;
+    for (Index j = 0; j < own.cols(); ++j)
+      for (Index n = 0; n < own.rows(); ++n) result(n, columns + j) = own(n, j);
+    columns += own.cols();
+  }
+  return result;
+}
+
 }  // namespace
+
+template <Scalar S>
+PotentialEvaluator<S>::Joint::Joint(const std::vector<const EffectTerm<S>*>& terms, const Matrix<S>& displacement,
+                                    Index lanes)
+    : code(joined(terms, displacement.cols())), gradient(code.program, coefficients_of(terms), displacement, lanes) {}
 
 template <Scalar S>
 PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index lanes)
@@ -59,11 +94,42 @@ PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index l
       continue;
     }
     // The same everywhere: evaluated once, here.
-    work.gradient.run();
+    Execution<S> gradient(term.gradient, term.gradient_coefficients, work.displacement, lanes);
+    gradient.run();
     counts_[t].calls = counts_[t].evaluations = 1;
     for_each_force(term, [&](Index output, Index instance, Index coordinate, const S& weight) {
-      add_weighted(&constant_force_[coordinate], weight, &work.gradient.output(output, instance * lanes), 1, t_);
+      add_weighted(&constant_force_[coordinate], weight, &gradient.output(output, instance * lanes), 1, t_);
     });
+  }
+  join_gradients();
+}
+
+template <Scalar S>
+void PotentialEvaluator<S>::join_gradients() {
+  for (auto leader = varying_.begin(); leader != varying_.end(); ++leader) {
+    if (leader->joint != nullptr || leader->work->kernel != nullptr) continue;
+    std::vector<Varying*> alike;
+    std::vector<const EffectTerm<S>*> terms;
+    for (auto other = leader; other != varying_.end(); ++other) {
+      if (other->work->kernel != nullptr || !acts_alike(*leader->term, *other->term)) continue;
+      alike.push_back(&*other);
+      terms.push_back(other->term);
+    }
+    Joint& joint = joints_.emplace_back(terms, leader->work->displacement, lanes_);
+    std::size_t done = 0;
+    Index output = 0;
+    for (std::size_t n = 0; n < alike.size(); ++n) {
+      Varying& own = *alike[n];
+      own.joint = &joint;
+      own.first = std::exchange(done, joint.code.ends[n]);
+      own.end = done;
+      own.output = output;
+      output += static_cast<Index>(own.term->gradient.outputs());
+      if (n == 0) continue;
+      const OperationCounts known = own.term->gradient.operations() - joint.code.program.operations(own.first, own.end);
+      own.count->done_before =
+          displacements_of(*own.term, potential_.dimension) + static_cast<std::uint64_t>(own.term->instances()) * known;
+    }
   }
 }
 
@@ -104,7 +170,7 @@ void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
     const double before = timed_ ? elapsed_seconds() : 0;
     ++own.count->calls;
     own.count->evaluations += static_cast<std::uint64_t>(lanes_);
-    add_force(*own.term, *own.work, q, force);
+    add_force(own, q, force);
     if (timed_) own.count->seconds += elapsed_seconds() - before;
   }
 }
@@ -117,15 +183,18 @@ void PotentialEvaluator<S>::force(Lanes<const S> q, Matrix<S>& force) {
 }
 
 template <Scalar S>
-void PotentialEvaluator<S>::add_force(const EffectTerm<S>& term, Work& work, Lanes<const S> q, Matrix<S>& force) {
-  if constexpr (std::same_as<S, double>)
+void PotentialEvaluator<S>::add_force(const Varying& own, Lanes<const S> q, Matrix<S>& force) {
+  if constexpr (std::same_as<S, double>) {
+    const Work& work = *own.work;
     if (work.kernel != nullptr) return work.kernel->add_force(work.sites.data(), work.sites.size(), q, force.data());
-  displace_all(term, work, q);
-  work.gradient.run();
-  for_each_force(term, [&](Index output, Index instance, Index coordinate, const S& weight) {
+  }
+  Joint& joint = *own.joint;
+  if (own.output == 0) displace_all(*own.term, *own.work, q);
+  joint.gradient.run(own.first, own.end);
+  for_each_force(*own.term, [&](Index output, Index instance, Index coordinate, const S& weight) {
     S* const f = force.data() + coordinate * lanes_;
-    const S& g = work.gradient.output(output, instance * lanes_);
-    if (!term.gradient.is_constant(static_cast<std::size_t>(output)))
+    const S& g = joint.gradient.output(own.output + output, instance * lanes_);
+    if (!joint.code.program.is_constant(static_cast<std::size_t>(own.output + output)))
       add_weighted(f, weight, &g, lanes_, t_);
     else
       for (Index i = 0; i < lanes_; ++i) add_weighted(f + i, weight, &g, 1, t_);

@@ -125,6 +125,20 @@ TEST(AccountParts, OfTheSameNameAreOneLine) {
   EXPECT_EQ(account.lines[2].operations, operations({{Op::multiply, 5}}));
 }
 
+/// Below the sum over the effects, which is that of their formulas.
+TEST(AccountText, SaysWhatWasNotDoneAgain) {
+  Account account{{{"a", Kind::effect, 3, 6, operations({{Op::sqrt, 60}}), 1},
+                   {"b", Kind::effect, 3, 6, operations({{Op::sqrt, 70}}), 1}}};
+  EXPECT_EQ(to_text(account).find("not done again"), std::string::npos);
+  account.lines[1].done_before = operations({{Op::sqrt, 50}});
+  const std::string text = to_text(account);
+  const auto sum = text.find("all effects"), again = text.find("of these not done again");
+  ASSERT_NE(again, std::string::npos);
+  EXPECT_LT(sum, again);
+  EXPECT_NE(text.substr(sum, again - sum).find("130"), std::string::npos);
+  EXPECT_NE(text.substr(again).find(" 50"), std::string::npos);
+}
+
 TEST(AccountOf, TheEquationsHasEffectsThenParts) {
   const auto scene = assemble<double>(load_scene("satellites_with_oblateness"));
   const auto method = make_hbvm<double>(3, 2);

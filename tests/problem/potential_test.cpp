@@ -31,8 +31,8 @@ class PotentialTest : public ::testing::Test {
     Use use{"uniform_gravity", d, {}, {{"acceleration", {S(2), S(-3)}}}, {instance(body(0), 1), instance(body(1), 5)}};
     return make_term(use);
   }
-  static EffectTerm<S> attraction() {
-    return make_term(Use{"mutual_gravity", d, {{"strength", S(2)}}, {}, {instance(pair(), 3)}});
+  static EffectTerm<S> attraction(int strength = 2) {
+    return make_term(Use{"mutual_gravity", d, {{"strength", S(strength)}}, {}, {instance(pair(), 3)}});
   }
   static EffectTerm<S> trap() {
     return make_term(
@@ -99,6 +99,37 @@ TYPED_TEST(PotentialTest, CountsOperationsOfAnEvaluation) {
   expected.add(Op::subtract, 2 + 2);
   expected.add(Op::add, 2);
   EXPECT_EQ(evaluator.counts()[0].per_evaluation, expected);
+}
+
+/// Two attractions of the same pair have its distance in common: to displace the pair and to find its distance is the
+/// first one's, and what they add to the force, and in which order, is as it was. In double each is a kernel.
+TYPED_TEST(PotentialTest, EffectsThatActAlikeShareWhatTheyHaveInCommon) {
+  using S = TypeParam;
+  const auto both = this->potential({this->attraction(), this->trap(), this->attraction(5), this->trap()});
+  PotentialEvaluator<S> evaluator(both, 3);
+  const Matrix<S> q = this->apart(3);
+  Matrix<S> force, one, sum = Matrix<S>::Zero(3, 4);
+  for (int call = 0; call < 2; ++call) evaluator.varying_force(lanes(q), force);
+  for (const auto& term : both.terms) {
+    const auto U = this->potential({term});
+    PotentialEvaluator<S> alone(U, 3);
+    alone.varying_force(lanes(q), one);
+    sum += one;
+  }
+  EXPECT_LE(max_norm(Matrix<S>(force - sum)), 8 * epsilon<S>() * max_norm(sum));
+  const auto& counts = evaluator.counts();
+  EXPECT_EQ(counts[2].evaluations, 6u);
+  if (std::same_as<S, double>) {
+    EXPECT_EQ(counts[2].done_before.total(), 0u);
+    return;
+  }
+  OperationCounts done;
+  done.add(Op::multiply, 3);
+  done.add(Op::subtract, 2);
+  done.add(Op::add, 2);
+  EXPECT_EQ(counts[2].per_evaluation - counts[2].done_before, done);
+  EXPECT_EQ(counts[2].per_evaluation, counts[0].per_evaluation);
+  for (const std::size_t first : {0U, 1U}) EXPECT_EQ(counts[first].done_before.total(), 0u);
 }
 
 TYPED_TEST(PotentialTest, EveryLaneIsTreatedAlike) {

@@ -22,6 +22,7 @@ struct AccountLine {
   std::uint64_t evaluations = 0;  ///< of an effect: nodes at which its force was evaluated
   OperationCounts operations{};   ///< in all
   double seconds = 0;             ///< of the processor
+  OperationCounts done_before{};  ///< those of an effect's that are not done again, as one before it has done them
 };
 
 /// What the steps of a run did, in the order in which a sweep does it. Times of all lines add up to that of the steps.
@@ -39,7 +40,8 @@ Account account_of(const Problem<S>& problem, const SolverCounts& counts) {
   std::size_t t = 0;
   for (const EffectCount& count : counts.effects)
     account.lines.push_back({problem.potential.terms[t++].kind, AccountLine::Kind::effect, count.calls,
-                             count.evaluations, count.evaluations * count.per_evaluation, count.seconds});
+                             count.evaluations, count.evaluations * count.per_evaluation, count.seconds,
+                             count.evaluations * count.done_before});
   add_parts(account, counts.parts);
   return account;
 }

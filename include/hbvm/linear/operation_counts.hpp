@@ -62,6 +62,11 @@ class OperationCounts {
     return *this;
   }
   friend OperationCounts operator+(OperationCounts a, const OperationCounts& b) { return a += b; }
+  /// Of what is counted here, without what is counted there.
+  friend OperationCounts operator-(OperationCounts a, const OperationCounts& b) {
+    for (std::size_t i = 0; i < op_count; ++i) a.counts_[i] -= b.counts_[i];
+    return a;
+  }
   friend OperationCounts operator*(std::uint64_t n, OperationCounts counts) {
     for (std::uint64_t& count : counts.counts_) count *= n;
     return counts;

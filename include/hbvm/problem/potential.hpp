@@ -4,21 +4,23 @@
 #include <vector>
 
 #include "hbvm/problem/effect/execution.hpp"
+#include "hbvm/problem/effect/joint_program.hpp"
 #include "hbvm/problem/effect/kernel.hpp"
 #include "hbvm/problem/effect/term.hpp"
 
 namespace hbvm {
 
 /// How often the force of an effect ran: calls, evaluations at a node (each for all bodies or pairs it acts on), and
-/// the operations of one evaluation. `seconds` is measured if asked for.
+/// the operations of one evaluation by its formula, of which some are not done again where an effect before it has done
+/// them. `seconds` is measured if asked for.
 struct EffectCount {
   std::uint64_t calls = 0, evaluations = 0;
-  OperationCounts per_evaluation{};
+  OperationCounts per_evaluation{}, done_before{};
   double seconds = 0;
 
   template <class Archive>
   void remember(Archive& archive) {
-    archive(calls, evaluations, per_evaluation, seconds);
+    archive(calls, evaluations, per_evaluation, done_before, seconds);
   }
 };
 
@@ -31,7 +33,8 @@ struct Potential {
 };
 
 /// Evaluates a potential in a fixed number of lanes; owns the storage that takes, so that evaluating allocates
-/// nothing. One evaluator per thread. The potential must outlive it.
+/// nothing. One evaluator per thread. The potential must outlive it. What effects that act alike have in common, as a
+/// distance, is computed once: it is the first one's.
 template <Scalar S>
 class PotentialEvaluator {
  public:
@@ -58,22 +61,33 @@ class PotentialEvaluator {
  private:
   struct Work {
     Matrix<S> displacement;  ///< (instances * lanes) x inputs: all lanes of one instance, then the next
-    Execution<S> value, gradient;
+    Execution<S> value;
     const Kernel* kernel = nullptr;  ///< the gradient compiled, in double, if the library has it
     std::vector<KernelSite> sites;   ///< what it acts on: one an instance
     std::vector<double> kernel_coefficients;
     Work(const EffectTerm<S>& term, Index dimension, Index lanes);
   };
 
+  /// The gradients of terms that act alike, with the displacements of the first.
+  struct Joint {
+    JointProgram<S> code;
+    Execution<S> gradient;
+    Joint(const std::vector<const EffectTerm<S>*>& terms, const Matrix<S>& displacement, Index lanes);
+  };
   /// A term whose force varies.
   struct Varying {
     const EffectTerm<S>* term;
     Work* work;
     EffectCount* count;
+    Joint* joint = nullptr;          ///< none where there is a kernel
+    std::size_t first = 0, end = 0;  ///< its instructions
+    Index output = 0;                ///< its first one
   };
 
+  /// Joins the gradients of the terms that vary and act alike.
+  void join_gradients();
   /// force += the gradient of a term.
-  void add_force(const EffectTerm<S>& term, Work& work, Lanes<const S> q, Matrix<S>& force);
+  void add_force(const Varying& own, Lanes<const S> q, Matrix<S>& force);
   void displace_all(const EffectTerm<S>& term, Work& work, Lanes<const S> q);
   /// f(output of the gradient, instance, coordinate whose force it is part of, weight), for all of them.
   template <class F>
@@ -83,6 +97,7 @@ class PotentialEvaluator {
   Index lanes_;
   bool timed_ = false;
   std::deque<Work> work_;
+  std::deque<Joint> joints_;
   std::vector<EffectCount> counts_;
   std::vector<Varying> varying_;
   Vector<S> constant_force_;

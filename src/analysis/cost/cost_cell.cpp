@@ -52,7 +52,8 @@ long in_new_heap(const F& f, int most = 16) {
 
 void add_counts_of(CostMeasurement& m, const Account& account) {
   for (const AccountLine& line : account.lines) {
-    (line.kind == AccountLine::Kind::in_double ? m.operations_in_double : m.operations) += line.operations.total();
+    std::uint64_t& sum = line.kind == AccountLine::Kind::in_double ? m.operations_in_double : m.operations;
+    sum += (line.operations - line.done_before).total();
     m.evaluations += line.evaluations;
   }
 }

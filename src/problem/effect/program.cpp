@@ -1,6 +1,8 @@
 #include "hbvm/problem/effect/program.hpp"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "hbvm/scalar/in_place.hpp"
 #include "hbvm/scalar/sine.hpp"
@@ -203,15 +205,51 @@ void binary(Index lanes, S* r, const S* a, bool a_constant, const S* b, bool b_c
 
 }  // namespace
 
+std::uint32_t reuse_registers(std::vector<Instruction>& code, std::vector<Operand>& outputs) {
+  constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> last_use(code.size(), 0);
+  const auto for_each_temporary = [](Instruction& i, auto f) {
+    if (i.a.bank == Bank::temporary) f(i.a);
+    if (is_binary(i.op) && i.b.bank == Bank::temporary) f(i.b);
+  };
+  for (std::size_t n = 0; n < code.size(); ++n)
+    for_each_temporary(code[n], [&](const Operand& x) { last_use[x.index] = n; });
+  for (const Operand& x : outputs)
+    if (x.bank == Bank::temporary) last_use[x.index] = never;
+
+  std::vector<std::uint32_t> register_of(code.size()), free_registers;
+  std::uint32_t registers = 0;
+  for (std::size_t n = 0; n < code.size(); ++n) {
+    for_each_temporary(code[n], [&](Operand& x) {
+      const std::uint32_t temporary = std::exchange(x.index, register_of[x.index]);
+      if (last_use[temporary] != n) return;
+      free_registers.push_back(x.index);
+      last_use[temporary] = never;  // it may be the other operand, too
+    });
+    std::uint32_t& target = register_of[code[n].result];
+    if (free_registers.empty()) {
+      target = registers++;
+    } else {
+      target = free_registers.back();
+      free_registers.pop_back();
+    }
+    code[n].result = target;
+  }
+  for (Operand& x : outputs)
+    if (x.bank == Bank::temporary) x.index = register_of[x.index];
+  return registers;
+}
+
 template <Scalar S>
-OperationCounts Program<S>::operations() const {
+OperationCounts Program<S>::operations(std::size_t first, std::size_t end) const {
   OperationCounts counts{};
-  for (const Instruction& i : instructions_) ++counts[i.op];
+  for (std::size_t n = first; n < end; ++n) ++counts[instructions_[n].op];
   return counts;
 }
 
 template <Scalar S>
-void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs) const {
+void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs, std::size_t first,
+                     std::size_t end) const {
   const Index lanes = registers.rows();
   const auto address = [&](const Operand& x) -> const S* {
     switch (x.bank) {
@@ -224,7 +262,8 @@ void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs) 
     }
     return registers.data() + lanes * x.index;
   };
-  for (const Instruction& i : instructions_) {
+  for (std::size_t n = first; n < end; ++n) {
+    const Instruction& i = instructions_[n];
     S* const r = registers.data() + lanes * i.result;
     const S* const a = address(i.a);
     if (!is_binary(i.op)) {

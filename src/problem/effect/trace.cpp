@@ -285,21 +285,11 @@ class Trace<S>::Compiler {
     }
   }
 
-  /// The reader after which each node's register is free: of an exit, none.
-  std::vector<Id> last_uses(const std::vector<Id>& code, const std::vector<Id>& exits) const {
-    std::vector<Id> last(nodes_.size(), 0);
-    for (const Id i : code) for_each_operand(i, [&](Id x) { last[x] = i; });
-    for (const Id x : exits) last[x] = nodes_.size();
-    return last;
-  }
-
-  /// The program of the wanted operations that vary, or of those that do not. Registers are reused as soon as their
-  /// last reader has run.
+  /// The program of the wanted operations that vary, or of those that do not.
   Program<S> emit(const std::vector<bool>& wanted, bool varying, const std::vector<Id>& exits) {
     std::vector<Id> operations;
     for (const Id i : order_)
       if (wanted[i] && is_operation(i) && nodes_[i].varies == varying) operations.push_back(i);
-    std::vector<Id> last_use = last_uses(operations, exits);
     std::vector<S> constants;
     const auto operand = [&](Id x) {
       if (trace_.is_constant(x) && !place_[x]) {
@@ -309,30 +299,18 @@ class Trace<S>::Compiler {
       return *place_[x];
     };
     std::vector<Instruction> code;
-    std::vector<std::uint32_t> free_registers;
-    std::uint32_t registers = 0;
     for (const Id i : operations) {
       const Node& node = nodes_[i];
       const bool negation = node.op == Op::multiply && trace_.is_constant(node.a, -1);
       const Operand a = operand(negation ? node.b : node.a);
       const Operand b = is_binary(node.op) && !negation ? operand(node.b) : Operand{};
-      for_each_operand(i, [&](Id x) {
-        if (last_use[x] != i || !place_[x] || place_[x]->bank != Bank::temporary) return;
-        free_registers.push_back(place_[x]->index);
-        last_use[x] = nodes_.size() + 1;
-      });
-      std::uint32_t target = registers;
-      if (free_registers.empty()) {
-        ++registers;
-      } else {
-        target = free_registers.back();
-        free_registers.pop_back();
-      }
-      place_[i] = Operand{Bank::temporary, target};
-      code.push_back({negation ? Op::negate : node.op, a, b, target});
+      const auto next = static_cast<std::uint32_t>(code.size());
+      place_[i] = Operand{Bank::temporary, next};
+      code.push_back({negation ? Op::negate : node.op, a, b, next});
     }
     std::vector<Operand> ends;
     for (const Id x : exits) ends.push_back(operand(x));
+    const std::uint32_t registers = reuse_registers(code, ends);
     return {std::move(constants), std::move(code), std::move(ends), registers};
   }
 

@@ -24,6 +24,8 @@ class Execution {
   Execution& operator=(const Execution&) = delete;
 
   void run() { program_->run(registers_, inputs_); }
+  /// Its instructions [first, end), after all before.
+  void run(std::size_t first, std::size_t end) { program_->run(registers_, inputs_, first, end); }
   const S& output(Index i, Index lane) const {
     return program_->output(static_cast<std::size_t>(i), lane, registers_, inputs_);
   }

@@ -20,6 +20,10 @@ struct Instruction {
   std::uint32_t result;  // temporary
 };
 
+/// Puts results into registers that are free again after their last use, where each had a temporary of its own; what is
+/// an output stays. \return how many registers that takes
+std::uint32_t reuse_registers(std::vector<Instruction>& code, std::vector<Operand>& outputs);
+
 /// Straight-line code over registers that hold one number per lane (a node of the quadrature, of a body or pair).
 /// It has no branches and allocates nothing when it runs.
 template <Scalar S>
@@ -42,10 +46,16 @@ class Program {
   /// True if output i does not depend on the inputs.
   bool is_constant(std::size_t i) const { return outputs_[i].bank == Bank::constant; }
   /// Operations per lane.
-  OperationCounts operations() const;
+  OperationCounts operations() const { return operations(0, instructions_.size()); }
+  /// Those of the instructions [first, end).
+  OperationCounts operations(std::size_t first, std::size_t end) const;
 
   /// registers: lanes x temporaries, from make_registers; inputs: one pointer to `lanes` numbers for each input.
-  void run(Matrix<S>& registers, const std::vector<const S*>& inputs) const;
+  void run(Matrix<S>& registers, const std::vector<const S*>& inputs) const {
+    run(registers, inputs, 0, instructions_.size());
+  }
+  /// The instructions [first, end), after all before.
+  void run(Matrix<S>& registers, const std::vector<const S*>& inputs, std::size_t first, std::size_t end) const;
   Matrix<S> make_registers(Index lanes) const { return Matrix<S>(lanes, temporaries_); }
   /// Output i in one lane, after run().
   const S& output(std::size_t i, Index lane, const Matrix<S>& registers, const std::vector<const S*>& inputs) const;

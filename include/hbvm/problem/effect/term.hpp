@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,12 @@ struct EffectTerm {
     return displacements[static_cast<std::size_t>(instance * arguments + argument)];
   }
 };
+
+/// Whether both act on the same bodies, pairs or groups, in the same order.
+template <Scalar S>
+bool acts_alike(const EffectTerm<S>& x, const EffectTerm<S>& y) {
+  return x.arguments == y.arguments && std::ranges::equal(x.displacements, y.displacements, is_same<S>);
+}
 
 /// All displacements of a term at q, as its programs read them: component i of an instance in lane l goes to
 /// out[i * stride + instance * lanes + l].

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -26,6 +27,14 @@ struct Displacement {
 template <Scalar S>
 bool is_pair(const Displacement<S>& x) {
   return x.blocks.size() == 2 && x.shift.size() == 0 && x.blocks[0].weight == 1 && x.blocks[1].weight == -1;
+}
+
+/// Whether they are the same by their parts.
+template <Scalar S>
+bool is_same(const Displacement<S>& x, const Displacement<S>& y) {
+  const auto same = [](const auto& a, const auto& b) { return a.offset == b.offset && a.weight == b.weight; };
+  return x.shift.size() == y.shift.size() && (x.shift.size() == 0 || x.shift == y.shift) &&
+         std::ranges::equal(x.blocks, y.blocks, same);
 }
 
 /// r_i += weight a_i for i < count, which for the usual weights 1 and -1 is an addition each; `t` is scratch.
