@@ -279,12 +279,13 @@ TEST(CheckpointFile, IsRefusedWithEveryByteFlippedAndCutAnywhere) {
   expect_refused(file, whole + "\n", "is damaged");
 }
 
-TEST(CheckpointFile, IsRefusedIfItIsNoneOrOfTheFuture) {
+TEST(CheckpointFile, IsRefusedIfItIsNoneOrOfAnotherVersion) {
   const Folder folder;
   const std::string file = folder / "run";
   expect_refused(file, "dimension = 2\n", "no checkpoint");
-  expect_refused(file, sealed("hbvm checkpoint 3\n1\n"), "format '3' of another version");
-  expect_refused(file, sealed("hbvm checkpoint 2\n5\n"), "fit");
+  expect_refused(file, sealed("hbvm checkpoint 4\n1\n"), "format '4' of another version");
+  expect_refused(file, sealed("hbvm checkpoint 2\n1\n"), "format '2' of another version");
+  expect_refused(file, sealed("hbvm checkpoint 3\n5\n"), "fit");
   EXPECT_THROW(read_checkpoint(folder / "none"), InputError);
   EXPECT_THROW(read_checkpoint(folder / ""), InputError);
 }
