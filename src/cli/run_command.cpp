@@ -151,10 +151,12 @@ std::string json_of(const RunRequest& request, const RunResult& result, const st
                                    {"in_double", line.kind == AccountLine::Kind::in_double},
                                    {"calls", line.calls}};
       if (line.kind == AccountLine::Kind::effect) entry["evaluations"] = line.evaluations;
-      for (std::size_t op = 0; op < op_count; ++op)
-        entry["operations"][name_of(static_cast<Op>(op))] = line.operations[static_cast<Op>(op)];
-      for (std::size_t op = 0; line.done_before.total() > 0 && op < op_count; ++op)
-        entry["done_before"][name_of(static_cast<Op>(op))] = line.done_before[static_cast<Op>(op)];
+      const auto write_counts = [&](const char* key, const OperationCounts& counts) {
+        for (std::size_t op = 0; op < op_count; ++op)
+          entry[key][name_of(static_cast<Op>(op))] = counts[static_cast<Op>(op)];
+      };
+      write_counts("operations", line.operations);
+      if (line.done_before.total() > 0) write_counts("done_before", line.done_before);
       entry["seconds"] = line.seconds;
       j["account"].push_back(entry);
     }

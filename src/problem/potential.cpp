@@ -67,8 +67,7 @@ Matrix<S> coefficients_of(const std::vector<const EffectTerm<S>*>& terms) {
   columns = 0;
   for (const EffectTerm<S>* term : terms) {
     const Matrix<S>& own = term->gradient_coefficients;
-    for (Index j = 0; j < own.cols(); ++j)
-      for (Index n = 0; n < own.rows(); ++n) result(n, columns + j) = own(n, j);
+    result.middleCols(columns, own.cols()) = own;
     columns += own.cols();
   }
   return result;
@@ -189,7 +188,8 @@ void PotentialEvaluator<S>::add_force(const Varying& own, Lanes<const S> q, Matr
     if (work.kernel != nullptr) return work.kernel->add_force(work.sites.data(), work.sites.size(), q, force.data());
   }
   Joint& joint = *own.joint;
-  if (own.output == 0) displace_all(*own.term, *own.work, q);
+  const bool leads = own.output == 0;
+  if (leads) displace_all(*own.term, *own.work, q);
   joint.gradient.run(own.first, own.end);
   for_each_force(*own.term, [&](Index output, Index instance, Index coordinate, const S& weight) {
     S* const f = force.data() + coordinate * lanes_;

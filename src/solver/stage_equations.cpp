@@ -138,11 +138,9 @@ OperationCounts StageEquations<S>::residual_operations() const {
   for (const Part part : {velocities, projection, gammas, constraint_residual}) sum += parts_[part].per_call;
   if (potential_.has_varying_force()) {
     sum += parts_[quadrature_nodes].per_call;
-    for (std::size_t t = 0; t < potential_.counts().size(); ++t) {
-      const EffectCount& count = potential_.counts()[t];
+    for (std::size_t t = 0; t < potential_.counts().size(); ++t)
       if (!problem_.potential.terms[t].constant_force)
-        sum += static_cast<std::uint64_t>(method_.k) * (count.per_evaluation - count.done_before);
-    }
+        sum += static_cast<std::uint64_t>(method_.k) * potential_.counts()[t].done();
   }
   if (problem_.nu() == 0) return sum;
   if (method_.k != method_.r || !potential_.has_varying_force()) sum += parts_[constraint_nodes].per_call;

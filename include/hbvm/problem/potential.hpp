@@ -18,6 +18,9 @@ struct EffectCount {
   OperationCounts per_evaluation{}, done_before{};
   double seconds = 0;
 
+  /// What an evaluation takes.
+  OperationCounts done() const { return per_evaluation - done_before; }
+
   template <class Archive>
   void remember(Archive& archive) {
     archive(calls, evaluations, per_evaluation, done_before, seconds);

@@ -9,11 +9,7 @@ namespace hbvm {
 
 /// A condition of which the compiler is told that no branch can foresee it: what depends on it is chosen without one.
 inline bool by_chance(bool condition) {
-#if defined(__GNUC__) && !defined(__clang__)
   return __builtin_expect_with_probability(condition, true, static_cast<double>(1) / 2);
-#else
-  return condition;
-#endif
 }
 
 /// Arithmetic that writes into an existing value: r = a op b. For Mpfr this is the mpfr call itself, without the
