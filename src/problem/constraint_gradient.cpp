@@ -19,7 +19,6 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
     : problem_(problem), lanes_(lanes), x_(lanes, problem.dimension), y_(lanes, problem.dimension) {
   Index columns = 0, weighted_columns = 0;
   for (const Constraint<S>& constraint : problem.constraints) {
-    const auto a = static_cast<Index>(patterns_.size());
     patterns_.push_back({columns, coordinates(constraint, problem.dimension)});
     const std::vector<Index>& own = patterns_.back().coordinates;
     columns += static_cast<Index>(own.size());
@@ -31,8 +30,6 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
       for (Index j = 0; j < block.size; ++j) reached.insert(block.offset + j);
     }
     weighted_patterns_.push_back({weighted_columns, std::vector<Index>(reached.begin(), reached.end())});
-    for (const Index coordinate : reached)
-      weighted_runs_.push_back({static_cast<Index>(weighted_runs_.size()), a, coordinate, none});
     weighted_columns += static_cast<Index>(reached.size());
     std::visit(
         [&]<class Form>(const Form& form) {
@@ -43,7 +40,8 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
         constraint.form);
     prepare_weighing(patterns_.back(), weighted_patterns_.back());
   }
-  find_runs();
+  run_length_ = find_runs(patterns_, runs_);
+  weighted_run_length_ = find_runs(weighted_patterns_, weighted_runs_);
   values_ = Matrix<S>::Zero(lanes, columns);
   weighted_ = Matrix<S>::Zero(lanes, weighted_columns);
 
@@ -63,7 +61,7 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
 }
 
 template <Scalar S>
-void ConstraintGradient<S>::find_runs() {
+Index ConstraintGradient<S>::find_runs(std::vector<Pattern>& patterns, std::vector<Run>& runs) const {
   const auto has_runs = [](const Pattern& pattern, std::size_t length) {
     const std::vector<Index>& own = pattern.coordinates;
     if ((pattern.opposite ? own.size() / 2 : own.size()) % length != 0) return false;
@@ -72,19 +70,20 @@ void ConstraintGradient<S>::find_runs() {
     return true;
   };
   const auto dimension = static_cast<std::size_t>(problem_.dimension);
-  const bool vectors = std::all_of(patterns_.begin(), patterns_.end(),
+  const bool vectors = std::all_of(patterns.begin(), patterns.end(),
                                    [&](const Pattern& pattern) { return has_runs(pattern, dimension); });
-  run_length_ = vectors ? problem_.dimension : 1;
-  for (Pattern& pattern : patterns_) {
-    const auto constraint = static_cast<Index>(&pattern - patterns_.data());
+  const Index length = vectors ? problem_.dimension : 1;
+  for (Pattern& pattern : patterns) {
+    const auto constraint = static_cast<Index>(&pattern - patterns.data());
     const std::vector<Index>& own = pattern.coordinates;
     const std::size_t halves = pattern.opposite ? own.size() / 2 : own.size();
-    pattern.first_run = runs_.size();
-    for (std::size_t c = 0; c < halves; c += static_cast<std::size_t>(run_length_))
-      runs_.push_back(
+    pattern.first_run = runs.size();
+    for (std::size_t c = 0; c < halves; c += static_cast<std::size_t>(length))
+      runs.push_back(
           {pattern.first + static_cast<Index>(c), constraint, own[c], halves < own.size() ? own[c + halves] : none});
-    pattern.runs = runs_.size() - pattern.first_run;
+    pattern.runs = runs.size() - pattern.first_run;
   }
+  return length;
 }
 
 template <Scalar S>
@@ -211,7 +210,11 @@ void ConstraintGradient<S>::add_times(const Matrix<S>& lambda, Lanes<S> out) {
 
 template <Scalar S>
 void ConstraintGradient<S>::add_weighted_times(const Matrix<S>& lambda, Lanes<S> out) {
-  add_times(Index{1}, weighted_runs_, weighted_values().data(), lambda.data(), out, t_);
+  with_constant_count<S>(lanes_, [&]<class Count>(Count lanes) {
+    with_constant_dimension<S>(weighted_run_length_, [&](auto length) {
+      add_times(length, weighted_runs_, weighted_values().data(), lambda.data(), Lanes<S, Count>{out.data, lanes}, t_);
+    });
+  });
 }
 
 template <Scalar S>
@@ -221,10 +224,18 @@ void ConstraintGradient<S>::coupling(const Coupling& pair, const ConstraintGradi
 }
 
 template <Scalar S>
+OperationCounts ConstraintGradient<S>::own_coupling_operations() const {
+  OperationCounts counts;
+  for (const Coupling& pair : couplings_)
+    if (pair.a <= pair.b) counts.add_dots(lanes_ * lanes_, pair.products());
+  return counts;
+}
+
+template <Scalar S>
 void ConstraintGradient<S>::gram(Matrix<S>& result) {
   result.setZero(problem_.nu(), problem_.nu());
   Matrix<S> all(lanes_, lanes_);
-  for_each_coupling(*this, all.data(), [&](const Coupling& pair) { set(result(pair.a, pair.b), all(0, 0)); });
+  for_each_own_coupling(lanes_, all.data(), [&](Index a, Index b, const auto& at) { set(result(a, b), at(0, 0)); });
 }
 
 #define HBVM_DEFINE(S) template class ConstraintGradient<S>;

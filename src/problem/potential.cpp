@@ -12,23 +12,9 @@ template <Scalar S>
 PotentialEvaluator<S>::Work::Work(const EffectTerm<S>& term, Index dimension, Index lanes)
     : displacement(Matrix<S>::Zero(term.instances() * lanes, term.arguments * dimension)),
       value(term.value, term.value_coefficients, displacement, lanes) {
-  if constexpr (std::same_as<S, double>) {
-    if (term.arguments == 1) kernel = find_kernel(term.gradient, dimension);
-    for (std::size_t n = 0; kernel != nullptr && n < term.displacements.size(); ++n) {
-      if (const auto site = kernel_site(term.displacements[n]))
-        sites.push_back(*site);
-      else
-        kernel = nullptr;
-    }
-    if (kernel == nullptr) return;
-    const Matrix<double>& coefficients = term.gradient_coefficients;
-    kernel_coefficients.resize(static_cast<std::size_t>(coefficients.size()));
-    for (std::size_t n = 0; n < sites.size(); ++n) {
-      double* const first = kernel_coefficients.data() + n * static_cast<std::size_t>(coefficients.cols());
-      for (Index j = 0; j < coefficients.cols(); ++j) first[j] = coefficients(static_cast<Index>(n), j);
-      sites[n].coefficients = first;
-    }
-  }
+  if constexpr (std::same_as<S, double>)
+    if (term.arguments == 1)
+      kernel = KernelUse::find(term.gradient, dimension, term.displacements, term.gradient_coefficients);
 }
 
 namespace {
@@ -78,7 +64,11 @@ Matrix<S> coefficients_of(const std::vector<const EffectTerm<S>*>& terms) {
 template <Scalar S>
 PotentialEvaluator<S>::Joint::Joint(const std::vector<const EffectTerm<S>*>& terms, const Matrix<S>& displacement,
                                     Index lanes)
-    : code(joined(terms, displacement.cols())), gradient(code.program, coefficients_of(terms), displacement, lanes) {}
+    : code(joined(terms, displacement.cols())), gradient(code.program, coefficients_of(terms), displacement, lanes) {
+  if constexpr (std::same_as<S, double>)
+    if (terms.front()->arguments == 1)
+      kernel = KernelUse::find(code.program, displacement.cols(), terms.front()->displacements, coefficients_of(terms));
+}
 
 template <Scalar S>
 PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index lanes)
@@ -106,15 +96,23 @@ PotentialEvaluator<S>::PotentialEvaluator(const Potential<S>& potential, Index l
 template <Scalar S>
 void PotentialEvaluator<S>::join_gradients() {
   for (auto leader = varying_.begin(); leader != varying_.end(); ++leader) {
-    if (leader->joint != nullptr || leader->work->kernel != nullptr) continue;
+    if (leader->joint != nullptr) continue;
+    const bool compiled = leader->work->kernel.has_value();
     std::vector<Varying*> alike;
     std::vector<const EffectTerm<S>*> terms;
     for (auto other = leader; other != varying_.end(); ++other) {
-      if (other->work->kernel != nullptr || !acts_alike(*leader->term, *other->term)) continue;
+      if (other->joint != nullptr || other->work->kernel.has_value() != compiled ||
+          !acts_alike(*leader->term, *other->term))
+        continue;
       alike.push_back(&*other);
       terms.push_back(other->term);
     }
+    if (compiled && alike.size() == 1) continue;
     Joint& joint = joints_.emplace_back(terms, leader->work->displacement, lanes_);
+    if (compiled && !joint.kernel) {
+      joints_.pop_back();
+      continue;
+    }
     std::size_t done = 0;
     Index output = 0;
     for (std::size_t n = 0; n < alike.size(); ++n) {
@@ -129,6 +127,16 @@ void PotentialEvaluator<S>::join_gradients() {
       own.count->done_before =
           displacements_of(*own.term, potential_.dimension) + static_cast<std::uint64_t>(own.term->instances()) * known;
     }
+  }
+}
+
+template <Scalar S>
+void PotentialEvaluator<S>::measure_time() {
+  timed_ = true;
+  for (Varying& own : varying_) {
+    if (own.joint == nullptr || !own.joint->kernel) continue;
+    own.joint = nullptr;
+    own.count->done_before = {};
   }
 }
 
@@ -183,12 +191,15 @@ void PotentialEvaluator<S>::force(Lanes<const S> q, Matrix<S>& force) {
 
 template <Scalar S>
 void PotentialEvaluator<S>::add_force(const Varying& own, Lanes<const S> q, Matrix<S>& force) {
+  const bool leads = own.output == 0;
   if constexpr (std::same_as<S, double>) {
-    const Work& work = *own.work;
-    if (work.kernel != nullptr) return work.kernel->add_force(work.sites.data(), work.sites.size(), q, force.data());
+    if (own.joint == nullptr) return own.work->kernel->add_force(q, force.data());
+    if (own.joint->kernel) {
+      if (leads) own.joint->kernel->add_force(q, force.data());
+      return;
+    }
   }
   Joint& joint = *own.joint;
-  const bool leads = own.output == 0;
   if (leads) displace_all(*own.term, *own.work, q);
   joint.gradient.run(own.first, own.end);
   for_each_force(*own.term, [&](Index output, Index instance, Index coordinate, const S& weight) {

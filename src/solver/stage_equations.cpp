@@ -52,6 +52,7 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
   if (method.has_coefficients_of_lambda()) {
     lambda_.resize(r, nu);
     hidden_.resize(r);
+    weighted_.resize(r, r);
     right_.resize(r, s);
     block_.resize(s, s);
   }
@@ -102,18 +103,16 @@ void StageEquations<S>::describe_parts() {
   exact_sum.add(Op::subtract, 4 * pulled);
   parts_[projection].per_call += exact_sum;
   parts_[gradients].per_call = gradient_.operations();
-  for (const auto& pair : gradient_.couplings()) {
-    parts_[matrix].per_call.add_dots(r * r, pair.products());
-    parts_[matrix].per_call.add(Op::multiply, r * r);
-    if (coefficients) parts_[matrix].per_call.add_dots((r + s) * s, r);
-  }
-  parts_[matrix].per_call += gradient_.weighing_operations();
+  const auto blocks = static_cast<Index>(gradient_.couplings().size());
+  parts_[matrix].per_call = gradient_.weighing_operations() + gradient_.own_coupling_operations();
+  parts_[matrix].per_call.add(Op::multiply, blocks * r * r);
+  if (coefficients) parts_[matrix].per_call.add_dots(blocks * (r + s) * s, r);
   parts_[factors].per_call = system_.factor_operations();
   parts_[solution].per_call = system_.solve_operations();
-  parts_[solution].per_call.add(Op::add, s * nu);
+  parts_[solution].per_call.add_products(s * nu);
   parts_[zetas].per_call += gradient_.times_operations();
   if (coefficients) parts_[zetas].per_call += P_.operations(nu);
-  parts_[zetas].per_call += projection_.operations(m);
+  if (!is_one_node(s, r)) parts_[zetas].per_call += projection_.operations(m);
   OperationCounts& gamma = parts_[gammas].per_call;
   gamma.add(Op::subtract, s * m);
   gamma.add(Op::multiply, 2 * s * m);
@@ -123,13 +122,13 @@ void StageEquations<S>::describe_parts() {
   gamma.add(Op::negate, pulled);
   gamma.add(Op::multiply, pulled);
   gamma.add(Op::add, 4 * pulled);
-  OperationCounts hidden = P_.operations(m);
+  OperationCounts hidden;
   for (Index a = 0; a < nu; ++a) hidden += gradient_.transposed_operations(a);
   if (coefficients) hidden.add_dots(s * nu, r);
-  parts_[constraint_residual].per_call = hidden;
+  parts_[constraint_residual].per_call = P_.operations(m) + hidden;
   parts_[constraint_residual].per_call.add(Op::subtract, s * m);
   parts_[right_hand_side].per_call = gamma + stages * problem_.mass.operations() + hidden;
-  parts_[right_hand_side].per_call.add(Op::multiply, s * nu);
+  if (!is_one_node(s, r)) parts_[right_hand_side].per_call += P_.operations(m);
 }
 
 template <Scalar S>
@@ -261,16 +260,17 @@ template <class Stages, class Nodes>
     const PartCall counted = call(right_hand_side);
     set_momenta(s, psi, zeta, stage_);
     problem_.mass.velocity(Lanes<const S, Stages>{stage_.data(), s}, Lanes<S, Stages>{velocity_.data(), s});
-    hidden_constraints(s, r, velocity_, [&](Index a) { return rhs + position[a] * s; });
-    const Held<S> inverse_h = inverse_h_;
-    for (Index i = 0; i < rhs_.size(); ++i) set_product(rhs[i], rhs[i], inverse_h);
+    if (!is_one_node(s, r)) P_.times(r, s, w_, velocity_);
+    hidden_constraints(r, is_one_node(s, r) ? velocity_ : w_, [&](Index a) { return rhs + position[a] * s; });
   }
   {
     const PartCall counted = call(solution);
     system_.solve(rhs_);
+    HeldScratch<S> t = t_;
+    const Held<S> inverse_h = inverse_h_;
     S* sum = lambda.data();
     for (Index a = 0; a < problem_.nu(); ++a)
-      for (Index i = 0; i < s; ++i, ++sum) set_sum(*sum, *sum, rhs[position[a] * s + i]);
+      for (Index i = 0; i < s; ++i, ++sum) add_product(*sum, inverse_h, rhs[position[a] * s + i], t);
   }
   project_multipliers(s, r, lambda, zeta);
 }
@@ -280,10 +280,11 @@ template <class Stages, class Nodes>
 [[gnu::always_inline]] inline void StageEquations<S>::project_multipliers(Stages s, Nodes r, const Matrix<S>& lambda,
                                                                           Matrix<S>& zeta) {
   const PartCall counted = call(zetas);
-  set_zero(w_);
+  Matrix<S>& pull = is_one_node(s, r) ? zeta : w_;
+  set_zero(pull);
   if (method_.has_coefficients_of_lambda()) P_.times(lambda_, lambda);
-  gradient_.add_times(node_multipliers(lambda), Lanes<S, Nodes>{w_.data(), r});
-  projection_.times(s, r, zeta, w_);
+  gradient_.add_times(node_multipliers(lambda), Lanes<S, Nodes>{pull.data(), r});
+  if (!is_one_node(s, r)) projection_.times(s, r, zeta, w_);
 }
 
 template <Scalar S>
@@ -294,16 +295,16 @@ template <class Stages, class Nodes>
   {
     const PartCall counted = call(matrix);
     system_.set_zero();
-    gradient_.for_each_coupling(r, gradient_, coupling_.data(), [&](const auto& pair) {
-      const Index row = position[pair.a] * s, column = position[pair.b] * s;
+    gradient_.for_each_own_coupling(r, coupling_.data(), [&](Index a, Index b, const auto& at) {
+      const Index row = position[a] * s, column = position[b] * s;
       if (method_.has_coefficients_of_lambda()) {
-        set_block();
+        set_block(at);
         for (Index j = 0; j < s; ++j)
           for (Index i = 0; i < s; ++i) set(system_.entry(row + i, column + j), block_(i, j));
         return;
       }
       for (Index j = 0; j < s; ++j)
-        for (Index i = 0; i < s; ++i) set_product(system_.entry(row + i, column + j), coupling_(i, j), method_.A(i, j));
+        for (Index i = 0; i < s; ++i) set_product(system_.entry(row + i, column + j), at(i, j), method_.A(i, j));
     });
   }
   const PartCall counted = call(factors);
@@ -311,24 +312,23 @@ template <class Stages, class Nodes>
 }
 
 template <Scalar S>
-void StageEquations<S>::set_block() {
-  for (Index i = 0; i < coupling_.size(); ++i)
-    set_product(coupling_.data()[i], coupling_.data()[i], method_.A.data()[i]);
-  product<S>(right_, coupling_, method_.P_s);
+template <class Coupling>
+void StageEquations<S>::set_block(const Coupling& at) {
+  for (Index j = 0; j < weighted_.cols(); ++j)
+    for (Index i = 0; i < weighted_.rows(); ++i) set_product(weighted_(i, j), at(i, j), method_.A(i, j));
+  product<S>(right_, weighted_, method_.P_s);
   product<S>(block_, method_.projection, right_);
 }
 
 template <Scalar S>
-template <class Stages, class Nodes, class Out>
-[[gnu::always_inline]] inline void StageEquations<S>::hidden_constraints(Stages s, Nodes r, const Matrix<S>& velocity,
-                                                                         Out out) {
-  P_.times(r, s, w_, velocity);
+template <class Nodes, class Out>
+[[gnu::always_inline]] inline void StageEquations<S>::hidden_constraints(Nodes r, const Matrix<S>& v, Out out) {
   if (!method_.has_coefficients_of_lambda()) {
-    gradient_.transposed_times(Lanes<const S, Nodes>{w_.data(), r}, out);
+    gradient_.transposed_times(Lanes<const S, Nodes>{v.data(), r}, out);
     return;
   }
   for (Index b = 0; b < problem_.nu(); ++b) {
-    gradient_.transposed_times(b, lanes(std::as_const(w_)), hidden_.data());
+    gradient_.transposed_times(b, lanes(v), hidden_.data());
     set_times(out(b), method_.projection, hidden_.data(), 1);
   }
 }
@@ -367,8 +367,9 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& residual
     const PartCall counted = call(constraint_residual);
     set_difference(residual.momentum, x.gamma, residual.momentum);
     if (!constrained) return;
+    P_.times(r, s, w_, velocity_);
     S* const hidden = residual.constraint.data();
-    hidden_constraints(s, r, velocity_, [&](Index b) { return hidden + b * s; });
+    hidden_constraints(r, w_, [&](Index b) { return hidden + b * s; });
   });
 }
 

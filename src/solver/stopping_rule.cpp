@@ -206,7 +206,6 @@ void StoppingRule<S>::set_bounds(Coordinate& x) {
   set_product(x.noise, x.scale, bound_);
   set_product(x.rounding, is_greater(x.scale, x.position) ? x.scale : x.position, bound_);
   set_product(x.negligible, x.scale, negligible_);
-  set_product(x.coarse, x.scale, coarse_bound_);
   set_far(x);
 }
 
@@ -214,6 +213,8 @@ template <Scalar S>
 void StoppingRule<S>::set_far(Coordinate& x) {
   set_product(x.far, x.rounding, kappa_);
   if (is_greater(tiny_, x.far)) set(x.far, tiny_);
+  set_product(x.coarse, x.scale, coarse_bound_);
+  if (is_greater(x.far, x.coarse)) set(x.coarse, x.far);
   x.small = !is_greater(x.scale, x.far);
   set(x.open, x.small && is_greater(x.lost, x.negligible) ? x.lost : x.negligible);
 }

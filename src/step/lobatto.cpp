@@ -124,10 +124,8 @@ void LobattoStepper<S>::describe_parts() {
   stage.add(Op::add, 2 * m * s);
   stage += gradient_.times_operations();
   parts_[gradients].per_call = gradient_.operations() + gradient_.weighing_operations();
-  for (const auto& pair : gradient_.couplings()) {
-    parts_[matrix].per_call.add_dots(s * s, pair.products());
-    parts_[matrix].per_call.add(Op::multiply, (s - 1) * (s - 1));
-  }
+  parts_[matrix].per_call = gradient_.own_coupling_operations();
+  parts_[matrix].per_call.add(Op::multiply, static_cast<Index>(gradient_.couplings().size()) * (s - 1) * (s - 1));
   parts_[factors].per_call = system_.factor_operations();
   parts_[solution].per_call = system_.solve_operations();
   parts_[solution].per_call.add(Op::add, (s - 1) * nu);
@@ -166,11 +164,10 @@ bool LobattoStepper<S>::correct_multipliers() {
     {
       const PartCall counted = call(matrix);
       system_.set_zero();
-      gradient_.for_each_coupling(gradient_, coupling_.data(), [&](const auto& pair) {
+      gradient_.for_each_own_coupling(s, coupling_.data(), [&](Index a, Index b, const auto& at) {
         for (Index j = 0; j + 1 < s; ++j)
           for (Index i = 1; i < s; ++i)
-            set_product(system_.entry(place(pair.a) + i - 1, place(pair.b) + j), coupling_(i, j),
-                        method_->A_A_hat(i, j));
+            set_product(system_.entry(place(a) + i - 1, place(b) + j), at(i, j), method_->A_A_hat(i, j));
       });
     }
     const PartCall counted = call(factors);

@@ -1,5 +1,7 @@
 #include "hbvm/problem/constraint_gradient.hpp"
 
+#include <set>
+
 #include "printing.hpp"
 #include "problem/dense.hpp"
 
@@ -94,6 +96,27 @@ TYPED_TEST(ConstraintGradientTest, CouplingsAreTheProductsAcrossLanes) {
       }
     }
     EXPECT_LT(gradient.couplings().size(), static_cast<std::size_t>(nu * nu));
+  }
+}
+
+/// Every pair of couplings() once, the later one of two as the transpose of the other.
+TYPED_TEST(ConstraintGradientTest, OwnCouplingsAreThoseOfAllPairs) {
+  using S = TypeParam;
+  for (const Index d : {2, 3}) {
+    const Problem<S> problem = constrained_problem<S>(d);
+    ConstraintGradient<S> gradient(problem, this->count);
+    gradient.update(lanes(this->random.matrix(this->count, problem.m())));
+    Matrix<S> own(this->count, this->count), entries = own;
+    std::set<std::pair<Index, Index>> seen;
+    gradient.for_each_own_coupling(this->count, own.data(), [&](Index a, Index b, const auto& at) {
+      EXPECT_TRUE(seen.emplace(a, b).second) << a << " " << b;
+      for (const auto& pair : gradient.couplings())
+        if (pair.a == a && pair.b == b) gradient.coupling(pair, gradient, entries.data());
+      for (Index i = 0; i < this->count; ++i)
+        for (Index j = 0; j < this->count; ++j)
+          EXPECT_LE(magnitude(S(at(i, j) - entries(i, j))), 8 * this->tolerance()) << a << " " << b;
+    });
+    EXPECT_EQ(seen.size(), gradient.couplings().size());
   }
 }
 

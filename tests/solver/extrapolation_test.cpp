@@ -97,5 +97,30 @@ TYPED_TEST(ExtrapolationTest, JudgesTheWholeVector) {
   EXPECT_EQ(sequence.order(0), 0);
 }
 
+/// What is kept of a sequence goes on as the sequence does, to the last bit, with any number of rows.
+TYPED_TEST(ExtrapolationTest, GoesOnFromAnArchive) {
+  using S = TypeParam;
+  for (const Index rows : {1, 3, 7})
+    for (const long elements : {1, 2, 6, 15}) {
+      Extrapolation<S> sequence(rows, 2), again(rows, 2);
+      const auto add = [&](long n) {
+        Vector<S> x(2 * rows);
+        for (Index i = 0; i < x.size(); ++i) x[i] = 1 / S(3 * n + i + 2);
+        sequence.add(x.data());
+        return x;
+      };
+      for (long n = 0; n < elements; ++n) add(n);
+      Archive written;
+      sequence.remember(written);
+      Archive read(written.text());
+      again.remember(read);
+      read.expect_end();
+      for (long n = elements; n < elements + 3; ++n) {
+        EXPECT_EQ(this->prediction(again, 2 * rows), this->prediction(sequence, 2 * rows)) << rows << " rows, " << n;
+        again.add(add(n).data());
+      }
+    }
+}
+
 }  // namespace
 }  // namespace hbvm

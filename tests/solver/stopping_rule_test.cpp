@@ -200,6 +200,30 @@ TYPED_TEST(StoppingRuleTest, AsksNoMoreOfWhatIsRoundingThanOfItsPositions) {
   EXPECT_GT(sweeps(4, below_rounding), 8);   // after which 2^-14 epsilon is left
 }
 
+/// A change that may be rounding says nothing of how far an iteration has come, however small its coordinate is.
+TYPED_TEST(StoppingRuleTest, ChangesThatAreRoundingAreNotCoarse) {
+  using S = TypeParam;
+  const auto is_coarse = [](const S& size, const S& change) {
+    StoppingRule<S> rule(2, roundings);
+    Vector<S> p0(2), positions(2);
+    p0 << S(1), size;
+    positions << S(1), S(1);
+    rule.start(p0, positions);
+    rule.show_change(0, power_of_two<S>(-11));
+    rule.show_change(1, change);
+    rule.show_terms(Matrix<S>(p0.transpose()));
+    rule.judge();
+    return rule.is_coarse();
+  };
+  const S round_off = S(roundings) * epsilon<S>(), below = round_off / 2;
+  EXPECT_FALSE(is_coarse(below, S(below / 2)));
+  EXPECT_FALSE(is_coarse(below, round_off));
+  EXPECT_TRUE(is_coarse(below, S(2 * round_off)));
+  EXPECT_FALSE(is_coarse(S(1), power_of_two<S>(-10)));
+  EXPECT_TRUE(is_coarse(S(1), power_of_two<S>(-9)));
+  EXPECT_TRUE(is_coarse(power_of_two<S>(-20), power_of_two<S>(-29)));
+}
+
 TYPED_TEST(StoppingRuleTest, EndsTypedWhereNothingConverges) {
   using S = TypeParam;
   using Verdict = typename StoppingRule<S>::Verdict;

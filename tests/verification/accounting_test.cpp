@@ -332,20 +332,35 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
     // At each node x = a - b, x + x for a, minus that for b; and half of the latter, once it is wanted.
     expect("constraint gradients", {.add = s * d, .subtract = s * d, .negate = s * d});
     expect("matrix for the multipliers (29)", {.add = s * s * (m - 1), .multiply = s * s * (m + 1) + s * d});
-    // gamma of the multipliers so far, its velocities at the nodes, what they leave of the constraint (x times the
-    // difference of both), and that over h.
+    // gamma of the multipliers so far, its velocities at the nodes, and what they leave of the constraint (x times the
+    // difference of both).
     expect("right-hand side for the multipliers (29)",
            {.add = (s - 1) * m + 2 * m + m + s * (d - 1),
             .subtract = s * m + m + s * d,
-            .multiply = s * m + (s - 1) * m + s * m + s * d + s * m + s * d + s});
-    // Two equations: a quotient, a product and two reciprocals to factor, four products to solve.
+            .multiply = s * m + (s - 1) * m + s * m + s * d + s * m + s * d});
+    // Two equations: a quotient, a product and two reciprocals to factor, four products to solve; a change is over h.
     expect("LU for the multipliers (29)", {.subtract = 1, .multiply = 1, .divide = 1 + s});
-    expect("multipliers at the nodes (29)", {.add = s, .subtract = 2, .multiply = 2 + s});
+    expect("multipliers at the nodes (29)", {.add = s, .subtract = 2, .multiply = 2 + 2 * s});
     // Twice: of the multipliers so far, and of those corrected. Both bodies share a product.
     expect("constraint-force coefficients zeta (49)",
            {.add = 2 * (s * d + m), .subtract = 2 * (s * d + m), .multiply = 2 * (s * d + s * m)});
     expect("momentum coefficients gamma (54)",
            {.add = (s - 1) * m + 2 * m, .subtract = s * m, .multiply = s * m + (s - 1) * m + s * m});
+  }
+}
+
+/// With one node and one coefficient there are no products with P and its weight, which are 1.
+TEST(Accounting, OneNodeTakesNoProductsWithOne) {
+  constexpr int times = 5;
+  for (const int d : {2, 3}) {
+    const Account account = sweeps(bodies(d, true) + effect(d, "mutual_gravity"), 1, 1, times);
+    const int m = 2 * d;
+    const auto expect = [&](const char* part, const Count& each) {
+      expect_operations(line_of(account, part).operations, times, each, part);
+    };
+    expect("right-hand side for the multipliers (29)",
+           {.add = 2 * m + d - 1, .subtract = m + d, .multiply = 2 * m + d + d});
+    expect("constraint-force coefficients zeta (49)", {.add = 2 * d, .subtract = 2 * d, .multiply = 2 * d});
   }
 }
 

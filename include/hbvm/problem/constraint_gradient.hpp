@@ -83,17 +83,29 @@ class ConstraintGradient {
   /// f(pair) for each of couplings(), with its numbers in `result`.
   template <class F>
   void for_each_coupling(const ConstraintGradient& right, S* result, F&& f) {
-    with_constant_count<S>(lanes_, [&](auto lanes) { for_each_coupling(lanes, right, result, f); });
-  }
-  /// The same with the number of lanes as a constant if it is one of its type.
-  template <class Count, class F>
-  void for_each_coupling(Count lanes, const ConstraintGradient& right, S* result, F&& f) {
     const S* const right_columns = right.weighted_values().data();
+    with_constant_count<S>(lanes_, [&](auto lanes) {
+      for (const Coupling& pair : couplings_) {
+        couple(lanes, pair, right_columns, result);
+        f(pair);
+      }
+    });
+  }
+  /// f(a, b, at) for each pair that couples, with at(i, j) = grad g_a(q_i)^T M^-1 grad g_b(q_j): of (a, b) and (b, a),
+  /// which are each other's transposes, one is computed, in `result`. The number of lanes may be a constant of its
+  /// type.
+  template <class Count, class F>
+  void for_each_own_coupling(Count lanes, S* result, F&& f) {
+    const S* const right_columns = weighted_values().data();
     for (const Coupling& pair : couplings_) {
+      if (pair.a > pair.b) continue;
       couple(lanes, pair, right_columns, result);
-      f(pair);
+      f(pair.a, pair.b, [&](Index i, Index j) -> const S& { return result[i + j * lanes]; });
+      if (pair.a < pair.b) f(pair.b, pair.a, [&](Index i, Index j) -> const S& { return result[j + i * lanes]; });
     }
   }
+  /// Its products.
+  OperationCounts own_coupling_operations() const;
   /// The Gram matrix grad g^T M^-1 grad g of the first lane, nu x nu.
   void gram(Matrix<S>& result);
 
@@ -123,14 +135,15 @@ class ConstraintGradient {
   }
 
  private:
-  /// Where stored columns next to each other belong, as many as run_length_: what they are derivatives of, by which
-  /// coordinate the first is, and by which one its negative.
+  /// Where stored columns next to each other belong, all as many: what they are derivatives of, by which coordinate the
+  /// first is, and by which one its negative.
   struct Run {
     Index column, constraint, coordinate, opposite;
   };
   static constexpr Index none = -1;
-  /// run_length_ = the dimension, if all columns are of vectors in space, else 1; and the runs.
-  void find_runs();
+  /// The runs of all patterns, and which are a pattern's own.
+  /// \return their length: the dimension, if all columns are of vectors in space, else 1
+  Index find_runs(std::vector<Pattern>& patterns, std::vector<Run>& runs) const;
   void weigh() const;
   template <class Length, class Count>
   static void add_times(Length length, const std::vector<Run>& runs, const S* values, const S* lambda,
@@ -155,8 +168,8 @@ class ConstraintGradient {
   const Problem<S>& problem_;
   Index lanes_;
   std::vector<Pattern> patterns_, weighted_patterns_;
-  std::vector<Run> runs_, weighted_runs_;  // the latter of length 1
-  Index run_length_ = 1;
+  std::vector<Run> runs_, weighted_runs_;
+  Index run_length_ = 1, weighted_run_length_ = 1;
   std::vector<typename GradientsOf<ConstraintForms<S>>::type> gradients_;
   std::vector<Weighing> weighings_;
   Matrix<S> values_;             // lanes x stored columns

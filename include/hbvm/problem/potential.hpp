@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "hbvm/problem/effect/execution.hpp"
@@ -58,16 +59,14 @@ class PotentialEvaluator {
 
   /// How often the force of each term was evaluated.
   const std::vector<EffectCount>& counts() const { return counts_; }
-  /// Also measure the time each takes.
-  void measure_time() { timed_ = true; }
+  /// Also measure the time each takes; those of a kernel together are done one by one then.
+  void measure_time();
 
  private:
   struct Work {
     Matrix<S> displacement;  ///< (instances * lanes) x inputs: all lanes of one instance, then the next
     Execution<S> value;
-    const Kernel* kernel = nullptr;  ///< the gradient compiled, in double, if the library has it
-    std::vector<KernelSite> sites;   ///< what it acts on: one an instance
-    std::vector<double> kernel_coefficients;
+    std::optional<KernelUse> kernel;  ///< the gradient compiled, in double, if the library has it
     Work(const EffectTerm<S>& term, Index dimension, Index lanes);
   };
 
@@ -75,6 +74,7 @@ class PotentialEvaluator {
   struct Joint {
     JointProgram<S> code;
     Execution<S> gradient;
+    std::optional<KernelUse> kernel;  ///< of all of them, likewise
     Joint(const std::vector<const EffectTerm<S>*>& terms, const Matrix<S>& displacement, Index lanes);
   };
   /// A term whose force varies.
@@ -82,12 +82,12 @@ class PotentialEvaluator {
     const EffectTerm<S>* term;
     Work* work;
     EffectCount* count;
-    Joint* joint = nullptr;          ///< none where there is a kernel
+    Joint* joint = nullptr;          ///< none where its own kernel serves
     std::size_t first = 0, end = 0;  ///< its instructions
     Index output = 0;                ///< its first one
   };
 
-  /// Joins the gradients of the terms that vary and act alike.
+  /// Joins the gradients of the terms that vary and act alike; those that have kernels if they have one together.
   void join_gradients();
   /// force += the gradient of a term.
   void add_force(const Varying& own, Lanes<const S> q, Matrix<S>& force);

@@ -22,9 +22,11 @@ class Extrapolation {
 
   Extrapolation(Index rows, Index columns)
       : rows_(rows),
-        size_(rows * columns),
-        differences_(size_, max_order + 2),
-        scratch_(size_),
+        columns_(columns),
+        differences_(rows * columns, max_order + 2),
+        prediction_(rows * columns),
+        next_(rows),
+        sums_(rows, max_order + 2),
         orders_(static_cast<std::size_t>(columns)) {}
 
   void clear() { known_ = 0; }
@@ -32,38 +34,22 @@ class Extrapolation {
 
   /// x_{n+1} = x.
   void add(const S* x) {
-    for (Index i = 0; i < size_; ++i) set(scratch_[i], x[i]);
-    const Index differences = std::min(known_ + 1, max_order + 2);
-    for (Index r = 0; r < differences; ++r) {
-      S* __restrict const old = differences_.data() + r * size_;
-      S* __restrict const next = scratch_.data();
-      for (Index i = 0; i < size_; ++i) {
-        if constexpr (std::same_as<S, Mpfr>) {
-          swap(old[i], next[i]);  // Boost's own, which exchanges the digits; the moves of std::swap may round them
-          set_difference(next[i], old[i], next[i]);
+    known_ = std::min(known_ + 1, max_order + 2);
+    with_constant_count<S>(rows_, [&](auto rows) {
+      for (Index column = 0; column < columns_; ++column, x += rows) {
+        if constexpr (is_constant_count<decltype(rows)>) {
+          S next[rows], sums[rows * (max_order + 2)];
+          add(rows, column, x, next, sums);
         } else {
-          const S now = next[i];
-          next[i] = now - old[i];
-          old[i] = now;
+          add(rows, column, x, next_.data(), sums_.data());
         }
       }
-    }
-    known_ = differences;
-    choose_orders();
+    });
   }
 
   /// The prediction of x_{n+1}; not for an empty sequence.
   void predict(S* x) const {
-    for (Index i = 0; i < size_; ++i) set(x[i], differences_.data()[i]);
-    with_constant_count<S>(rows_, [&](auto rows) {
-      for (std::size_t column = 0; column < orders_.size(); ++column, x += rows) {
-        const S* difference = differences_.data() + static_cast<Index>(column) * rows;
-        for (Index r = 1; r <= orders_[column]; ++r) {
-          difference += size_;
-          for (Index i = 0; i < rows; ++i) set_sum(x[i], x[i], difference[i]);
-        }
-      }
-    });
+    for (Index i = 0; i < prediction_.size(); ++i) set(x[i], prediction_[i]);
   }
   /// log2 of the error that the last prediction of a column would have had by its present order.
   long error_exponent(Index column) const {
@@ -77,50 +63,70 @@ class Extrapolation {
   /// What a prediction and an element take at most.
   OperationCounts operations() const {
     OperationCounts counts;
-    counts.add(Op::add, max_order * size_);
-    counts.add(Op::subtract, (max_order + 1) * size_);
+    counts.add(Op::add, max_order * prediction_.size());
+    counts.add(Op::subtract, (max_order + 1) * prediction_.size());
     return counts;
   }
   Index order(Index column) const { return orders_[static_cast<std::size_t>(column)]; }
 
   void remember(Archive& archive) {
     archive(known_, orders_);
-    for (Index i = 0; i < known_ * size_; ++i) archive(differences_.data()[i]);
+    for (Index i = 0; i < known_ * prediction_.size(); ++i) archive(differences_.data()[i]);
+    for (Index i = 0; i < prediction_.size(); ++i) {
+      set(prediction_[i], differences_(i, 0));
+      for (Index r = 1; r <= order(i / rows_); ++r) set_sum(prediction_[i], prediction_[i], differences_(i, r));
+    }
   }
 
  private:
-  void choose_orders() {
-    if (known_ < 2) {
-      for (Index& order : orders_) order = 0;
-      return;
-    }
-    with_constant_count<S>(rows_, [&](auto rows) {
-      HeldScratch<S> least = least_, norm = norm_;
-      const S* column = differences_.data() + size_;
-      for (Index& order : orders_) {
-        const S* difference = column;
-        set_norm(rows, least, difference);
-        Index best = 1;
-        for (Index r = 2; r < known_; ++r) {
-          difference += size_;
-          set_norm(rows, norm, difference);
-          best = by_chance(is_greater(least, norm)) ? r : best;
-          lower_finite(least, norm);
-        }
-        order = best - 1;
-        column += rows;
-      }
-    });
-  }
+  /// The next element of a column, its order and prediction, in one pass over its differences.
+  /// \param next scratch of so many rows, and `sums` of so many columns of them as there are differences
   template <class Rows>
-  static void set_norm(Rows rows, S& norm, const S* x) {
-    set_magnitude(norm, x[0]);
-    for (Index i = 1; i < rows; ++i) raise_finite(norm, x[i]);
+  [[gnu::always_inline]] void add(Rows rows, Index column, const S* x, S* __restrict next, S* __restrict sums) {
+    HeldScratch<S> least = least_, norm = norm_;
+    const Index stride = differences_.rows(), first = column * rows;
+    S* __restrict difference = differences_.data() + first;
+    for (Index i = 0; i < rows; ++i) set(next[i], x[i]);
+    Index best = 1;
+    for (Index r = 0; r < known_; ++r, difference += stride) {
+      for (Index i = 0; i < rows; ++i) {
+        exchange_for_difference(difference[i], next[i]);
+        S& sum = sums[r * rows + i];
+        if (r == 0)
+          set(sum, difference[i]);
+        else
+          set_sum(sum, sums[(r - 1) * rows + i], difference[i]);
+      }
+      if (r == 0) continue;
+      set_magnitude(norm, difference[0]);
+      for (Index i = 1; i < rows; ++i) raise_finite(norm, difference[i]);
+      if (r == 1) {
+        set(least, norm);
+        continue;
+      }
+      best = by_chance(is_greater(least, norm)) ? r : best;
+      lower_finite(least, norm);
+    }
+    orders_[static_cast<std::size_t>(column)] = best - 1;
+    for (Index i = 0; i < rows; ++i) set(prediction_[first + i], sums[(best - 1) * rows + i]);
   }
 
-  Index rows_, size_, known_ = 0;
-  Matrix<S> differences_;
-  Vector<S> scratch_;
+  /// The new one of a difference, and of the next one.
+  static void exchange_for_difference(S& difference, S& next) {
+    if constexpr (std::same_as<S, Mpfr>) {
+      swap(difference, next);  // Boost's own, which exchanges the digits; the moves of std::swap may round them
+      set_difference(next, difference, next);
+    } else {
+      const S now = next;
+      next = now - difference;
+      difference = now;
+    }
+  }
+
+  Index rows_, columns_, known_ = 0;
+  Matrix<S> differences_;  ///< rows columns x orders
+  Vector<S> prediction_, next_;
+  Matrix<S> sums_;
   std::vector<Index> orders_;
   S least_ = 0, norm_ = 0;
 };

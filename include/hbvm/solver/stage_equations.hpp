@@ -138,6 +138,8 @@ class StageEquations {
   PartCall call(Part part) { return {parts_[part], timed_}; }
   void describe_parts();
 
+  /// Of one node values and coefficients are the same numbers: P and the weight are 1.
+  static bool is_one_node(Index stages, Index nodes) { return stages == 1 && nodes == 1; }
   /// f(s, r), as constants of their types where they are few: what a sweep in double does is then compiled as one
   /// function for each s.
   template <class F>
@@ -158,12 +160,13 @@ class StageEquations {
   /// The matrix of (lam) at the current nodes, factored.
   template <class Stages, class Nodes>
   [[nodiscard]] bool factor_matrix(Stages s, Nodes r);
-  /// block_ = projection (A coupling_, entry by entry) P_s: takes a block at the nodes to one of coefficients.
-  void set_block();
-  /// What gamma leaves of the hidden constraints at the current nodes, grad g_i^T M^-1 v_i, or of its coefficients, in
-  /// column b from out(b) on.
-  template <class Stages, class Nodes, class Out>
-  void hidden_constraints(Stages s, Nodes r, const Matrix<S>& velocity, Out out);
+  /// block_ = projection (A at, entry by entry) P_s: takes a block at the nodes to one of coefficients.
+  template <class Coupling>
+  void set_block(const Coupling& at);
+  /// What the velocities M^-1 v_i at the current nodes leave of the hidden constraints, grad g_i^T M^-1 v_i, or its
+  /// coefficients, in column b from out(b) on.
+  template <class Nodes, class Out>
+  void hidden_constraints(Nodes r, const Matrix<S>& v, Out out);
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
@@ -187,9 +190,10 @@ class StageEquations {
   Matrix<S> u_, w_;                  // r x m
   Matrix<S> stage_, pull_;           // s x m
   Matrix<S> coupling_;               // r x r
-  Matrix<S> lambda_;                 // r x nu, if lambda has coefficients; as are the next two
+  Matrix<S> lambda_;                 // r x nu, if lambda has coefficients; as are the next four
   Vector<S> hidden_;                 // r: one of the hidden constraints at the nodes
-  Matrix<S> right_, block_;          // r x s and s x s: of the matrix of (lam)
+  Matrix<S> weighted_, right_;       // r x r and r x s: of the matrix of (lam)
+  Matrix<S> block_;                  // s x s: likewise
   Vector<S> rhs_;                    // s nu
   S half_, h_half_ = 0, inverse_h_ = 0, rest_, t_, x_, y_;  // the last three are scratch
   std::vector<PartCount> parts_;

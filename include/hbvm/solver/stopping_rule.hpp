@@ -68,7 +68,7 @@ class StoppingRule {
   long least_left() const;
   const S& scale(Index j) const { return coordinates_[static_cast<std::size_t>(j)].scale; }
 
-  /// Whether the last changes were above 2^-10 of the scale somewhere.
+  /// Whether the last changes were above 2^-10 of the scale somewhere, and no rounding.
   bool is_coarse() const { return coarse_; }
   long sweeps() const { return sweeps_; }
   /// The greatest change of the last sweep over its scale.

@@ -22,4 +22,21 @@ std::optional<KernelSite> kernel_site(const Displacement<double>& x) {
   return site;
 }
 
+std::optional<KernelUse> KernelUse::find(const Program<double>& program, Index dimension,
+                                         const std::vector<Displacement<double>>& displacements,
+                                         const Matrix<double>& coefficients) {
+  KernelUse use;
+  use.kernel_ = find_kernel(program, dimension);
+  if (use.kernel_ == nullptr) return std::nullopt;
+  for (std::size_t n = 0; n < displacements.size(); ++n) {
+    std::optional<KernelSite> site = kernel_site(displacements[n]);
+    if (!site) return std::nullopt;
+    std::vector<double>& own = use.coefficients_.emplace_back();
+    for (Index j = 0; j < coefficients.cols(); ++j) own.push_back(coefficients(static_cast<Index>(n), j));
+    site->coefficients = own.data();
+    use.sites_.push_back(*site);
+  }
+  return use;
+}
+
 }  // namespace hbvm

@@ -16,32 +16,32 @@ template <class Count, class F>
   }
 }
 
-/// Kernel::add_force for a formula with a static gradient(x, c, g) and its dimension d, where the number of lanes may
-/// be a constant.
+/// Kernel::add_force for a formula with its dimension d, a number of effects, and a static gradient(x, c, g) that
+/// writes d numbers for each; the number of lanes may be a constant.
 template <class Formula, class Count>
 [[gnu::always_inline]] inline void add_force_in(const KernelSite* sites, std::size_t count,
                                                 Lanes<const double, Count> q, double* force) {
-  constexpr Index d = Formula::dimension;
+  constexpr Index d = Formula::dimension, size = d * Formula::effects;
   const Count lanes = q.count;
   for (const KernelSite* site = sites; site != sites + count; ++site) {
     const double* const c = site->coefficients;
     const double* const a = q[site->a];
     double* const f = force + site->a * lanes;
-    double x[d], g[d];
+    double x[d], g[size];
     if (site->b >= 0) {
       const double* const b = q[site->b];
       double* const opposite = force + site->b * lanes;
       for_each_lane(lanes, [&](Index i) {
         for (Index j = 0; j < d; ++j) x[j] = a[j * lanes + i] - b[j * lanes + i];
         Formula::gradient(x, c, g);
-        for (Index j = 0; j < d; ++j) f[j * lanes + i] += g[j];
-        for (Index j = 0; j < d; ++j) opposite[j * lanes + i] -= g[j];
+        for (Index j = 0; j < size; ++j) f[j % d * lanes + i] += g[j];
+        for (Index j = 0; j < size; ++j) opposite[j % d * lanes + i] -= g[j];
       });
     } else {
       for_each_lane(lanes, [&](Index i) {
         for (Index j = 0; j < d; ++j) x[j] = a[j * lanes + i] + site->shift[j];
         Formula::gradient(x, c, g);
-        for (Index j = 0; j < d; ++j) f[j * lanes + i] += g[j];
+        for (Index j = 0; j < size; ++j) f[j % d * lanes + i] += g[j];
       });
     }
   }

@@ -106,6 +106,66 @@ TEST(Kernel, IsTheProgram) {
   }
 }
 
+EffectUse<double> about_a_centre(std::string kind, Index d) {
+  EffectUse<double> use{std::move(kind), d, {{"strength", 1.2}}, {}, {body(0, d, {}), body(d, d, {0.25, -3, 1})}};
+  if (use.kind == "oblateness") {
+    use.numbers.insert({{"radius", 0.7}, {"J2", 0.01}});
+    use.vectors["axis"] = std::vector<double>(static_cast<std::size_t>(d), 0.0);
+    use.vectors["axis"].back() = 1;
+  }
+  return use;
+}
+
+/// Fields of one centre are computed together, one effect after the other as each alone, to the last bit; with a time
+/// for each they are done apart.
+TEST(Kernel, FieldsOfOneCentreHaveOneTogether) {
+  for (const Index d : {2, 3})
+    for (const char* other : {"radial_cosine", "oblateness"})
+      for (const bool first : {false, true}) {
+        Potential<double> potential{d, 3 * d, {}};
+        for (const std::string& kind : first ? std::vector<std::string>{"central_gravity", other}
+                                             : std::vector<std::string>{other, "central_gravity"})
+          potential.terms.push_back(make_term(about_a_centre(kind, d)));
+        for (const Index count : {1, 3, 8}) {
+          PotentialEvaluator<double> together(potential, count), timed(potential, count);
+          timed.measure_time();
+          const Matrix<double> q = positions(count, 3 * d);
+          Matrix<double> force, apart;
+          together.varying_force(lanes(q), force);
+          timed.varying_force(lanes(q), apart);
+          Matrix<double> expected = interpreted(potential.terms[0], d, q);
+          expected += interpreted(potential.terms[1], d, q);
+          EXPECT_EQ(force, expected) << other << " in " << d << ", lanes " << count;
+          EXPECT_EQ(apart, expected) << other << " in " << d << ", lanes " << count;
+          EXPECT_EQ(together.counts()[0].done_before.total(), 0u);
+          EXPECT_GE(together.counts()[1].done_before[Op::sqrt], 2u);
+          EXPECT_EQ(together.counts()[1].evaluations, timed.counts()[1].evaluations);
+          for (const EffectCount& alone : timed.counts()) EXPECT_EQ(alone.done_before.total(), 0u);
+        }
+      }
+}
+
+/// Neither about one centre nor in one kernel: each by itself.
+TEST(Kernel, EffectsWithoutOneTogetherAreDoneApart) {
+  for (const char* kind : {"trap", "radial_cosine"}) {
+    EffectUse<double> other{
+        kind, 2, {{"stiffness", 2.5}, {"exponent", 4.0}}, {}, {body(0, 2, {}), body(2, 2, {0.25, -3})}};
+    if (kind == std::string("radial_cosine")) {
+      other.numbers = {{"strength", 1.5}};
+      other.instances = {body(0, 2, {}), body(2, 2, {0.25, -2})};
+    }
+    const Potential<double> potential{2, 6, {make_term(about_a_centre("central_gravity", 2)), make_term(other)}};
+    PotentialEvaluator<double> evaluator(potential, 2);
+    const Matrix<double> q = positions(2, 6);
+    Matrix<double> force;
+    evaluator.varying_force(lanes(q), force);
+    Matrix<double> expected = interpreted(potential.terms[0], 2, q);
+    expected += interpreted(potential.terms[1], 2, q);
+    EXPECT_EQ(force, expected) << kind;
+    EXPECT_EQ(evaluator.counts()[1].done_before.total(), 0u) << kind;
+  }
+}
+
 TEST(Kernel, ARareExponentIsInterpreted) {
   const Potential<double> potential{2, 6, {make_term(spring(7, 0.5, 2))}};
   EXPECT_EQ(find_kernel(potential.terms[0].gradient, 2), nullptr);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hbvm/problem/effect/program.hpp"
 #include "hbvm/problem/space/displacement.hpp"
@@ -23,7 +24,7 @@ struct KernelSite {
 /// elsewhere, and do the same operations in the same order.
 struct Kernel {
   std::string_view code;  ///< text of the program it was made from
-  /// force += dU/dx of every site in every lane.
+  /// force += dU/dx of every site in every lane, for one effect after the other if the program is of several.
   void (*add_force)(const KernelSite* sites, std::size_t count, Lanes<const double> q, double* force);
 };
 
@@ -35,5 +36,24 @@ const Kernel* find_kernel(const Program<double>& program, Index dimension);
 
 /// The site of a displacement; none for the centre of a rigid body, which has more blocks.
 std::optional<KernelSite> kernel_site(const Displacement<double>& x);
+
+/// A kernel and all that it acts on.
+class KernelUse {
+ public:
+  /// \param coefficients a row for each displacement
+  /// \return none if the program was not compiled, or a displacement has no site
+  static std::optional<KernelUse> find(const Program<double>& program, Index dimension,
+                                       const std::vector<Displacement<double>>& displacements,
+                                       const Matrix<double>& coefficients);
+
+  void add_force(Lanes<const double> q, double* force) const {
+    kernel_->add_force(sites_.data(), sites_.size(), q, force);
+  }
+
+ private:
+  const Kernel* kernel_ = nullptr;
+  std::vector<KernelSite> sites_;
+  std::vector<std::vector<double>> coefficients_;  ///< of each site, which points to them
+};
 
 }  // namespace hbvm

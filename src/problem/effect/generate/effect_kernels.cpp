@@ -1,7 +1,8 @@
 // Prints C++ for the gradient of every effect in double: effect_kernels > effect_kernels.cpp, during the build.
 //
 // The code of an effect depends on the dimension, on which whole numbers its keys are, and on zeros in its vectors. All
-// combinations of a few values are traced, and each code that comes out is printed once.
+// combinations of a few values are traced, and each code that comes out is printed once. Of fields of one centre, which
+// have their distance in common, any two have a kernel together, too.
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <set>
 
 #include "hbvm/error.hpp"
+#include "hbvm/problem/effect/joint_program.hpp"
 #include "hbvm/problem/effect/kernel.hpp"
 #include "hbvm/problem/effect/use.hpp"
 
@@ -20,18 +22,27 @@ constexpr std::array shapes{0, 4, 6, 8, 5};
 
 class Generator {
  public:
+  /// Kernels of that effect.
   template <class Effect>
   void effect() {
-    for (const Index dimension : {2, 3}) {
-      EffectUse<double> use;
-      use.kind = Effect::kind;
-      use.dimension = dimension;
-      EffectUse<double>::Instance body;
-      body.x.blocks = {{0, 1}};
-      body.mass_matrix = Matrix<double>::Identity(dimension, dimension);
-      use.instances = {body};
-      vary(use, Effect::keys.data(), Effect::keys.data() + Effect::keys.size());
-    }
+    for_each_term<Effect>(
+        [&](const EffectTerm<double>& term, Index dimension) { add(Effect::kind, term.gradient, dimension, 1); });
+  }
+
+  /// Kernels of both, in that order.
+  template <class First, class Second>
+  void pair() {
+    for_each_term<First>([&](const EffectTerm<double>& first, Index dimension) {
+      for_each_term<Second>([&](const EffectTerm<double>& second, Index other) {
+        if (dimension != other) return;
+        const auto part = [](const EffectTerm<double>& term) {
+          return JointPart<double>{&term.gradient, static_cast<std::size_t>(term.gradient_coefficients.cols())};
+        };
+        const JointProgram<double> both =
+            join<double>({part(first), part(second)}, static_cast<std::size_t>(dimension));
+        add(fmt::format("{} and {}", First::kind, Second::kind), both.program, dimension, 2);
+      });
+    });
   }
 
   void print(std::ostream& out) const {
@@ -43,40 +54,54 @@ class Generator {
   }
 
  private:
-  void vary(EffectUse<double>& use, const EffectKey* key, const EffectKey* end) {
+  /// f(term, dimension) for each combination of values whose force varies.
+  template <class Effect, class F>
+  void for_each_term(F f) {
+    for (const Index dimension : {2, 3}) {
+      EffectUse<double> use;
+      use.kind = Effect::kind;
+      use.dimension = dimension;
+      EffectUse<double>::Instance body;
+      body.x.blocks.push_back({0, 1});
+      body.mass_matrix = Matrix<double>::Identity(dimension, dimension);
+      use.instances = {body};
+      vary(use, Effect::keys.data(), Effect::keys.data() + Effect::keys.size(), f);
+    }
+  }
+
+  template <class F>
+  void vary(EffectUse<double>& use, const EffectKey* key, const EffectKey* end, const F& f) {
     if (key == end) {
-      add(use);
+      try {
+        const EffectTerm<double> term = make_term(use);
+        if (!term.constant_force) f(term, use.dimension);
+      } catch (const InputError&) {
+        // not a value this key takes
+      }
     } else if (key->is_vector) {
       const auto d = static_cast<std::size_t>(use.dimension);
       for (const int first : {0, 1}) {
         use.vectors[std::string(key->name)] = std::vector<double>(d, first);
         use.vectors[std::string(key->name)].back() = 1;
-        vary(use, key + 1, end);
+        vary(use, key + 1, end, f);
       }
     } else {
       for (const int twice : shapes) {
         use.numbers[std::string(key->name)] = static_cast<double>(twice) / 2;
-        vary(use, key + 1, end);
+        vary(use, key + 1, end, f);
       }
     }
   }
 
-  void add(const EffectUse<double>& use) {
-    try {
-      const EffectTerm<double> term = make_term(use);
-      if (term.constant_force) return;
-      const std::string text = cpp_text(term.gradient, use.dimension);
-      if (!known_.insert(text).second) return;
-      const std::size_t number = known_.size();
-      formulas_ += fmt::format(
-          "/// {0}\nstruct Formula{1} {{\n  static constexpr Index dimension = {2};\n  static void "
-          "gradient([[maybe_unused]] "
-          "const double* x, [[maybe_unused]] const double* c, double* g) {{\n{3}  }}\n}};\n\n",
-          use.kind, number, use.dimension, text);
-      table_ += fmt::format("    {{R\"({0})\", add_force<Formula{1}>}},\n", text, number);
-    } catch (const InputError&) {
-      // not a value this key takes
-    }
+  void add(std::string_view name, const Program<double>& program, Index dimension, Index effects) {
+    const std::string text = cpp_text(program, dimension);
+    if (!known_.insert(text).second) return;
+    const std::size_t number = known_.size();
+    formulas_ += fmt::format(
+        "/// {0}\nstruct Formula{1} {{\n  static constexpr Index dimension = {2}, effects = {3};\n  static void "
+        "gradient([[maybe_unused]] const double* x, [[maybe_unused]] const double* c, double* g) {{\n{4}  }}\n}};\n\n",
+        name, number, dimension, effects, text);
+    table_ += fmt::format("    {{R\"({0})\", add_force<Formula{1}>}},\n", text, number);
   }
 
   std::set<std::string> known_;
@@ -88,6 +113,15 @@ void add_all(Generator& generator, std::tuple<Effect...>*) {
   (generator.effect<Effect>(), ...);
 }
 
+template <class Field, class... Other>
+void add_pairs_of(Generator& generator) {
+  const auto both = [&]<class Second>(std::type_identity<Second>) {
+    generator.pair<Field, Second>();
+    generator.pair<Second, Field>();
+  };
+  (both(std::type_identity<Other>()), ...);
+}
+
 }  // namespace
 }  // namespace hbvm
 
@@ -95,5 +129,6 @@ void add_all(Generator& generator, std::tuple<Effect...>*) {
 int main() {  // NOLINT(bugprone-exception-escape)
   hbvm::Generator generator;
   hbvm::add_all(generator, static_cast<hbvm::Effects*>(nullptr));
+  hbvm::add_pairs_of<hbvm::CentralGravity, hbvm::RadialCosine, hbvm::Oblateness>(generator);
   generator.print(std::cout);
 }
