@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "hbvm/linear/constant_count.hpp"
 #include "hbvm/problem/effect/kernel.hpp"
 
@@ -16,33 +18,58 @@ template <class Count, class F>
   }
 }
 
-/// Kernel::add_force for a formula with its dimension d, a number of effects, and a static gradient(x, c, g) that
-/// writes d numbers for each; the number of lanes may be a constant.
+/// For a formula with its dimension d, a number of effects, and a static gradient(x, c, g) that writes d numbers for
+/// each: add(i, g) in every lane, where x_of(i, x) gives x. If it can be done in steps, several lanes are done at a
+/// time between what is called for each.
+template <class Formula, class Count, class XOf, class Add>
+[[gnu::always_inline]] inline void for_each_gradient(Count lanes, const double* c, XOf x_of, Add add) {
+  if constexpr (requires { Formula::temporaries; } && !is_constant_count<Count>) {
+    constexpr Index block = 16;
+    double t[Formula::temporaries][block];
+    for (Index first = 0; first < lanes; first += block)
+      Formula::gradients(
+          std::min(block, lanes - first), [&](Index i, double* x) { x_of(first + i, x); }, c, t,
+          [&](Index i, const double* g) { add(first + i, g); });
+  } else {
+    for_each_lane(lanes, [&](Index i) {
+      double x[Formula::dimension], g[Formula::dimension * Formula::effects];
+      x_of(i, x);
+      Formula::gradient(x, c, g);
+      add(i, g);
+    });
+  }
+}
+
+/// Kernel::add_force for a formula, where the number of lanes may be a constant.
 template <class Formula, class Count>
 [[gnu::always_inline]] inline void add_force_in(const KernelSite* sites, std::size_t count,
                                                 Lanes<const double, Count> q, double* force) {
   constexpr Index d = Formula::dimension, size = d * Formula::effects;
   const Count lanes = q.count;
   for (const KernelSite* site = sites; site != sites + count; ++site) {
-    const double* const c = site->coefficients;
     const double* const a = q[site->a];
     double* const f = force + site->a * lanes;
-    double x[d], g[size];
     if (site->b >= 0) {
       const double* const b = q[site->b];
       double* const opposite = force + site->b * lanes;
-      for_each_lane(lanes, [&](Index i) {
-        for (Index j = 0; j < d; ++j) x[j] = a[j * lanes + i] - b[j * lanes + i];
-        Formula::gradient(x, c, g);
-        for (Index j = 0; j < size; ++j) f[j % d * lanes + i] += g[j];
-        for (Index j = 0; j < size; ++j) opposite[j % d * lanes + i] -= g[j];
-      });
+      for_each_gradient<Formula>(
+          lanes, site->coefficients,
+          [&](Index i, double* x) {
+            for (Index j = 0; j < d; ++j) x[j] = a[j * lanes + i] - b[j * lanes + i];
+          },
+          [&](Index i, const double* g) {
+            for (Index j = 0; j < size; ++j) f[j % d * lanes + i] += g[j];
+            for (Index j = 0; j < size; ++j) opposite[j % d * lanes + i] -= g[j];
+          });
     } else {
-      for_each_lane(lanes, [&](Index i) {
-        for (Index j = 0; j < d; ++j) x[j] = a[j * lanes + i] + site->shift[j];
-        Formula::gradient(x, c, g);
-        for (Index j = 0; j < size; ++j) f[j % d * lanes + i] += g[j];
-      });
+      for_each_gradient<Formula>(
+          lanes, site->coefficients,
+          [&](Index i, double* x) {
+            for (Index j = 0; j < d; ++j) x[j] = a[j * lanes + i] + site->shift[j];
+          },
+          [&](Index i, const double* g) {
+            for (Index j = 0; j < size; ++j) f[j % d * lanes + i] += g[j];
+          });
     }
   }
 }

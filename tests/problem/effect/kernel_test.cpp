@@ -95,7 +95,7 @@ TEST(Kernel, IsTheProgram) {
     for (const EffectUse<double>& use : uses) {
       const Potential<double> potential{d, 3 * d, {make_term(use)}};
       ASSERT_NE(find_kernel(potential.terms[0].gradient, d), nullptr) << use.kind << " in " << d;
-      for (const Index count : {1, 2, 5, 8}) {
+      for (const Index count : {1, 2, 5, 8, 35}) {
         PotentialEvaluator<double> evaluator(potential, count);
         const Matrix<double> q = positions(count, 3 * d);
         Matrix<double> force;
@@ -116,6 +116,26 @@ EffectUse<double> about_a_centre(std::string kind, Index d) {
   return use;
 }
 
+/// A program that calls functions has a step before the first, one between two, and one after the last.
+TEST(Kernel, StepsAreWhatIsBetweenTheCallsOfFunctions) {
+  const auto count = [](const std::string& text, const std::string& word) {
+    long found = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+    return found;
+  };
+  const auto steps = [](const EffectUse<double>& use) { return cpp_steps(make_term(use).gradient, use.dimension); };
+  EXPECT_EQ(steps(about_a_centre("central_gravity", 3)), "");
+  const std::string sine = steps(about_a_centre("radial_cosine", 3)), power = steps(spring(2.75, 0.5, 2));
+  EXPECT_EQ(count(sine, "for_each_lane("), 2);
+  EXPECT_EQ(count(sine, "std::sin("), 1);
+  EXPECT_EQ(count(sine, "std::sqrt("), 1);
+  EXPECT_EQ(count(sine, "add(i, g)"), 1);
+  EXPECT_EQ(count(power, "for_each_lane("), 1 + count(power, "for (Index i"));
+  EXPECT_EQ(count(power, "std::log("), 1);
+  EXPECT_EQ(count(power, "std::exp("), 1);
+  EXPECT_EQ(count(power, "add(i, g)"), 1);
+}
+
 /// Fields of one centre are computed together, one effect after the other as each alone, to the last bit; with a time
 /// for each they are done apart.
 TEST(Kernel, FieldsOfOneCentreHaveOneTogether) {
@@ -126,7 +146,7 @@ TEST(Kernel, FieldsOfOneCentreHaveOneTogether) {
         for (const std::string& kind : first ? std::vector<std::string>{"central_gravity", other}
                                              : std::vector<std::string>{other, "central_gravity"})
           potential.terms.push_back(make_term(about_a_centre(kind, d)));
-        for (const Index count : {1, 3, 8}) {
+        for (const Index count : {1, 3, 8, 35}) {
           PotentialEvaluator<double> together(potential, count), timed(potential, count);
           timed.measure_time();
           const Matrix<double> q = positions(count, 3 * d);

@@ -30,6 +30,10 @@ struct Kernel {
 
 /// The program as C++ statements that read x[0 .. dimension) and the coefficients c[...], and write g[...].
 std::string cpp_text(const Program<double>& program, Index dimension);
+/// The same for all lanes, in loops of which one calls a function for each lane, as a sine, and the next takes several
+/// lanes at a time: x_of(i, x) gives the displacement in lane i, add(i, g) takes the gradient, t[n][i] is scratch for
+/// each temporary. Empty if no function is called, or one of a number that is no temporary.
+std::string cpp_steps(const Program<double>& program, Index dimension);
 
 /// The kernel of this program; none if it was not compiled, as for a rare exponent.
 const Kernel* find_kernel(const Program<double>& program, Index dimension);

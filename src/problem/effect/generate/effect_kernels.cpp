@@ -99,8 +99,15 @@ class Generator {
     const std::size_t number = known_.size();
     formulas_ += fmt::format(
         "/// {0}\nstruct Formula{1} {{\n  static constexpr Index dimension = {2}, effects = {3};\n  static void "
-        "gradient([[maybe_unused]] const double* x, [[maybe_unused]] const double* c, double* g) {{\n{4}  }}\n}};\n\n",
+        "gradient([[maybe_unused]] const double* x, [[maybe_unused]] const double* c, double* g) {{\n{4}  }}\n",
         name, number, dimension, effects, text);
+    if (const std::string steps = cpp_steps(program, dimension); !steps.empty())
+      formulas_ += fmt::format(
+          "  static constexpr Index temporaries = {0};\n  template <class XOf, class Add, Index size>\n  static void "
+          "gradients(Index lanes, XOf x_of, [[maybe_unused]] const double* c, double (*t)[size], Add add) {{\n{1}  "
+          "}}\n",
+          program.temporaries(), steps);
+    formulas_ += "};\n\n";
     table_ += fmt::format("    {{R\"({0})\", add_force<Formula{1}>}},\n", text, number);
   }
 
