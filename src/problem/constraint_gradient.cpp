@@ -45,18 +45,38 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
   values_ = Matrix<S>::Zero(lanes, columns);
   weighted_ = Matrix<S>::Zero(lanes, weighted_columns);
 
-  for (std::size_t a = 0; a < patterns_.size(); ++a) {
+  for (std::size_t a = 0; a < patterns_.size(); ++a)
     std::visit([&](const auto& gradient) { gradient.begin(target(a, nullptr, lanes)); }, gradients_[a]);
+  find_couplings();
+}
+
+template <Scalar S>
+void ConstraintGradient<S>::find_couplings() {
+  for (std::size_t a = 0; a < patterns_.size(); ++a)
     for (std::size_t b = 0; b < weighted_patterns_.size(); ++b) {
-      Coupling pair{static_cast<Index>(a), static_cast<Index>(b), {}};
+      Coupling pair{static_cast<Index>(a), static_cast<Index>(b), {}, 0};
       for (const Index coordinate : patterns_[a].coordinates) {
         if (!std::binary_search(weighted_patterns_[b].coordinates.begin(), weighted_patterns_[b].coordinates.end(),
                                 coordinate))
           continue;
         pair.terms.push_back({patterns_[a].column(coordinate), weighted_patterns_[b].column(coordinate)});
       }
+      pair.products = static_cast<Index>(pair.terms.size());
       if (!pair.terms.empty()) couplings_.push_back(std::move(pair));
     }
+  using Term = typename Coupling::Term;
+  const Index d = problem_.dimension;
+  const auto follows = [](const Term& x, const Term& y) { return y.left == x.left + 1 && y.right == x.right + 1; };
+  for (const Coupling& pair : couplings_) {
+    if (pair.products % d != 0) return;
+    for (std::size_t n = 1; n < pair.terms.size(); ++n)
+      if (n % static_cast<std::size_t>(d) != 0 && !follows(pair.terms[n - 1], pair.terms[n])) return;
+  }
+  coupling_length_ = d;
+  for (Coupling& pair : couplings_) {
+    std::vector<Term> first;
+    for (std::size_t n = 0; n < pair.terms.size(); n += static_cast<std::size_t>(d)) first.push_back(pair.terms[n]);
+    pair.terms = std::move(first);
   }
 }
 
@@ -227,7 +247,7 @@ template <Scalar S>
 OperationCounts ConstraintGradient<S>::own_coupling_operations() const {
   OperationCounts counts;
   for (const Coupling& pair : couplings_)
-    if (pair.a <= pair.b) counts.add_dots(lanes_ * lanes_, pair.products());
+    if (pair.a <= pair.b) counts.add_dots(lanes_ * lanes_, pair.products);
   return counts;
 }
 

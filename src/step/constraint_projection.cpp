@@ -31,7 +31,7 @@ void ConstraintProjection<S>::describe_parts() {
   parts_[shifts].per_call.add(Op::multiply, nu);
   parts_[shifts].per_call.add_products(gradient.weighted_values().cols());
   parts_[gradients].per_call = gradient.operations() + gradient.weighing_operations();  // not those of g itself
-  for (const auto& pair : gradient.couplings()) parts_[matrix].per_call.add_dots(1, pair.products());
+  for (const auto& pair : gradient.couplings()) parts_[matrix].per_call.add_dots(1, pair.products);
   parts_[factors].per_call = system_.factor_operations();
   parts_[solution].per_call = system_.solve_operations();
   parts_[solution].per_call.add(Op::reciprocal, nu);

@@ -49,7 +49,7 @@ void EnergyMomentum<S>::describe_parts() {
   parts_[motion].per_call.add_products(3 * m);
   parts_[motion].per_call += middle_gradient_.times_operations();
   parts_[gradients].per_call = end_gradient_.operations() + end_gradient_.weighing_operations();
-  for (const auto& pair : end_gradient_.couplings()) parts_[matrix].per_call.add_dots(1, pair.products());
+  for (const auto& pair : end_gradient_.couplings()) parts_[matrix].per_call.add_dots(1, pair.products);
   parts_[factors].per_call = system_.factor_operations();
   parts_[solution].per_call = system_.solve_operations();
   parts_[solution].per_call.add(Op::reciprocal, nu);

@@ -69,12 +69,12 @@ class ConstraintGradient {
   /// grad g_a(q_i)^T M^-1 grad g_b(q_j) is 0 but for these pairs (a, b).
   struct Coupling {
     Index a, b;
-    /// Columns of the stored gradients that meet.
+    /// Columns of the stored gradients that meet, and those next to them, of all couplings as many.
     struct Term {
       Index left, right;
     };
     std::vector<Term> terms;
-    Index products() const { return static_cast<Index>(terms.size()); }  ///< of a pair of lanes
+    Index products;  ///< of a pair of lanes
   };
   const std::vector<Coupling>& couplings() const { return couplings_; }
   /// grad g_a of this in lane i with M^-1 grad g_b of `right`, which may be this, in lane j: result(i, j), column by
@@ -156,6 +156,8 @@ class ConstraintGradient {
     bool first;
     const S* factor;
   };
+  /// The columns that meet, and how many next to each other always do: the dimension, or 1.
+  void find_couplings();
   void prepare_weighing(const Pattern& from, const Pattern& to);
   void add_weighing(const Weighing& next);  ///< together with the last one, if they are alike
   template <class Count>
@@ -163,7 +165,13 @@ class ConstraintGradient {
     return {lanes, values_.data() + patterns_[a].first * lanes, g, x_, y_, t_};
   }
   template <class Count>
-  void couple(Count lanes, const Coupling& pair, const S* right_columns, S* result);
+  void couple(Count lanes, const Coupling& pair, const S* right_columns, S* result) {
+    with_constant_dimension<S>(
+        coupling_length_, [&](auto length)
+                              __attribute__((always_inline)) { couple(length, lanes, pair, right_columns, result); });
+  }
+  template <class Length, class Count>
+  void couple(Length length, Count lanes, const Coupling& pair, const S* right_columns, S* result);
 
   const Problem<S>& problem_;
   Index lanes_;
@@ -176,7 +184,8 @@ class ConstraintGradient {
   mutable Matrix<S> weighted_;   // likewise
   mutable bool weighed_ = true;  // the last values
   std::vector<Coupling> couplings_;
-  Matrix<S> x_, y_;  // scratch: lanes x dimension
+  Index coupling_length_ = 1;  // of the runs that its terms begin
+  Matrix<S> x_, y_;            // scratch: lanes x dimension
   mutable S t_, u_;
 };
 
@@ -243,33 +252,35 @@ template <class Length, class Count>
 }
 
 template <Scalar S>
-template <class Count>
-[[gnu::always_inline]] inline void ConstraintGradient<S>::couple(Count lanes, const Coupling& pair,
+template <class Length, class Count>
+[[gnu::always_inline]] inline void ConstraintGradient<S>::couple(Length length, Count lanes, const Coupling& pair,
                                                                  const S* right_columns, S* result) {
   const S* const columns = values_.data();
   if constexpr (is_constant_count<Count>) {
     S sums[Count::value * Count::value] = {};
     for (const auto& term : pair.terms) {
-      const S* const x = columns + term.left * lanes;
-      const S* const y = right_columns + term.right * lanes;
-      for (Index j = 0; j < lanes; ++j)
-        for (Index i = 0; i < lanes; ++i) sums[i + j * lanes] += x[i] * y[j];
+      const S* x = columns + term.left * lanes;
+      const S* y = right_columns + term.right * lanes;
+      for (Index c = 0; c < length; ++c, x += lanes, y += lanes)
+        for (Index j = 0; j < lanes; ++j)
+          for (Index i = 0; i < lanes; ++i) sums[i + j * lanes] += x[i] * y[j];
     }
     for (Index i = 0; i < lanes * lanes; ++i) result[i] = sums[i];
     return;
   }
   bool first = true;
   for (const auto& term : pair.terms) {
-    const S* const x = columns + term.left * lanes;
-    const S* const y = right_columns + term.right * lanes;
-    S* out = result;
-    for (Index j = 0; j < lanes; ++j, out += lanes) {
-      if (first)
-        for (Index i = 0; i < lanes; ++i) set_product(out[i], x[i], y[j]);
-      else
-        for (Index i = 0; i < lanes; ++i) add_product(out[i], x[i], y[j], t_);
+    const S* x = columns + term.left * lanes;
+    const S* y = right_columns + term.right * lanes;
+    for (Index c = 0; c < length; ++c, x += lanes, y += lanes, first = false) {
+      S* out = result;
+      for (Index j = 0; j < lanes; ++j, out += lanes) {
+        if (first)
+          for (Index i = 0; i < lanes; ++i) set_product(out[i], x[i], y[j]);
+        else
+          for (Index i = 0; i < lanes; ++i) add_product(out[i], x[i], y[j], t_);
+      }
     }
-    first = false;
   }
 }
 

@@ -44,6 +44,9 @@ std::optional<KernelSite> kernel_site(const Displacement<double>& x);
 /// A kernel and all that it acts on.
 class KernelUse {
  public:
+  KernelUse(KernelUse&&) = default;
+  KernelUse& operator=(KernelUse&&) = default;
+
   /// \param coefficients a row for each displacement
   /// \return none if the program was not compiled, or a displacement has no site
   static std::optional<KernelUse> find(const Program<double>& program, Index dimension,
@@ -55,6 +58,8 @@ class KernelUse {
   }
 
  private:
+  KernelUse() = default;
+
   const Kernel* kernel_ = nullptr;
   std::vector<KernelSite> sites_;
   std::vector<std::vector<double>> coefficients_;  ///< of each site, which points to them
