@@ -10,9 +10,10 @@ class RawCost {
  public:
   RawCost() {
     std::vector<Mpfr> x, y;
+    // No root is a whole number or a short fraction, of which mpfr_mul takes the few limbs that are not 0.
     for (int i = 1; i <= count; ++i) {
-      x.push_back(sqrt(Mpfr(i)));
-      y.push_back(sqrt(Mpfr(i) / 3));
+      x.push_back(sqrt(Mpfr(i * i + 1)));
+      y.push_back(sqrt(Mpfr(i * i + 1) / 3));
     }
     std::vector<Mpfr> r(x);
     const auto cost = [&](auto&& call) {
