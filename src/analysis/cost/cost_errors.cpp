@@ -7,6 +7,7 @@
 #include "hbvm/error.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/scalar/precision.hpp"
 
 namespace hbvm {
 namespace {
