@@ -83,7 +83,7 @@ class StoppingRule {
     S terms = 0;  ///< shown since the last judgement
     S scale = 0, position = 0, least = 0, expected = 0;
     /// Parts of the scale: C epsilon (of what rounding of the position amounts to, if that is larger), 2^-12 epsilon,
-    /// ...
+    /// and 2^-10, or `far` if that is larger.
     S noise = 0, rounding = 0, negligible = 0, coarse = 0;
     S far = 0;   ///< a greater change is no rounding
     S lost = 0;  ///< 2^-12 of what rounding of the position amounts to
