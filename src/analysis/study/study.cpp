@@ -93,7 +93,7 @@ class Study {
     StudyOutcome outcome;
     outcome.title = title_;
     Findings findings = table_.conclude(results_of(table_.cells));
-    static_cast<Agreement&>(outcome) = std::move(findings.agreement);
+    static_cast<StudyAgreement&>(outcome) = std::move(findings.agreement);
     Table& table = findings.table;
     table.caption = title_;
     table.provenance = experiment_.provenance;
