@@ -30,7 +30,7 @@ struct ReferenceArguments {
   std::optional<std::string> scene, until, route, out, verify, show, plot, checkpoint;
   std::vector<std::string> at, against, map;
   int digits = 30;
-  bool json = false, list = false;
+  bool json = false, list = false, force = false;
 };
 
 Expression time_of(const std::string& text) {
@@ -66,6 +66,11 @@ Reference compute(ReferenceRequest request, const std::optional<std::string>& fi
     };
   }
   end_runs_on_signals();
+  request.estimate = [](const Effort& effort) {
+    constexpr double long_work = 60;
+    if (effort.seconds > long_work)
+      fmt::print(stderr, "route {}: about {}\n", effort.route, duration_text(effort.seconds));
+  };
   request.progress = [&](double part) {
     constexpr long parts = 10'000;
     bar.update(static_cast<long>(part * parts), parts);
@@ -97,21 +102,42 @@ nlohmann::ordered_json json_of(const Reference& r, const std::string& until, con
   return j;
 }
 
-void print_vector(const char* symbol, const std::vector<std::string>& names, const std::vector<std::string>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    fmt::print("  {:<9}{:<12}{}\n", fmt::format("{}_{}", symbol, i + 1), i < names.size() ? names[i] : "", values[i]);
-}
+/// Lines of a name and a number, the numbers below one another.
+class Lines {
+ public:
+  void add(const std::string& symbol, const std::string& name, const std::string& value) {
+    lines_.push_back({symbol, name, value});
+    symbols_ = std::max(symbols_, symbol.size());
+    names_ = std::max(names_, name.size());
+  }
+  void add_vector(const char* symbol, const std::vector<std::string>& names, const std::vector<std::string>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      add(fmt::format("{}_{}", symbol, i + 1), i < names.size() ? names[i] : "", values[i]);
+  }
+  void print() const {
+    for (const Line& line : lines_)
+      fmt::print("  {:<{}}  {:<{}}  {}\n", line.symbol, symbols_, line.name, names_, line.value);
+  }
+
+ private:
+  struct Line {
+    std::string symbol, name, value;
+  };
+  std::vector<Line> lines_;
+  std::size_t symbols_ = 0, names_ = 0;
+};
 
 void print(const Scene& scene, const Reference& r) {
   fmt::print("{}: {}\n", r.scene, r.title);
   for (const ReferenceState& state : r.times) {
     fmt::print("\nt = {}\n", state.t);
-    print_vector("q", coordinate_names(scene), state.q);
-    print_vector("p", coordinate_names(scene, "p"), state.p);
-    print_vector("lambda", {}, state.lambda);
-    fmt::print("  {:<21}{}\n", "H", state.H);
-    for (std::size_t i = 0; i < state.momenta.size(); ++i)
-      fmt::print("  {:<21}{}\n", r.momentum_names[i], state.momenta[i]);
+    Lines lines;
+    lines.add_vector("q", coordinate_names(scene), state.q);
+    lines.add_vector("p", coordinate_names(scene, "p"), state.p);
+    lines.add_vector("lambda", {}, state.lambda);
+    lines.add("H", "", state.H);
+    for (std::size_t i = 0; i < state.momenta.size(); ++i) lines.add(r.momentum_names[i], "", state.momenta[i]);
+    lines.print();
     if (r.routes.size() > 1)
       fmt::print("{} digits after the leading one; the routes agree in {}\n", r.digits, state.agreed);
     else
@@ -295,6 +321,7 @@ void reference_command(const ReferenceArguments& o) {
   ReferenceRequest request;
   request.scene = load_scene(*o.scene);
   request.digits = o.digits;
+  request.force = o.force;
   for (const std::string& text : o.at) request.times.push_back(time_of(text));
   if (o.at.empty()) request.times.push_back(time_of(*o.until));
   if (o.route) request.only = parse_route(*o.route);
@@ -325,7 +352,7 @@ void add_reference_command(CLI::App& app) {
                                                "that share only the scene, and by the closed "
                                                "form where there is one");
   command->add_option("SCENE,--scene", o->scene, "Scene file or built-in scene");
-  command->add_option("--until", o->until, "Time of the state, as 10 or 2pi");
+  command->add_option("--until", o->until, "Time of the state, as 10 or '2*pi'");
   command->add_option("--at", o->at, "Times T1,T2,... of the states instead, ascending")->delimiter(',');
   command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")
       ->capture_default_str();
@@ -333,6 +360,7 @@ void add_reference_command(CLI::App& app) {
   command->add_option("--out", o->out, "Write it to this file, in TOML");
   command->add_option("--checkpoint", o->checkpoint,
                       "Keep what is done in this file, some hundred steps at a time: the same command goes on from it");
+  command->add_flag("--force", o->force, "Do also what is expected to take more than a day, or 16 GB");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->add_flag("--list", o->list, "List the references that are shipped");
   command->add_option("--show", o->show, "Print those of a scene, and how to load them elsewhere");
