@@ -177,7 +177,7 @@ TYPED_TEST(Regularity, SeesTheRedundantBendAway) {
   EXPECT_EQ(found.redundant[0].bending, -9);
   EXPECT_LT(found.redundant[0].round_off, 200'000 * epsilon<TypeParam>());
   EXPECT_GT(found.redundant[0].round_off, epsilon<TypeParam>());
-  std::swap(problem.constraints[0], problem.constraints[1]);
+  problem.constraints = {problem.constraints[1], problem.constraints[0]};
   found = find_independent(problem, this->vector({"1", "0"}), this->vector({"0", "3"}));
   ASSERT_EQ(found.redundant.size(), 1u);
   EXPECT_EQ(found.redundant[0].bending, 18);

@@ -73,7 +73,7 @@ class Kepler : public ClosedForm {
       before = after;
       after *= 2;
     }
-    if (before > after) std::swap(before, after);
+    if (before > after) swap(before, after);
     Anomaly now = at_anomaly(Mpfr((before + after) / 2));
     const Mpfr negligible = 4 * epsilon<Mpfr>();
     while (after - before > negligible * std::max(magnitude(before), magnitude(after))) {
