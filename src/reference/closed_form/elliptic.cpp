@@ -1,10 +1,37 @@
 #include "hbvm/reference/closed_form/elliptic.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
+
+#include "hbvm/error.hpp"
+#include "hbvm/scalar/binary_exponent.hpp"
+#include "reference/closed_form/rounds.hpp"
 
 namespace hbvm {
 namespace {
+
+/// Rounds in which the digits have doubled to all there are, and some for rounding.
+double doublings_of_digits() { return std::log2(static_cast<double>(significand_bits<Mpfr>())) + 4; }
+
+/// Rounds of the arithmetic-geometric mean of 1 and b, 0 < b <= 1: each halves log(a/b), and from a <= 2 b on c/a is
+/// less than its square before.
+double rounds_of_mean(const Mpfr& b) {
+  return std::log2(2 + std::abs(static_cast<double>(binary_exponent(b)))) + doublings_of_digits();
+}
+
+/// Rounds of a duplication of x, y and z: each divides by 4 what lies `far` from the mean, and lambda is at least the
+/// second greatest of them, so that after the first round none is less than a quarter of that.
+/// \throws IntegrationError if two of them are 0
+double rounds_of_duplication(const Mpfr& far, const Mpfr& end, const Mpfr& x, const Mpfr& y, const Mpfr& z) {
+  const Mpfr second = std::max(std::min(x, y), std::min(std::max(x, y), z));
+  if (!(second > 0)) throw IntegrationError("an elliptic integral of a closed form is infinite");
+  if (far == 0) return 0;
+  constexpr double few = 4;
+  const double drop = static_cast<double>(binary_exponent(far)) - static_cast<double>(binary_exponent(second)) -
+                      static_cast<double>(binary_exponent(end));
+  return std::max(double{0}, drop) / 2 + few;
+}
 
 /// The sixth root of epsilon / 4: at this relative spread the series of degree 5 that ends a duplication has all
 /// digits.
@@ -22,8 +49,10 @@ Mpfr spread(const Mpfr& mean, std::initializer_list<const Mpfr*> values) {
 }
 
 Mpfr pi() { return 4 * atan(Mpfr(1)); }
-/// The multiple of pi next to phi.
-Mpfr half_turns(const Mpfr& phi) { return floor(Mpfr(phi / pi() + Mpfr(1) / 2)); }
+/// The multiple of pi next to phi. For m1 = 0 the amplitude never comes to pi/2, whatever it is rounded to.
+Mpfr half_turns(const Mpfr& phi, const Mpfr& m1) {
+  return m1 == 0 ? Mpfr(0) : Mpfr(floor(Mpfr(phi / pi() + Mpfr(1) / 2)));
+}
 
 /// R_C(1, 1 + e), e > -1.
 Mpfr carlson_rc(const Mpfr& e) {
@@ -39,7 +68,9 @@ Mpfr jacobi_amplitude(const Mpfr& u, const Mpfr& m, const Mpfr& m1) {
   std::vector<Mpfr> ratios;  // c_n / a_n
   Mpfr a = 1, b = sqrt(m1), c = sqrt(m), phi = u;
   const Mpfr negligible = epsilon<Mpfr>();
+  Rounds rounds("the arithmetic-geometric mean of a closed form", rounds_of_mean(b));
   while (abs(c) > negligible * a) {
+    rounds.next();
     const Mpfr mean = (a + b) / 2, geometric = sqrt(Mpfr(a * b));
     c = (a - b) / 2;
     a = mean;
@@ -80,7 +111,9 @@ JacobiMultiples advanced(const JacobiMultiples& start, const Mpfr& m, const Mpfr
 Mpfr carlson_rf(Mpfr x, Mpfr y, Mpfr z) {
   const Mpfr first = (x + y + z) / 3, end = end_of_duplication();
   Mpfr far = spread(first, {&x, &y, &z}), dx = first - x, dy = first - y, mean = first;
+  Rounds rounds("an elliptic integral of a closed form", rounds_of_duplication(far, end, x, y, z));
   while (far > end * mean) {
+    rounds.next();
     const Mpfr rx = sqrt(x), ry = sqrt(y), rz = sqrt(z), lambda = rx * ry + rx * rz + ry * rz;
     x = (x + lambda) / 4;
     y = (y + lambda) / 4;
@@ -98,7 +131,10 @@ Mpfr carlson_rj(Mpfr x, Mpfr y, Mpfr z, Mpfr p) {
   const Mpfr end = end_of_duplication();
   Mpfr mean = (x + y + z + 2 * p) / 5, far = spread(mean, {&x, &y, &z, &p});
   Mpfr dx = mean - x, dy = mean - y, dz = mean - z, delta = (p - x) * (p - y) * (p - z), scale = 1, sum = 0;
+  if (!(p > 0)) throw IntegrationError("an elliptic integral of a closed form is infinite");
+  Rounds rounds("an elliptic integral of a closed form", rounds_of_duplication(far, end, x, y, z));
   while (far > end * mean) {
+    rounds.next();
     const Mpfr rx = sqrt(x), ry = sqrt(y), rz = sqrt(z), rp = sqrt(p), lambda = rx * ry + rx * rz + ry * rz;
     const Mpfr d = (rp + rx) * (rp + ry) * (rp + rz);
     sum += scale / d * carlson_rc(Mpfr(delta / (d * d)));
@@ -122,7 +158,7 @@ Mpfr carlson_rj(Mpfr x, Mpfr y, Mpfr z, Mpfr p) {
 }
 
 Mpfr elliptic_first(const Mpfr& phi, const Mpfr& m1) {
-  const Mpfr turns = half_turns(phi), rest = phi - turns * pi(), s = sin(rest), c = cos(rest),
+  const Mpfr turns = half_turns(phi, m1), rest = phi - turns * pi(), s = sin(rest), c = cos(rest),
              first = s * carlson_rf(Mpfr(c * c), Mpfr(c * c + m1 * s * s), Mpfr(1));
   return turns == 0 ? first : Mpfr(first + 2 * turns * carlson_rf(Mpfr(0), m1, Mpfr(1)));
 }
@@ -131,7 +167,7 @@ EllipticThird::EllipticThird(const Mpfr& n, const Mpfr& n1, const Mpfr& m1)
     : n_(n), n1_(n1), m1_(m1), complete_(m1 > 0 ? Mpfr(n / 3 * carlson_rj(Mpfr(0), m1, Mpfr(1), n1)) : Mpfr(0)) {}
 
 Mpfr EllipticThird::at(const Mpfr& phi) const {
-  const Mpfr turns = half_turns(phi), rest = phi - turns * pi();
+  const Mpfr turns = half_turns(phi, m1_), rest = phi - turns * pi();
   const Mpfr s = sin(rest), s2 = s * s, c = cos(rest), c2 = c * c;
   return 2 * turns * complete_ + n_ / 3 * s2 * s * carlson_rj(c2, Mpfr(c2 + m1_ * s2), Mpfr(1), Mpfr(c2 + n1_ * s2));
 }
@@ -144,7 +180,10 @@ StumpffFunctions stumpff_functions(const Mpfr& x) {
   StumpffFunctions f{Mpfr(0), Mpfr(0), Mpfr(1) / 2, Mpfr(1) / 6};
   Mpfr even = f.c2, odd = f.c3;
   const Mpfr negligible = epsilon<Mpfr>();
+  // Each term is less than a twelfth of the one before.
+  Rounds rounds("a series of a closed form", static_cast<double>(significand_bits<Mpfr>()));
   for (long k = 2; magnitude(even) > negligible * f.c2; k += 2) {
+    rounds.next();
     even *= -x / ((k + 1) * (k + 2));
     odd *= -x / ((k + 2) * (k + 3));
     f.c2 += even;

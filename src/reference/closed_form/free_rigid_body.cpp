@@ -29,8 +29,11 @@ class FreeRigidBody : public ClosedForm {
       twice_T += own[i] * own[i] / I[i];
       side += own[i] * own[i] * (I[i] - I[1]) / I[i];
     }
-    uniform_ = L_ == 0 || I[0] == I[2];
-    if (uniform_) return;
+    // About a principal axis, the middle one too, where the formulas have the modulus 1 and no value.
+    for (Index i = 0; i < 3; ++i)
+      if (own[(i + 1) % 3] == 0 && own[(i + 2) % 3] == 0) steady_ = I[i];
+    if (I[0] == I[2]) steady_ = I[0];
+    if (steady_) return;
     if (side < 0 || I[1] == I[2]) {
       swap(shape_.moments[0], shape_.moments[2]);
       const Vector<Mpfr> first = shape_.axes.col(0);
@@ -64,7 +67,7 @@ class FreeRigidBody : public ClosedForm {
   }
 
   std::string name() const override {
-    return uniform_ ? "uniform rotation of a rigid body" : "free rigid body (Jacobi's functions, elliptic integrals)";
+    return steady_ ? "uniform rotation of a rigid body" : "free rigid body (Jacobi's functions, elliptic integrals)";
   }
 
  private:
@@ -86,12 +89,12 @@ class FreeRigidBody : public ClosedForm {
   State state(const Mpfr& t) const override {
     Matrix<Mpfr> R(3, 3);
     Vector<Mpfr> omega = Vector<Mpfr>::Zero(3);
-    if (uniform_) {
+    if (steady_) {
       R = Matrix<Mpfr>::Identity(3, 3);
       if (L_ > 0) {
         const Vector<Mpfr> axis = shape_.angular / L_;
-        omega = shape_.angular / shape_.moments[0];
-        const Mpfr angle = t * L_ / shape_.moments[0], cosine = cos(angle), sine = sin(angle);
+        omega = shape_.angular / *steady_;
+        const Mpfr angle = t * L_ / *steady_, cosine = cos(angle), sine = sin(angle);
         for (Index j = 0; j < 3; ++j) {
           const Vector<Mpfr> unit = Vector<Mpfr>::Unit(3, j);
           R.col(j) = cosine * unit + sine * cross(axis, unit) + (1 - cosine) * axis[j] * axis;
@@ -124,7 +127,7 @@ class FreeRigidBody : public ClosedForm {
 
   RigidShape shape_;
   Vector<Mpfr> acceleration_;
-  bool uniform_ = false;
+  std::optional<Mpfr> steady_;  ///< the moment about an axis that stays where it is
   Mpfr L_, first_, second_, third_, ratio_, m_, m1_, omega_, u0_, nodes_before_;
   std::optional<EllipticThird> nodes_;
   Matrix<Mpfr> frame_;

@@ -1,6 +1,11 @@
+#include <algorithm>
+#include <cmath>
+
 #include "hbvm/error.hpp"
 #include "hbvm/reference/closed_form/elliptic.hpp"
+#include "hbvm/scalar/binary_exponent.hpp"
 #include "reference/closed_form/recognition.hpp"
+#include "reference/closed_form/rounds.hpp"
 
 namespace hbvm {
 namespace {
@@ -66,22 +71,55 @@ class Kepler : public ClosedForm {
     return {s, s * (r_ * c.c1 + s * (eta_ * c.c2 + mu_ * s * c.c3)), r_ * c.c0 + s * (eta_ * c.c1 + mu_ * s * c.c2), c};
   }
 
-  /// t grows with s: Newton's iteration, with bisection where that would leave what encloses s.
+  /// The least distance from the centre that the motion ever has.
+  Mpfr pericenter() const {
+    const Mpfr square = inner(x_, x_) * inner(v_, v_) - eta_ * eta_;  // of the angular momentum
+    const Mpfr e2 = 1 - alpha_ * square / (mu_ * mu_), e = e2 > 0 ? Mpfr(sqrt(e2)) : Mpfr(0);
+    return mu_ > 0 ? Mpfr(square / (mu_ * (1 + e))) : Mpfr(mu_ * (1 + e) / alpha_);
+  }
+
+  /// A bound of the distance until t, by the greatest speed.
+  Mpfr farthest(const Mpfr& t) const {
+    return r_ + magnitude(t) * sqrt(Mpfr(2 * magnitude(Mpfr(mu_ / pericenter())) + magnitude(alpha_)));
+  }
+
+  /// log2 |a/b|.
+  static double log2_ratio(const Mpfr& a, const Mpfr& b) {
+    return static_cast<double>(binary_exponent(a)) - static_cast<double>(binary_exponent(b));
+  }
+
+  /// t grows with s: Newton's iteration, with bisection where it would leave what encloses s, or does not halve its own
+  /// change in two rounds. Between two bisections there are no more rounds of Newton's than bits, and no more
+  /// bisections than bits.
   Anomaly anomaly(const Mpfr& t) const {
+    constexpr const char* what = "Kepler's equation of a closed form";
     Mpfr before = 0, after = t / r_;
+    // As dt/ds is nowhere less than the least distance, s is at most t over that.
+    constexpr double few = 4;
+    Rounds doublings(what, std::max(double{0}, log2_ratio(r_, pericenter())) + few);
     while ((at_anomaly(after).t - t) * t < 0) {
+      doublings.next();
       before = after;
       after *= 2;
     }
+    // Halvings of what encloses s, which is at least t over the greatest distance.
+    const double bits =
+        static_cast<double>(significand_bits<Mpfr>()) + std::max(double{0}, log2_ratio(after, Mpfr(t / farthest(t))));
     if (before > after) swap(before, after);
+    Mpfr last = after - before, change_before = last;
     Anomaly now = at_anomaly(Mpfr((before + after) / 2));
     const Mpfr negligible = 4 * epsilon<Mpfr>();
+    Rounds rounds(what, (bits + few) * (bits + few));
     while (after - before > negligible * std::max(magnitude(before), magnitude(after))) {
+      rounds.next();
       const Mpfr change = (t - now.t) / now.r;
       if (magnitude(change) <= negligible * magnitude(now.s)) return at_anomaly(Mpfr(now.s + change));
       (change < 0 ? after : before) = now.s;
       Mpfr next = now.s + change;
-      if (!(next > before && next < after)) next = (before + after) / 2;
+      const bool slow = 2 * magnitude(change) > magnitude(change_before);
+      if (slow || !(next > before && next < after)) next = (before + after) / 2;
+      change_before = last;
+      last = next - now.s;
       now = at_anomaly(next);
     }
     return now;

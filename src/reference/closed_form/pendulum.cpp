@@ -42,10 +42,14 @@ class Pendulum : public ClosedForm {
       : ClosedForm(content.scene.problem), sphere_(sphere), down_(down), across_(across) {
     omega_ = sqrt(Mpfr(force / (sphere.mass * sphere.radius)));
     const Vector<Mpfr> arm = content.scene.q0 - sphere.pivot;
-    const Mpfr angle = atan2(inner(arm, across), inner(arm, down));
-    const Vector<Mpfr> forward = cos(angle) * across - sin(angle) * down;
-    start_ = {sin(Mpfr(angle / 2)), inner(content.scene.p0, forward) / (2 * omega_ * sphere.mass * sphere.radius),
-              cos(Mpfr(angle / 2))};
+    // Of the half angle without the angle: at rest above, and below, nothing is left of rounding that would grow.
+    const Mpfr out = inner(arm, across), below = inner(arm, down), length = sqrt(Mpfr(out * out + below * below)),
+               sine = out / length, cosine = below / length;
+    const Mpfr greater = sqrt(Mpfr((1 + magnitude(cosine)) / 2)), less = sine / (2 * greater);
+    const Vector<Mpfr> forward = cosine * across - sine * down;
+    start_ = {cosine < 0 ? greater : less,
+              inner(content.scene.p0, forward) / (2 * omega_ * sphere.mass * sphere.radius),
+              cosine < 0 ? less : greater};
   }
   std::string name() const override { return "simple pendulum (Jacobi's elliptic functions)"; }
 

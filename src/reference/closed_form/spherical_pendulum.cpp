@@ -57,11 +57,15 @@ std::optional<Vector<Mpfr>> plane_of_motion(const Recognition& content, const On
                                             const Vector<Mpfr>& down) {
   const Vector<Mpfr> arm = content.scene.q0 - sphere.pivot, &p = content.scene.p0;
   const Vector<Mpfr> x = arm - inner(arm, down) * down, y = p - inner(p, down) * down;
-  const Mpfr size = norm(arm) + norm(sphere.pivot), across = norm(x), speed = norm(y);
-  // What rounding makes of an angular momentum 0, from positions and momenta that are rounded.
+  const Mpfr across = norm(x), speed = norm(y);
+  // What rounding makes of an angular momentum 0, from positions and momenta each component of which is rounded.
   constexpr int units = 64;
-  const Mpfr rounding = units * content.round_off * (size * speed + norm(p) * across);
-  if (magnitude(inner(down, cross(arm, p))) > rounding) return std::nullopt;
+  Mpfr terms = 0;
+  for (Index j = 0; j < 3; ++j)
+    for (const Index k : {(j + 1) % 3, (j + 2) % 3})
+      terms +=
+          magnitude(down[3 - j - k]) * (magnitude(content.scene.q0[j]) + magnitude(sphere.pivot[j])) * magnitude(p[k]);
+  if (magnitude(inner(down, cross(arm, p))) > units * content.round_off * terms) return std::nullopt;
   // The longer of the two tells the plane.
   const Mpfr lean = across / norm(arm), course = speed == 0 ? Mpfr(0) : Mpfr(speed / norm(p));
   if (lean >= course && lean > 0) return Vector<Mpfr>(x / across);

@@ -5,6 +5,7 @@
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 #include <cmath>
 
+#include "hbvm/error.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
 
@@ -232,6 +233,28 @@ TEST_F(Jacobi, AdvanceByTheAdditionTheorem) {
       expect_near(found.kappa_cn, exact.kappa_cn, 100 * few_ulps(), "kappa cn");
       expect_near(found.dn, exact.dn, 100 * few_ulps(), "dn");
     }
+  }
+}
+
+/// Where an integral is infinite, and where the modulus is so near 1 that no rounding of it shows that.
+TEST_F(Jacobi, ModulusOneHasNoQuarterPeriod) {
+  const Mpfr half = 2 * atan(Mpfr(1));
+  EXPECT_THROW(carlson_rf(Mpfr(0), Mpfr(0), Mpfr(1)), IntegrationError);
+  EXPECT_THROW(carlson_rf(Mpfr(1), Mpfr(0), Mpfr(0)), IntegrationError);
+  EXPECT_THROW(carlson_rj(Mpfr(0), Mpfr(0), Mpfr(1), Mpfr(2)), IntegrationError);
+  EXPECT_THROW(carlson_rj(Mpfr(0), Mpfr(1), Mpfr(1), Mpfr(0)), IntegrationError);
+  // K = log(4/kappa') and nothing more that counts.
+  for (const char* text : {"1e-100", "1e-1000"}) {
+    const Mpfr m1 = literal<Mpfr>(text);
+    expect_near(carlson_rf(Mpfr(0), m1, Mpfr(1)), log(4 / sqrt(m1)), 1000 * few_ulps(), text);
+  }
+  // The amplitude comes as near to pi/2 as rounding has it, and no further.
+  for (const char* text : {"1", "100", "1000", "1e6"}) {
+    const Mpfr u = literal<Mpfr>(text);
+    EXPECT_LE(jacobi_amplitude(u, Mpfr(1), Mpfr(0)), half + few_ulps()) << text;
+    const EllipticThird third(Mpfr(-3), Mpfr(4), Mpfr(0));
+    EXPECT_LT(third.at(jacobi_amplitude(u, Mpfr(1), Mpfr(0))), 0) << text;
+    EXPECT_GT(third.at(jacobi_amplitude(Mpfr(-u), Mpfr(1), Mpfr(0))), 0) << text;
   }
 }
 

@@ -34,6 +34,44 @@ TEST(FreeRigidBody, TurnsAboutItsPrincipalAxes) {
     }
 }
 
+/// Directors that are the axes, and a body that turns about one of them: about the middle one, where the modulus is 1,
+/// and beside it by less than any digit.
+TEST(FreeRigidBody, TurnsSteadilyAboutEachAxis) {
+  RigidScene scene;
+  scene.directors = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
+  for (const unsigned digits : {15U, 40U})
+    for (const char* omega : {"[0, 5, 0]", "[5, 0, 0]", "[0, 0, -5]", "[0, 0, 0]"}) {
+      scene.omega = omega;
+      expect_follows_taylor(scene.text(), "uniform rotation", {"1/3", "2"}, digits, 8);
+    }
+  for (const unsigned digits : {15U, 40U})
+    for (const char* omega :
+         {"[\"1e-20\", 5, 0]", "[0, 5, \"1e-40\"]", "[\"1e-400\", 5, 0]", "[\"1e-12\", -5, \"1e-300\"]",
+          "[5, \"1e-200\", 0]", "[\"1e-90\", 0, 5]", "[\"1e-9\", \"1e-50\", \"1e-90\"]"}) {
+      scene.omega = omega;
+      expect_follows_taylor(scene.text(), body_name, {"1/3", "2"}, digits, 10);
+    }
+}
+
+/// A symmetric body whose axis stands anyhow among the directors tumbles end over end; and turns about it.
+TEST(FreeRigidBody, TumblesEndOverEnd) {
+  RigidScene scene;
+  scene.directors = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
+  for (const char* moments : {"[[1, 0, 0], [0, 1, 0], [0, 0, 2]]", "[[2, 0, 0], [0, 1, 0], [0, 0, 1]]",
+                              "[[1, 0, 0], [0, 2, 0], [0, 0, 1]]", "[[2, 0, 0], [0, 2, 0], [0, 0, 1]]",
+                              "[[1, 0, 0], [0, 2, 0], [0, 0, 2]]", "[[2, 0, 0], [0, 1, 0], [0, 0, 2]]"}) {
+    scene.second_moment = moments;
+    for (const char* omega : {"[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"}) {
+      scene.omega = omega;
+      expect_follows_taylor(scene.text(), "uniform rotation", {"3"}, 30, 8);
+    }
+    for (const char* omega : {"[1, 1, 0]", "[1, 0, 1]", "[0, -1, 1]"}) {
+      scene.omega = omega;
+      expect_follows_taylor(scene.text(), "", {"3"}, 30, 8);
+    }
+  }
+}
+
 /// Two moments equal, of the greater or the less; turning across the axis of symmetry and obliquely; and all three.
 TEST(FreeRigidBody, OfSymmetricBodies) {
   for (const char* moments :

@@ -37,6 +37,26 @@ TEST(Kepler, OfEveryEccentricity) {
   expect_follows_taylor(planet(2, "[1, 0]", "[-3, \"1/2\"]", "1", sun("1")), kepler_name, {"1/3", "5"}, 50, 12);
 }
 
+/// Nearly straight in, and out; from the far end of an ellipse of eccentricity 1 - 1e-12, and from its near end.
+TEST(Kepler, OfNearlyRadialOrbits) {
+  for (const char* speed : {"1e-6", "1e-10"})
+    expect_follows_taylor(planet(2, "[1, 0]", "[0, \"" + std::string(speed) + "\"]", "1", sun("1")), kepler_name,
+                          {"1/3", "1", "2"}, 60, 40);
+  expect_follows_taylor(planet(2, "[1, 0]", "[2, \"1e-20\"]", "1", sun("1")), kepler_name, {"1/3", "20"}, 50, 12);
+  expect_follows_taylor(planet(2, "[1, 0]", "[\"sqrt(2)\", \"1e-20\"]", "1", sun("1")), kepler_name, {"1/3", "20"}, 50,
+                        12);
+  expect_follows_taylor(planet(2, "[\"1e-6\", 0]", "[0, \"sqrt((2 - 1e-6)*1e6)\"]", "1", sun("1")), kepler_name,
+                        {"1e-8", "1/10"}, 60, 30);
+}
+
+/// A charge at rest is driven away, a centre that hardly attracts leaves a straight line.
+TEST(Kepler, OfRestAndOfWeakForces) {
+  const std::string coulomb = "[[effect]]\nkind = \"coulomb\"\nstrength = -3\n";
+  for (const char* velocity : {"[0, 0]", "[-1, 0]", "[1, 0]", "[0, \"1e-30\"]"})
+    expect_follows_taylor(planet(2, "[1, 0]", velocity, "2", coulomb), kepler_name, {"1/3", "20"}, 40, 10);
+  expect_follows_taylor(planet(2, "[1, 0]", "[0, 1]", "1", sun("1e-60")), kepler_name, {"1/3", "20"}, 40, 10);
+}
+
 TEST(Kepler, AttractedAndRepelledByCharges) {
   const std::string coulomb = "[[effect]]\nkind = \"coulomb\"\nstrength = ";
   expect_follows_taylor(planet(2, "[1, 0]", "[0, 1]", "2", coulomb + "3\n"), kepler_name, {"1/3", "8"}, 40, 10);

@@ -66,6 +66,13 @@ TEST(Pendulum, AtRestBelowAndAboveAndOnTheSeparatrix) {
     expect_follows_taylor(plain("[0, -1]", speed, "[0, -1]"), pendulum_name, {"20", "60"}, 60, 30);
 }
 
+/// At rest above, exactly, for longer than rounding would leave it there; and beside it by less than any digit.
+TEST(Pendulum, StaysAboveWhereItRests) {
+  expect_follows_taylor(plain("[0, 1]", "[0, 0]", "[0, -1]"), pendulum_name, {"1000"}, 20);
+  expect_follows_taylor(plain("[0, 1]", "[\"1e-200\", 0]", "[0, -1]"), pendulum_name, {"1", "10"}, 30, 14);
+  expect_follows_taylor(plain("[0, -1]", "[\"1e-200\", 0]", "[0, -1]"), pendulum_name, {"1", "10"}, 30);
+}
+
 TEST(Pendulum, WithoutGravityIsACircle) {
   Fractions random(3);
   expect_follows_taylor(pendulum_scene(random, 2, "1", "[0, 0]"), "uniform circular motion", {"1", "9"});

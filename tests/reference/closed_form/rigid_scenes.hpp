@@ -9,15 +9,16 @@ namespace hbvm {
 struct RigidScene {
   std::string fixed = "", position = "[1, \"-1/3\", 2]", velocity = "[\"1/2\", \"1/4\", -1]", mass = "2",
               center = "[0, 0, 0]", second_moment = "[[\"1/2\", 0, 0], [0, \"1/3\", 0], [0, 0, \"1/4\"]]",
+              directors =
+                  "[[\"4/9\", \"4/9\", \"7/9\"], [\"1/9\", \"-8/9\", \"4/9\"], [\"8/9\", \"-1/9\", "
+                  "\"-4/9\"]]",
               omega = "[\"1/3\", -2, 1]", more = "";
 
   std::string text() const {
     return "dimension = 3\n[[rigid_body]]\nname = \"body\"\n" +
            (fixed.empty() ? "position = " + position + "\nvelocity = " + velocity : "fixed_at = " + fixed) +
            "\nmass = " + mass + "\ncenter = " + center + "\nsecond_moment = " + second_moment +
-           "\ndirectors = [[\"4/9\", \"4/9\", \"7/9\"], [\"1/9\", \"-8/9\", \"4/9\"], [\"8/9\", \"-1/9\", "
-           "\"-4/9\"]]\n" +
-           "angular_velocity = " + omega + "\n" + more;
+           "\ndirectors = " + directors + "\nangular_velocity = " + omega + "\n" + more;
   }
 };
 

@@ -55,6 +55,25 @@ TEST(SphericalPendulum, NearAPlane) {
           spherical_name, {"1", "10"}, 50, 12);
 }
 
+/// So small a cone that the square of its radius is less than a digit, and the same beside the highest point.
+TEST(SphericalPendulum, OnASmallCone) {
+  for (const char* r : {"1e-5", "1e-18", "1e-60"})
+    for (const char* side : {"-", ""}) {
+      const std::string radius = r, height = side + ("sqrt(1 - " + radius + "^2)");
+      expect_follows_taylor(
+          bob(("[\"" + radius + "\", 0, \"" + height + "\"]").c_str(), ("[0, \"" + radius + "\", 0]").c_str()),
+          spherical_name, {"1", "5"}, 30, 10);
+    }
+}
+
+/// Beside the motion to the highest point that takes for ever, where two roots nearly coincide.
+TEST(SphericalPendulum, NearTheSeparatrix) {
+  for (const char* aside : {"1e-10", "1e-25", "1e-40"})
+    expect_follows_taylor(bob("[\"3/5\", 0, \"-4/5\"]",
+                              ("[\"4/5*sqrt(18/5)\", \"" + std::string(aside) + "\", \"3/5*sqrt(18/5)\"]").c_str()),
+                          spherical_name, {"1", "10"}, 50, 16);
+}
+
 /// From a turning point, the equator, and upwards as well as downwards.
 TEST(SphericalPendulum, FromSpecialStarts) {
   expect_follows_taylor(bob("[1, 0, 0]", "[0, \"1/3\", 0]"), spherical_name, {"1", "10"});

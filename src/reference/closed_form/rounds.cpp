@@ -1,0 +1,18 @@
+#include "reference/closed_form/rounds.hpp"
+
+#include <fmt/format.h>
+
+#include "hbvm/interruption.hpp"
+
+namespace hbvm {
+
+void Rounds::next() {
+  if (const int signal = interruption) throw Interrupted(signal, fmt::format("{} was not finished", what_));
+  // Not finite where the numbers of the loop are not.
+  if (!(made_ < most_))
+    throw IntegrationError(
+        fmt::format("{} does not end: {} rounds were made, and {} should suffice", what_, made_, most_));
+  ++made_;
+}
+
+}  // namespace hbvm
