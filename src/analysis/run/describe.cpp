@@ -6,6 +6,7 @@
 #include <set>
 
 #include "hbvm/analysis/choose_k.hpp"
+#include "hbvm/problem/effect/execution.hpp"
 #include "hbvm/problem/effect/trace.hpp"
 #include "hbvm/problem/momenta.hpp"
 #include "hbvm/problem/point.hpp"
@@ -57,10 +58,28 @@ std::string inertia_of(const SceneRigidBody& body, const Scene& scene) {
   return text + " about the centre of mass";
 }
 
+/// Refuses an effect that has no value at the start, as the attraction of two bodies in one place.
+template <Scalar S>
+void refuse_singular(const Scene& scene, const Assembled<S>& assembled) {
+  for (std::size_t i = 0; i < assembled.reach.size(); ++i) {
+    const EffectTerm<S>& term = assembled.problem.potential.terms[i];
+    Matrix<S> x(term.instances(), term.arguments * scene.dimension);
+    displace(term, scene.dimension, lanes(assembled.q0), x.data(), x.rows());
+    Execution<S> U(term.value, term.value_coefficients, x, 1);
+    U.run();
+    for (Index n = 0; n < term.instances(); ++n)
+      if (!is_finite(U.output(0, n)))
+        throw InputError(fmt::format("{}:{}: effect {} ({}) has no value at the start on {}", scene.name,
+                                     scene.effects[i].line, i + 1, term.kind,
+                                     to_text(EffectReach{{assembled.reach[i].on[static_cast<std::size_t>(n)]}})));
+  }
+}
+
 template <Scalar S>
 std::string describe_in(const Scene& scene) {
   const Assembled<S> assembled = assemble<S>(scene);
   const Problem<S>& problem = assembled.problem;
+  refuse_singular(scene, assembled);
   const auto& q = assembled.q0;
   const auto& p = assembled.p0;
   std::string text = fmt::format("{}: {}\n", scene.name, scene.title);
