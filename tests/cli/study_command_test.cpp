@@ -82,6 +82,7 @@ TEST_F(StudyCommand, ChecksTheExpectedFigures) {
               std::string::npos)
         << outcome.out;
     EXPECT_TRUE(outcome.out.ends_with("2 of 2 printed figures agree\n")) << outcome.out;
+    EXPECT_EQ(outcome.out.find("<!--"), std::string::npos) << "a comment is for the file";
     for (const int i : {1, 2}) EXPECT_NE(outcome.out.find(figure(i)), std::string::npos) << outcome.out;
   }
 }

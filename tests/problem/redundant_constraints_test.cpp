@@ -85,7 +85,7 @@ TYPED_TEST(RedundantConstraintsTest, ShareTheMultipliers) {
   full.potential.m = 2;
   for (const int factor : {1, 2, 3}) {
     const Vector<S> normal = (Vector<S>(2) << S(factor), S(-factor)).finished();
-    full.constraints.push_back({"plane", Plane<S>{0, normal, S(0)}});
+    full.constraints.push_back({"plane", Plane<S>{{0}, normal, S(0)}});
   }
   const Vector<S> q = Vector<S>::Zero(2), lambda = Vector<S>::Constant(1, S(28));
   const typename TestFixture::Split split(full, q);

@@ -39,6 +39,17 @@ bool is_tableau(const Claim& claim) { return as_tableau(*claim.method) != nullpt
 /// By how much the rate of what is measured exceeds the rate that is claimed.
 double offset(const Claim& claim) { return is_tableau(claim) && claim.span == Span::interval ? 1 : 0; }
 
+/// The first of them that holds the numbers of a scene: 1e-420 is none of double.
+std::size_t first_level(const std::string& problem) {
+  const Scene scene = load_scene(problem);
+  for (std::size_t level = 0; level < std::size(precisions); ++level) try {
+      with_scalar(Precision::parse(precisions[level]), [&]<Scalar S>() { assemble<S>(scene, Consistency::unchecked); });
+      return level;
+    } catch (const InputError&) {  // told of the first one if none does
+    }
+  return 0;
+}
+
 bool is_rate(const Claim& claim) { return claim.form == Form::at_least || claim.form == Form::exactly; }
 
 }  // namespace
@@ -177,7 +188,7 @@ std::string Auditor::reference() const {
 
 template <class Measure>
 void Auditor::climb(const std::vector<std::size_t>& members, std::size_t at_least, const Measure& measure) {
-  for (std::size_t level = 0; level < std::size(precisions); ++level) {
+  for (std::size_t level = first_level(cell_.subject().problem); level < std::size(precisions); ++level) {
     const Precision precision = Precision::parse(precisions[level]);
     const Ladders ladders = with_scalar(precision, measure);
     if (level + 1 == deep && !steps_.empty() && &members == &steps_) deep_ = ladders;
@@ -299,7 +310,7 @@ void Auditor::conserve_in(const Precision& precision, int log2_step, long steps)
 }
 
 void Auditor::conserve() {
-  for (std::size_t level = 0; level < deep; ++level)
+  for (std::size_t level = first_level(cell_.subject().problem); level < deep; ++level)
     conserve_in(Precision::parse(precisions[level]), short_steps.log2_step, short_steps.steps * cell_.windows);
   int digits = 0;
   std::vector<std::size_t> unproved;

@@ -134,6 +134,7 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   const Snapshot<S>& end = simulated.integration.end;
   if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_H);
   if (stepper.halving()) result.halving = report_halving(*stepper.halving(), grid);
+  result.settled = scene.settled;
   result.step = to_text(grid.step());
   result.until = to_text(grid.until());
   result.t = to_text(end.t);
