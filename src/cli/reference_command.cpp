@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "against_results.hpp"
 #include "commands.hpp"
-#include "hbvm/analysis/against.hpp"
 #include "hbvm/analysis/cells.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"
@@ -27,8 +27,9 @@ namespace hbvm {
 namespace {
 
 struct ReferenceArguments {
-  std::optional<std::string> scene, until, route, out, verify, show, plot, checkpoint;
-  std::vector<std::string> at, against, map;
+  std::optional<std::string> scene, until, route, out, verify, show, checkpoint;
+  std::vector<std::string> at;
+  AgainstArguments against;
   int digits = 30;
   bool json = false, list = false, force = false;
 };
@@ -209,110 +210,9 @@ void verify(const ReferenceArguments& o) {
   fmt::print("{}: all digits of {} times are found again\n", *o.verify, r.times.size());
 }
 
-/// "theirs=ours": theirs may hold no "=".
-std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::string>> map;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-      throw InputError("--map: '" + text + "' is not of the form theirs=ours");
-    map.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return map;
-}
-
-nlohmann::ordered_json json_of(const Against& against) {
-  nlohmann::ordered_json j{{"digits", against.digits}, {"files", nlohmann::ordered_json::array()}};
-  for (const FileAgainst& file : against.files) {
-    nlohmann::ordered_json entry{{"name", file.name}, {"t", file.times}, {"unused", file.unused}};
-    for (const ComponentDigits& c : file.components) entry["right_digits"][c.name] = c.digits;
-    entry["log10_H_drift"] = file.H_drift;
-    entry["log10_g_drift"] = file.g_drift;
-    entry["reference"] = file.stored ? "stored" : "computed now";
-    j["files"].push_back(entry);
-  }
-  j["by_growth"] = against.by_growth;
-  j["orders"] = against.orders;
-  return j;
-}
-
-void print(const FileAgainst& file, const std::vector<double>& by_growth) {
-  fmt::print("{}\n", file.name);
-  for (const std::string& reason : file.unused) fmt::print("  not used: {}\n", reason);
-  fmt::print("  {:<16}{:>7}  {:<14}{:>16}{:>8}{:>8}\n", "t", "digits", "least right", "growth leaves", "H off",
-             "g off");
-  constexpr std::size_t most_lines = 20;
-  const std::size_t lines = std::min(most_lines, file.times.size());
-  const auto power = [](const std::vector<double>& drift, std::size_t n) {
-    return n < drift.size() ? std::isinf(drift[n]) ? std::string("0") : fmt::format("1e{:.0f}", drift[n])
-                            : std::string("-");
-  };
-  for (std::size_t i = 1; i <= lines; ++i) {
-    const std::size_t n = file.times.size() * i / lines - 1;
-    const auto worst = std::min_element(file.components.begin(), file.components.end(),
-                                        [n](const auto& a, const auto& b) { return a.digits[n] < b.digits[n]; });
-    fmt::print("  {:<16}{:>7.1f}  {:<14}{:>16}{:>8}{:>8}\n", file.times[n], worst->digits[n], worst->name,
-               n < by_growth.size() ? fmt::format("{:.1f}", by_growth[n]) : "", power(file.H_drift, n),
-               power(file.g_drift, n));
-  }
-  fmt::print("  at the end:");
-  for (const ComponentDigits& c : file.components) fmt::print(" {} {:.1f}", c.name, c.digits.back());
-  // Where most is lost from one time to the next.
-  std::size_t where = 0;
-  const ComponentDigits* what = nullptr;
-  double most = 1;
-  for (const ComponentDigits& c : file.components)
-    for (std::size_t n = 1; n < c.digits.size(); ++n)
-      if (c.digits[n - 1] - c.digits[n] > most) {
-        most = c.digits[n - 1] - c.digits[n];
-        where = n;
-        what = &c;
-      }
-  if (what)
-    fmt::print("\n  most is lost between t = {} and {}: {:.1f} digits of {}", file.times[where - 1], file.times[where],
-               most, what->name);
-  fmt::print("\n");
-}
-
-void compare(const ReferenceArguments& o) {
-  if (!o.scene)
-    throw InputError("reference --against: a scene is missing, as in hbvm reference SCENE --against FILE.csv");
-  AgainstRequest request;
-  request.scene = load_scene(*o.scene);
-  for (const std::string& file : o.against) request.files.push_back({file, read_file(file)});
-  request.map = read_map(o.map);
-  ProgressBar bar("reference");
-  end_runs_on_signals();
-  request.progress = [&bar](double part) {
-    constexpr long parts = 10'000;
-    bar.update(static_cast<long>(part * parts), parts);
-    if (const int signal = interruption) throw Interrupted(signal, "the comparison was not finished");
-  };
-  const Against against = compare_with_reference(request);
-  if (o.plot) {
-    draw(against_figure(request, against, "against"), *o.plot);
-    say_written(*o.plot);
-  }
-  if (o.json) {
-    std::cout << json_of(against).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
-    return;
-  }
-  const bool stored = std::all_of(against.files.begin(), against.files.end(), [](const auto& f) { return f.stored; });
-  fmt::print("right digits beside a reference of {} digits, {}\n", against.digits, stored ? "stored" : "computed now");
-  for (std::size_t f = 0; f < against.files.size(); ++f)
-    print(against.files[f], f == 0 ? against.by_growth : std::vector<double>());
-  for (std::size_t f = 0; f < against.orders.size(); ++f) {
-    const FileAgainst &a = against.files[f], &b = against.files[f + 1];
-    fmt::print("order of convergence from {} to {}: {}\n", a.name, b.name,
-               std::isfinite(against.orders[f]) ? fmt::format("{:.2f}", against.orders[f])
-                                                : fmt::format("none, with steps of {:.3g} and {:.3g} to t = {} and {}",
-                                                              a.step, b.step, a.times.back(), b.times.back()));
-  }
-}
-
 void reference_command(const ReferenceArguments& o) {
-  if (!o.against.empty()) return compare(o);
-  if (!o.map.empty() || o.plot) throw InputError("reference: --map and --plot go with --against");
+  if (!o.against.files.empty()) return compare_results(o.scene, o.json, o.against);
+  o.against.refuse_alone();
   if (o.list) return list_references();
   if (o.show) return show_references(*o.show);
   if (o.verify) return verify(o);
@@ -365,15 +265,7 @@ void add_reference_command(CLI::App& app) {
   command->add_flag("--list", o->list, "List the references that are shipped");
   command->add_option("--show", o->show, "Print those of a scene, and how to load them elsewhere");
   command->add_option("--verify", o->verify, "Compute the reference of this file again, and compare digit by digit");
-  command
-      ->add_option("--against", o->against, "Files of results of any program, CSV: how many of their digits are right")
-      ->delimiter(',');
-  command
-      ->add_option("--map", o->map,
-                   "What their columns are, \"theirs=ours,...\": theirs an expression in their names, ours t or a name "
-                   "of q, p or velocity, as in sin(theta)=bob.x")
-      ->delimiter(',');
-  command->add_option("--plot", o->plot, "With --against: digits against time, SVG, PDF or PNG");
+  add_against_options(*command, o->against);
   command->footer("Example: hbvm reference tethered_satellites --until 10 --digits 50");
   command->callback([o] { reference_command(*o); });
 }
