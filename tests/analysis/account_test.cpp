@@ -110,8 +110,8 @@ TEST(AccountBalance, BringsElapsedTimeToThatOfTheProcessorAndAddsTheRest) {
   // Nor is a line that was held up longer than all steps: 9 seconds of 8.
   Account held = account();
   held.lines.pop_back();
-  balance(held, 3, 8);
-  EXPECT_EQ(held.lines[0].seconds, 1 / double{3});
+  balance(held, 9 / double{2}, 8);
+  EXPECT_EQ(held.lines[0].seconds, 1 / double{2});
   EXPECT_EQ(held.lines.back().seconds, 0);
 }
 
