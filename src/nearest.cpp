@@ -42,4 +42,11 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return guess.empty() ? guess : ": did you mean '" + guess + "'?";
 }
 
+std::string did_you_mean_or_list(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string guess = did_you_mean(word, candidates);
+  std::string list;
+  for (const std::string& candidate : candidates) list += (list.empty() ? "" : ", ") + candidate;
+  return guess + (guess.empty() ? "; there are " : " There are ") + list;
+}
+
 }  // namespace hbvm

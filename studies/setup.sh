@@ -1,11 +1,11 @@
 # Shared by studies/run and tests/run: packages and builds. Sourced with the project's folder as the current one.
 
-build_packages="g++ cmake ninja-build libboost1.81-dev libeigen3-dev libmpfr-dev libtomlplusplus-dev libcli11-dev
+build_packages="g++ cmake ninja-build libboost1.81-dev libeigen3-dev libmpfr-dev libflint-arb-dev libflint-dev libtomlplusplus-dev libcli11-dev
   libfmt-dev nlohmann-json3-dev libjs-dygraphs gnuplot-nox"
-test_packages="libgtest-dev libflint-arb-dev libflint-dev pkg-config doxygen clang-format-14 clang-tidy-14
+test_packages="libgtest-dev pkg-config doxygen clang-format-14 clang-tidy-14
   chromium"
 clang_packages="clang libclang-rt-14-dev"
-speed_packages="libbenchmark-dev libflint-arb-dev libflint-dev"
+speed_packages="libbenchmark-dev"
 
 # What apt-get says, in one line that grows on a terminal, and in a few elsewhere.
 show_installing() {

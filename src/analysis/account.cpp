@@ -20,7 +20,10 @@ void add_parts(Account& account, const std::vector<PartCount>& parts) {
 }
 
 void balance(Account& account, double cpu_seconds, double elapsed_seconds) {
-  const double share = elapsed_seconds > 0 ? std::min(cpu_seconds / elapsed_seconds, double{1}) : 1;
+  double measured = 0;
+  for (const AccountLine& line : account.lines) measured += line.seconds;
+  const double elapsed = std::max(elapsed_seconds, measured);
+  const double share = elapsed > 0 ? std::min(cpu_seconds / elapsed, double{1}) : 1;
   double left = cpu_seconds;
   for (AccountLine& line : account.lines) {
     line.seconds *= share;

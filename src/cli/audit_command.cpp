@@ -61,7 +61,8 @@ std::vector<Claim> claims_about(const std::string& method) {
   const auto& families = method_families();
   const bool known =
       std::any_of(families.begin(), families.end(), [&](const MethodFamily& f) { return f.name == spec.family; });
-  if (!known || fs::is_regular_file(method)) return tableau_claims(read_tableau(method));
+  const bool names_a_file = method.ends_with(".toml") || method.find('/') != std::string::npos;
+  if (fs::is_regular_file(method) || (!known && names_a_file)) return tableau_claims(read_tableau(method));
   const MethodPtr parsed = parse_method(method);
   const TableauMethod* const tableau = as_tableau(*parsed);
   if (tableau && tableau->on_constraints() == OnConstraints::drift) return tableau_claims(tableau->tableau());

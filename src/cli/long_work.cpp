@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <thread>
 
 #include "hbvm/error.hpp"
+#include "hbvm/file_lock.hpp"
+#include "written.hpp"
 
 namespace hbvm {
 
@@ -44,9 +47,17 @@ void WorkArguments::add_to(CLI::App& command, const std::string& help_of_out, co
 }
 
 fs::path make_out_folder(const std::string& out) {
+  refuse_dash("--out", out);
   std::error_code failure;
   fs::create_directories(out, failure);
   if (failure) throw InputError("--out: cannot make the folder '" + out + "': " + failure.message());
+  // Held to the end of the program: two at once would mix their results.
+  static std::map<fs::path, FileLock> held;
+  try {
+    held.try_emplace(fs::canonical(out), out);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--out: ") + error.what());
+  }
   return out;
 }
 

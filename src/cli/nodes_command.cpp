@@ -44,7 +44,8 @@ void add_nodes_command(CLI::App& app) {
   auto o = std::make_shared<NodesArguments>();
   CLI::App* const command = app.add_subcommand("nodes", "Print Gauss-Legendre abscissae and weights on [0,1]");
   command->add_option("N", o->n, "Number of nodes, 1 to " + std::to_string(max_quadrature_nodes))->required();
-  command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
+  command->add_option("--precision", o->precision, "double, quad, or mpfr:N, or N alone, for N digits")
+      ->capture_default_str();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer("Example: hbvm nodes 5 --precision mpfr:50");
   command->callback([o] { nodes_command(*o); });

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "against_results.hpp"
 #include "commands.hpp"
-#include "hbvm/analysis/against.hpp"
 #include "hbvm/analysis/cells.hpp"
 #include "hbvm/interruption.hpp"
 #include "hbvm/read_file.hpp"
@@ -27,10 +27,11 @@ namespace hbvm {
 namespace {
 
 struct ReferenceArguments {
-  std::optional<std::string> scene, until, route, out, verify, show, plot, checkpoint;
-  std::vector<std::string> at, against, map;
+  std::optional<std::string> scene, until, route, out, verify, show, checkpoint;
+  std::vector<std::string> at;
+  AgainstArguments against;
   int digits = 30;
-  bool json = false, list = false;
+  bool json = false, list = false, force = false;
 };
 
 Expression time_of(const std::string& text) {
@@ -66,6 +67,11 @@ Reference compute(ReferenceRequest request, const std::optional<std::string>& fi
     };
   }
   end_runs_on_signals();
+  request.estimate = [](const Effort& effort) {
+    constexpr double long_work = 60;
+    if (effort.seconds > long_work)
+      fmt::print(stderr, "route {}: about {}\n", effort.route, duration_text(effort.seconds));
+  };
   request.progress = [&](double part) {
     constexpr long parts = 10'000;
     bar.update(static_cast<long>(part * parts), parts);
@@ -97,21 +103,42 @@ nlohmann::ordered_json json_of(const Reference& r, const std::string& until, con
   return j;
 }
 
-void print_vector(const char* symbol, const std::vector<std::string>& names, const std::vector<std::string>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    fmt::print("  {:<9}{:<12}{}\n", fmt::format("{}_{}", symbol, i + 1), i < names.size() ? names[i] : "", values[i]);
-}
+/// Lines of a name and a number, the numbers below one another.
+class Lines {
+ public:
+  void add(const std::string& symbol, const std::string& name, const std::string& value) {
+    lines_.push_back({symbol, name, value});
+    symbols_ = std::max(symbols_, symbol.size());
+    names_ = std::max(names_, name.size());
+  }
+  void add_vector(const char* symbol, const std::vector<std::string>& names, const std::vector<std::string>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      add(fmt::format("{}_{}", symbol, i + 1), i < names.size() ? names[i] : "", values[i]);
+  }
+  void print() const {
+    for (const Line& line : lines_)
+      fmt::print("  {:<{}}  {:<{}}  {}\n", line.symbol, symbols_, line.name, names_, line.value);
+  }
+
+ private:
+  struct Line {
+    std::string symbol, name, value;
+  };
+  std::vector<Line> lines_;
+  std::size_t symbols_ = 0, names_ = 0;
+};
 
 void print(const Scene& scene, const Reference& r) {
   fmt::print("{}: {}\n", r.scene, r.title);
   for (const ReferenceState& state : r.times) {
     fmt::print("\nt = {}\n", state.t);
-    print_vector("q", coordinate_names(scene), state.q);
-    print_vector("p", coordinate_names(scene, "p"), state.p);
-    print_vector("lambda", {}, state.lambda);
-    fmt::print("  {:<21}{}\n", "H", state.H);
-    for (std::size_t i = 0; i < state.momenta.size(); ++i)
-      fmt::print("  {:<21}{}\n", r.momentum_names[i], state.momenta[i]);
+    Lines lines;
+    lines.add_vector("q", coordinate_names(scene), state.q);
+    lines.add_vector("p", coordinate_names(scene, "p"), state.p);
+    lines.add_vector("lambda", {}, state.lambda);
+    lines.add("H", "", state.H);
+    for (std::size_t i = 0; i < state.momenta.size(); ++i) lines.add(r.momentum_names[i], "", state.momenta[i]);
+    lines.print();
     if (r.routes.size() > 1)
       fmt::print("{} digits after the leading one; the routes agree in {}\n", r.digits, state.agreed);
     else
@@ -183,110 +210,9 @@ void verify(const ReferenceArguments& o) {
   fmt::print("{}: all digits of {} times are found again\n", *o.verify, r.times.size());
 }
 
-/// "theirs=ours": theirs may hold no "=".
-std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::string>> map;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-      throw InputError("--map: '" + text + "' is not of the form theirs=ours");
-    map.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return map;
-}
-
-nlohmann::ordered_json json_of(const Against& against) {
-  nlohmann::ordered_json j{{"digits", against.digits}, {"files", nlohmann::ordered_json::array()}};
-  for (const FileAgainst& file : against.files) {
-    nlohmann::ordered_json entry{{"name", file.name}, {"t", file.times}, {"unused", file.unused}};
-    for (const ComponentDigits& c : file.components) entry["right_digits"][c.name] = c.digits;
-    entry["log10_H_drift"] = file.H_drift;
-    entry["log10_g_drift"] = file.g_drift;
-    entry["reference"] = file.stored ? "stored" : "computed now";
-    j["files"].push_back(entry);
-  }
-  j["by_growth"] = against.by_growth;
-  j["orders"] = against.orders;
-  return j;
-}
-
-void print(const FileAgainst& file, const std::vector<double>& by_growth) {
-  fmt::print("{}\n", file.name);
-  for (const std::string& reason : file.unused) fmt::print("  not used: {}\n", reason);
-  fmt::print("  {:<16}{:>7}  {:<14}{:>16}{:>8}{:>8}\n", "t", "digits", "least right", "growth leaves", "H off",
-             "g off");
-  constexpr std::size_t most_lines = 20;
-  const std::size_t lines = std::min(most_lines, file.times.size());
-  const auto power = [](const std::vector<double>& drift, std::size_t n) {
-    return n < drift.size() ? std::isinf(drift[n]) ? std::string("0") : fmt::format("1e{:.0f}", drift[n])
-                            : std::string("-");
-  };
-  for (std::size_t i = 1; i <= lines; ++i) {
-    const std::size_t n = file.times.size() * i / lines - 1;
-    const auto worst = std::min_element(file.components.begin(), file.components.end(),
-                                        [n](const auto& a, const auto& b) { return a.digits[n] < b.digits[n]; });
-    fmt::print("  {:<16}{:>7.1f}  {:<14}{:>16}{:>8}{:>8}\n", file.times[n], worst->digits[n], worst->name,
-               n < by_growth.size() ? fmt::format("{:.1f}", by_growth[n]) : "", power(file.H_drift, n),
-               power(file.g_drift, n));
-  }
-  fmt::print("  at the end:");
-  for (const ComponentDigits& c : file.components) fmt::print(" {} {:.1f}", c.name, c.digits.back());
-  // Where most is lost from one time to the next.
-  std::size_t where = 0;
-  const ComponentDigits* what = nullptr;
-  double most = 1;
-  for (const ComponentDigits& c : file.components)
-    for (std::size_t n = 1; n < c.digits.size(); ++n)
-      if (c.digits[n - 1] - c.digits[n] > most) {
-        most = c.digits[n - 1] - c.digits[n];
-        where = n;
-        what = &c;
-      }
-  if (what)
-    fmt::print("\n  most is lost between t = {} and {}: {:.1f} digits of {}", file.times[where - 1], file.times[where],
-               most, what->name);
-  fmt::print("\n");
-}
-
-void compare(const ReferenceArguments& o) {
-  if (!o.scene)
-    throw InputError("reference --against: a scene is missing, as in hbvm reference SCENE --against FILE.csv");
-  AgainstRequest request;
-  request.scene = load_scene(*o.scene);
-  for (const std::string& file : o.against) request.files.push_back({file, read_file(file)});
-  request.map = read_map(o.map);
-  ProgressBar bar("reference");
-  end_runs_on_signals();
-  request.progress = [&bar](double part) {
-    constexpr long parts = 10'000;
-    bar.update(static_cast<long>(part * parts), parts);
-    if (const int signal = interruption) throw Interrupted(signal, "the comparison was not finished");
-  };
-  const Against against = compare_with_reference(request);
-  if (o.plot) {
-    draw(against_figure(request, against, "against"), *o.plot);
-    say_written(*o.plot);
-  }
-  if (o.json) {
-    std::cout << json_of(against).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
-    return;
-  }
-  const bool stored = std::all_of(against.files.begin(), against.files.end(), [](const auto& f) { return f.stored; });
-  fmt::print("right digits beside a reference of {} digits, {}\n", against.digits, stored ? "stored" : "computed now");
-  for (std::size_t f = 0; f < against.files.size(); ++f)
-    print(against.files[f], f == 0 ? against.by_growth : std::vector<double>());
-  for (std::size_t f = 0; f < against.orders.size(); ++f) {
-    const FileAgainst &a = against.files[f], &b = against.files[f + 1];
-    fmt::print("order of convergence from {} to {}: {}\n", a.name, b.name,
-               std::isfinite(against.orders[f]) ? fmt::format("{:.2f}", against.orders[f])
-                                                : fmt::format("none, with steps of {:.3g} and {:.3g} to t = {} and {}",
-                                                              a.step, b.step, a.times.back(), b.times.back()));
-  }
-}
-
 void reference_command(const ReferenceArguments& o) {
-  if (!o.against.empty()) return compare(o);
-  if (!o.map.empty() || o.plot) throw InputError("reference: --map and --plot go with --against");
+  if (!o.against.files.empty()) return compare_results(o.scene, o.json, o.against);
+  o.against.refuse_alone();
   if (o.list) return list_references();
   if (o.show) return show_references(*o.show);
   if (o.verify) return verify(o);
@@ -295,6 +221,7 @@ void reference_command(const ReferenceArguments& o) {
   ReferenceRequest request;
   request.scene = load_scene(*o.scene);
   request.digits = o.digits;
+  request.force = o.force;
   for (const std::string& text : o.at) request.times.push_back(time_of(text));
   if (o.at.empty()) request.times.push_back(time_of(*o.until));
   if (o.route) request.only = parse_route(*o.route);
@@ -325,7 +252,7 @@ void add_reference_command(CLI::App& app) {
                                                "that share only the scene, and by the closed "
                                                "form where there is one");
   command->add_option("SCENE,--scene", o->scene, "Scene file or built-in scene");
-  command->add_option("--until", o->until, "Time of the state, as 10 or 2pi");
+  command->add_option("--until", o->until, "Time of the state, as 10 or '2*pi'");
   command->add_option("--at", o->at, "Times T1,T2,... of the states instead, ascending")->delimiter(',');
   command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")
       ->capture_default_str();
@@ -333,19 +260,12 @@ void add_reference_command(CLI::App& app) {
   command->add_option("--out", o->out, "Write it to this file, in TOML");
   command->add_option("--checkpoint", o->checkpoint,
                       "Keep what is done in this file, some hundred steps at a time: the same command goes on from it");
+  command->add_flag("--force", o->force, "Do also what is expected to take more than a day, or 16 GB");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->add_flag("--list", o->list, "List the references that are shipped");
   command->add_option("--show", o->show, "Print those of a scene, and how to load them elsewhere");
   command->add_option("--verify", o->verify, "Compute the reference of this file again, and compare digit by digit");
-  command
-      ->add_option("--against", o->against, "Files of results of any program, CSV: how many of their digits are right")
-      ->delimiter(',');
-  command
-      ->add_option("--map", o->map,
-                   "What their columns are, \"theirs=ours,...\": theirs an expression in their names, ours t or a name "
-                   "of q, p or velocity, as in sin(theta)=bob.x")
-      ->delimiter(',');
-  command->add_option("--plot", o->plot, "With --against: digits against time, SVG, PDF or PNG");
+  add_against_options(*command, o->against);
   command->footer("Example: hbvm reference tethered_satellites --until 10 --digits 50");
   command->callback([o] { reference_command(*o); });
 }

@@ -99,6 +99,7 @@ std::string json_of(const RunRequest& request, const RunResult& result, const st
   j["until"] = result.until;
   if (request.direction == Direction::backward) j["reverse"] = true;
   if (request.start) j["start"] = request.start->file;
+  if (!result.settled.empty()) j["start_settled"] = result.settled;
   j["steps"] = result.steps;
   j["t"] = result.t;
   j["q"] = result.q;
@@ -251,6 +252,7 @@ void print(const RunRequest& request, const RunResult& result) {
   fmt::print("{}: {}\n", request.scene.name, request.scene.title);
   fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method->text(), request.precision.name(),
              name_of(request.solver), result.steps, result.step);
+  if (!result.settled.empty()) fmt::print("the start is {}\n", result.settled);
   print_state(request.scene, result);
   fmt::print("greatest errors at mesh points\n");
   const auto error = [](const char* what, const char* symbol, const std::string& value) {
@@ -411,6 +413,8 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
     throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
   if (!(o.every_seconds >= 0)) throw InputError("--every-seconds is negative");
+  for (const auto& [option, file] : {std::pair("--out", o.out), {"--plot", o.plot}, {"--checkpoint", o.checkpoint}})
+    if (file) refuse_dash(option, *file);
   const RunIdentity identity = identity_of(o, command);
   const RunRequest request = request_of(o, identity);
   std::optional<Checkpoints> checkpoints = checkpoints_of(o, identity);
@@ -467,7 +471,8 @@ void add_run_command(CLI::App& app) {
   command->add_option("--method", o->method, method_usage())->required();
   command->add_option("--step", o->step, "Step size: a number or an expression, as 2^(3/4)*pi/40")->required();
   command->add_option("--until", o->until, "Final time, a multiple of the step")->required();
-  command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
+  command->add_option("--precision", o->precision, "double, quad, or mpfr:N, or N alone, for N digits")
+      ->capture_default_str();
   command
       ->add_option(
           "--solver", o->solver,

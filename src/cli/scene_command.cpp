@@ -27,7 +27,7 @@ void project_command(const ProjectArguments& o) {
     assemble<S>(read_scene(projected, o.scene));  // what is written must be accepted
     return projected;
   });
-  if (!o.out) {
+  if (!o.out || *o.out == "-") {
     std::cout << text;
     return;
   }
@@ -74,7 +74,8 @@ void add_scene_command(CLI::App& app) {
               : scene->add_subcommand(
                     "project", "Write the nearest scene whose initial state fulfils the constraints, comments and all");
     command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
-    command->add_option("--precision", o->precision, "double, quad, or mpfr:N for N digits")->capture_default_str();
+    command->add_option("--precision", o->precision, "double, quad, or mpfr:N, or N alone, for N digits")
+        ->capture_default_str();
     if (!check) command->add_option("--out", o->out, "Write to this file instead of standard output");
     command->footer(check ? "Example: hbvm scene check tethered_satellites --precision quad"
                           : "Example: hbvm scene project mine.toml --precision mpfr:60 --out consistent.toml");

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "hbvm/error.hpp"
 #include "hbvm/write_file.hpp"
 
 namespace hbvm {
@@ -20,6 +21,10 @@ void say_written_together(const std::vector<std::string>& files) {
 void write_and_say(const std::filesystem::path& file, const std::string& text) {
   write_file(file, text);
   say_written(file.string());
+}
+
+void refuse_dash(const std::string& option, const std::string& file) {
+  if (file == "-") throw InputError(option + ": name a file; standard output has what is said of the run");
 }
 
 bool has_neighbours(const std::string& file) {

@@ -14,6 +14,9 @@ void say_written_together(const std::vector<std::string>& files);
 /// Makes or replaces a file and says so. \throws InputError if it cannot be written
 void write_and_say(const std::filesystem::path& file, const std::string& text);
 
+/// Refuses "-" as the name of a file, which others take for standard output. \throws InputError
+void refuse_dash(const std::string& option, const std::string& file);
+
 /// Whether something may be put beside a file: not if it is a pipe or a device.
 bool has_neighbours(const std::string& file);
 

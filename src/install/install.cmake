@@ -10,6 +10,8 @@ configure_package_config_file(src/install/hbvmConfig.cmake.in ${made}/hbvmConfig
                               INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${made}/hbvmConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${made}/hbvmConfig.cmake ${made}/hbvmConfigVersion.cmake DESTINATION ${package_folder})
+list(TRANSFORM BALL_LIBRARIES PREPEND -l OUTPUT_VARIABLE flags)
+list(JOIN flags " " BALL_LIBRARY_FLAGS)
 configure_file(src/install/hbvm.pc.in ${made}/hbvm.pc @ONLY)
 install(FILES ${made}/hbvm.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

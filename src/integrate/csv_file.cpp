@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "hbvm/error.hpp"
+#include "hbvm/file_lock.hpp"
 
 namespace hbvm {
 namespace {
@@ -33,9 +34,16 @@ void CsvFile::remember(Archive& archive) { buffer_.remember(archive); }
 
 CsvFile::Buffer::Buffer(std::string path, Opening opening)
     : path_(std::move(path)),
-      file_(::open(path_.c_str(),
-                   opening == Opening::anew ? O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC : O_RDWR | O_CLOEXEC, 0666)) {
+      file_(
+          ::open(path_.c_str(), opening == Opening::anew ? O_WRONLY | O_CREAT | O_CLOEXEC : O_RDWR | O_CLOEXEC, 0666)) {
   if (file_ < 0) fail(std::strerror(errno));
+  try {
+    lock_file(file_, path_);
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+  if (opening == Opening::anew) cut_to(0);
 }
 
 CsvFile::Buffer::~Buffer() { ::close(file_); }

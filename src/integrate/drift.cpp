@@ -13,8 +13,7 @@ void Drift<S>::observe(const Snapshot<S>& snapshot) {
   raise_to(e_hid_, max_norm(point_.hidden_constraints(snapshot.q, snapshot.p)));
   if (!redundant_.empty()) watch_redundant(snapshot);
   if (!is_finite(S(e_H_ + e_g_ + e_hid_)))
-    throw IntegrationError("step " + std::to_string(snapshot.n) + ", t = " + to_text(snapshot.t) +
-                           ": the energy or a constraint is not finite; does an effect have a singularity there?");
+    throw NotFinite("step " + std::to_string(snapshot.n) + ", t = " + to_text(snapshot.t));
 }
 
 template <Scalar S>

@@ -6,11 +6,13 @@
 namespace hbvm {
 
 template <Scalar S>
-EnergyBalance<S>::EnergyBalance(const Problem<S>& problem) : problem_(problem), U_(1), q_(problem.m()) {
+EnergyBalance<S>::EnergyBalance(const Problem<S>& problem)
+    : problem_(problem), U_(1), q_(problem.m()), count_(problem.m()) {
   const Potential<S>& all = problem.potential;
   for (const EffectTerm<S>& term : all.terms) {
     effects_.push_back({all.dimension, all.m, {term}});
     values_.emplace_back(effects_.back(), 1);
+    count_ += static_cast<long>(term.instances());
   }
 }
 
@@ -18,6 +20,7 @@ template <Scalar S>
 void EnergyBalance<S>::observe(const Vector<S>& v, const Snapshot<S>& snapshot) {
   H_ = dot(snapshot.p, v) / 2;
   raise_magnitude(size_, H_);
+  set(kinetic_, H_);
   for (PotentialEvaluator<S>& effect : values_) {
     effect.values(lanes(snapshot.q), U_);
     raise_magnitude(size_, U_[0]);
@@ -28,6 +31,7 @@ void EnergyBalance<S>::observe(const Vector<S>& v, const Snapshot<S>& snapshot) 
     q_ = snapshot.q;
   }
   set_difference(H_, H_, H0_);
+  change_.observe(kinetic_, H_, snapshot.t);
   if (!exceeds(H_, error_)) return;
   error_ = magnitude(H_);
   q_ = snapshot.q;

@@ -93,7 +93,8 @@ void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index
       set_sum(lost, lost, rest);
       set_exact_sum(next, rest, sum, term, t);
       set_sum(lost, lost, rest);
-      std::swap(sum, next);
+      using std::swap;
+      swap(sum, next);  // Boost's own: no number is moved from, and then assigned to
     }
   }
   set_sum(r, sum, lost);

@@ -5,6 +5,7 @@
 
 #include "hbvm/linear/constant_count.hpp"
 #include "hbvm/scalar/in_place.hpp"
+#include "problem/mass_block.hpp"
 
 namespace hbvm {
 
@@ -24,11 +25,9 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
     columns += static_cast<Index>(own.size());
     // M^-1 spreads a gradient over the whole of each full block that it touches.
     std::set<Index> reached(own.begin(), own.end());
-    for (const auto& block : problem.mass.blocks()) {
-      const auto touched = reached.lower_bound(block.offset);
-      if (!block.full || touched == reached.end() || *touched >= block.offset + block.size) continue;
-      for (Index j = 0; j < block.size; ++j) reached.insert(block.offset + j);
-    }
+    for (const Index coordinate : own)
+      if (const auto& block = block_of(problem.mass, coordinate); block.full)
+        for (Index j = 0; j < block.size; ++j) reached.insert(block.offset + j);
     weighted_patterns_.push_back({weighted_columns, std::vector<Index>(reached.begin(), reached.end())});
     weighted_columns += static_cast<Index>(reached.size());
     std::visit(
@@ -52,8 +51,18 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
 
 template <Scalar S>
 void ConstraintGradient<S>::find_couplings() {
-  for (std::size_t a = 0; a < patterns_.size(); ++a)
-    for (std::size_t b = 0; b < weighted_patterns_.size(); ++b) {
+  // By each coordinate whose M^-1 grad g it is in, for only those meet that share one.
+  std::vector<std::vector<std::size_t>> reaching(static_cast<std::size_t>(problem_.m()));
+  for (std::size_t b = 0; b < weighted_patterns_.size(); ++b)
+    for (const Index coordinate : weighted_patterns_[b].coordinates)
+      reaching[static_cast<std::size_t>(coordinate)].push_back(b);
+  for (std::size_t a = 0; a < patterns_.size(); ++a) {
+    std::set<std::size_t> met;
+    for (const Index coordinate : patterns_[a].coordinates) {
+      const auto& there = reaching[static_cast<std::size_t>(coordinate)];
+      met.insert(there.begin(), there.end());
+    }
+    for (const std::size_t b : met) {
       Coupling pair{static_cast<Index>(a), static_cast<Index>(b), {}, 0};
       for (const Index coordinate : patterns_[a].coordinates) {
         if (!std::binary_search(weighted_patterns_[b].coordinates.begin(), weighted_patterns_[b].coordinates.end(),
@@ -62,8 +71,9 @@ void ConstraintGradient<S>::find_couplings() {
         pair.terms.push_back({patterns_[a].column(coordinate), weighted_patterns_[b].column(coordinate)});
       }
       pair.products = static_cast<Index>(pair.terms.size());
-      if (!pair.terms.empty()) couplings_.push_back(std::move(pair));
+      couplings_.push_back(std::move(pair));
     }
+  }
   using Term = typename Coupling::Term;
   const Index d = problem_.dimension;
   const auto follows = [](const Term& x, const Term& y) { return y.left == x.left + 1 && y.right == x.right + 1; };
@@ -108,18 +118,16 @@ Index ConstraintGradient<S>::find_runs(std::vector<Pattern>& patterns, std::vect
 
 template <Scalar S>
 void ConstraintGradient<S>::prepare_weighing(const Pattern& from, const Pattern& to) {
-  for (const auto& block : problem_.mass.blocks()) {
-    const auto first = std::lower_bound(from.coordinates.begin(), from.coordinates.end(), block.offset);
+  for (auto first = from.coordinates.begin(); first != from.coordinates.end();) {
+    const auto& block = block_of(problem_.mass, *first);
     const auto last = std::lower_bound(first, from.coordinates.end(), block.offset + block.size);
-    if (!block.full) {
-      if (first != last)
-        add_weighing({to.column(*first), from.column(*first), last - first, true,
-                      block.mass == 1 ? nullptr : &block.inverse_mass});
-      continue;
-    }
-    for (Index j = 0; first != last && j < block.size; ++j)
+    if (!block.full)
+      add_weighing({to.column(*first), from.column(*first), last - first, true,
+                    block.mass == 1 ? nullptr : &block.inverse_mass});
+    for (Index j = 0; block.full && j < block.size; ++j)
       for (auto l = first; l != last; ++l)
         add_weighing({to.column(block.offset + j), from.column(*l), 1, l == first, &block.W(j, *l - block.offset)});
+    first = last;
   }
 }
 
@@ -177,14 +185,12 @@ template <Scalar S>
 OperationCounts ConstraintGradient<S>::weighing_operations() const {
   OperationCounts counts;
   for (const Pattern& pattern : patterns_)
-    for (const auto& block : problem_.mass.blocks()) {
-      Index touched = 0;
-      for (const Index coordinate : pattern.coordinates)
-        touched += coordinate >= block.offset && coordinate < block.offset + block.size;
+    for (const Index coordinate : pattern.coordinates) {
+      const auto& block = block_of(problem_.mass, coordinate);
       if (block.full)
-        counts.add_products(touched * block.size);
+        counts.add_products(block.size);
       else if (block.mass != 1)
-        counts.add(Op::multiply, touched);
+        counts.add(Op::multiply, 1);
     }
   return static_cast<std::uint64_t>(lanes_) * counts;
 }

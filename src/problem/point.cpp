@@ -2,6 +2,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/linear/product.hpp"
+#include "problem/gram_factor.hpp"
 
 namespace hbvm {
 
@@ -59,10 +60,18 @@ const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S
 
 template <Scalar S>
 void Point<S>::solve_gram(Vector<S>& x) {
+  const auto refuse_unless = [](bool regular) {
+    if (!regular)
+      throw IntegrationError("the constraints' gradients are linearly dependent: (regular) does not hold here");
+  };
+  if (problem_.nu() >= many_constraints) {
+    GramFactor<S> gram;
+    refuse_unless(gram.factor(gradient_, problem_.nu()));
+    return gram.solve(x);
+  }
   gradient_.gram(gram_matrix_);
   gram_.set(gram_matrix_);
-  if (!gram_.factor())
-    throw IntegrationError("the constraints' gradients are linearly dependent: (regular) does not hold here");
+  refuse_unless(gram_.factor());
   gram_.solve(x);
 }
 

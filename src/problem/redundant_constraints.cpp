@@ -24,10 +24,14 @@ RedundantConstraints<S>::RedundantConstraints(const Problem<S>& problem) {
   if (problem.redundant.empty()) return;
   all_ = problem;
   all_.redundant.clear();
+  all_.constraints.clear();
+  auto kept = problem.constraints.begin();
   for (const auto& [place, constraint] : problem.redundant) {
-    all_.constraints.insert(all_.constraints.begin() + place, constraint);
+    while (static_cast<Index>(all_.constraints.size()) < place) all_.constraints.push_back(*kept++);
+    all_.constraints.push_back(constraint);
     places_.push_back(place);
   }
+  all_.constraints.insert(all_.constraints.end(), kept, problem.constraints.end());
   for (Index a = 0, r = 0; a < all_.nu(); ++a) {
     if (r < static_cast<Index>(places_.size()) && places_[static_cast<std::size_t>(r)] == a)
       ++r;

@@ -86,10 +86,15 @@ Agreement::Agreement(const Assembled<Mpfr>& scene, const std::vector<Expression>
       add("p", at.p, Mpfr(0));
       add("lambda", at.lambda, Mpfr(0));
       add("H", single(point.energy(at.q, at.p)), point.energy_size(at.q, at.p));
+      // A component that vanishes is measured by the others of its vector.
+      std::vector<MomentumValue<Mpfr>> values;
+      Mpfr linear = 0, angular = 0;
       for (const MomentumComponent<Mpfr>& component : momenta) {
-        const MomentumValue<Mpfr> here = momentum(scene.problem, component, at.q, at.p);
-        add(component.name(), single(here.value), here.size);
+        values.push_back(momentum(scene.problem, component, at.q, at.p));
+        raise_to(component.is_linear() ? linear : angular, values.back().size);
       }
+      for (std::size_t i = 0; i < momenta.size(); ++i)
+        add(momenta[i].name(), single(values[i].value), momenta[i].is_linear() ? linear : angular);
     }
   }
   // What is conserved must be what it was at the start, too: nothing that the routes' states are compared by is as

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <future>
 #include <mutex>
 
 #include "hbvm/checksum.hpp"
+#include "hbvm/clock.hpp"
 #include "hbvm/reference/agreement.hpp"
 #include "hbvm/reference/closed_form/closed_form.hpp"
+#include "hbvm/reference/effort.hpp"
 #include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/reference/route_run.hpp"
 #include "hbvm/reference/taylor.hpp"
@@ -39,28 +42,66 @@ void check(const ReferenceRequest& request) {
   }
 }
 
-/// \throws InputError for a time that nobody can wait for
-void refuse_endless(const ReferenceRequest& request) {
-  const PrecisionScope scope(30);
-  const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
-  const TaylorMotion motion(scene.problem, scene.q0, scene.p0);
-  const Mpfr end = evaluate<Mpfr>(request.times.back(), request.scene.constants);
-  constexpr double most = 40;
-  if (log2_of(end) - motion.least_radius() > most)
-    throw InputError("t = " + request.times.back().text() +
-                     " is more than 10^12 steps of a Taylor series away: no reference gets there");
-}
+/// Looks at the clock while a motion is made at low precision: where that would take too long, all else would.
+class Patience {
+ public:
+  explicit Patience(const ReferenceRequest& request) : request_(request), start_(elapsed_seconds()) {}
+
+  /// \throws InputError
+  void look(double part) {
+    if (request_.progress) request_.progress(0);
+    part_ = std::max(part_, part);
+    constexpr double sure = 5;
+    const double taken = elapsed_seconds() - start_;
+    if (request_.force || taken < sure || taken < longest_effort * part_) return;
+    throw InputError("t = " + request_.times.back().text() +
+                     " is too far away: the motion at low precision alone takes " +
+                     (part_ > 0 ? duration_text(taken / part_) : "more than a day") + "; --force does it all the same");
+  }
+
+ private:
+  const ReferenceRequest& request_;
+  double start_, part_ = 0;
+};
+
+/// Another route has failed, and nothing will be given out.
+class Abandoned : public IntegrationError {
+ public:
+  using IntegrationError::IntegrationError;
+};
 
 /// The routes' runs at once, each in a thread of its own with its digits.
 class Attempt {
  public:
-  Attempt(const ReferenceRequest& request, const MotionNature& nature, int guard)
+  Attempt(const ReferenceRequest& request, const std::function<RouteFunction(Route)>& function,
+          const MotionNature& nature, int guard)
       : request_(request),
+        function_(function),
         nature_(nature),
         digits_(static_cast<unsigned>(request.digits + std::ceil(nature.digits_lost) + guard)),
         without_hbvm_(!request.only && closed_form_serves()) {}
 
   unsigned digits() const { return digits_; }
+
+  /// What the routes will take. \throws InputError if that is too much
+  void estimate() const {
+    const PrecisionScope scope(digits_);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(request_.scene);
+    std::vector<Effort> efforts;
+    if (!request_.only || *request_.only == Route::taylor)
+      efforts.push_back(effort_of_taylor(scene.problem, nature_, digits_));
+    if (request_.only ? *request_.only == Route::hbvm : !without_hbvm_)
+      efforts.push_back(effort_of_hbvm(scene.problem, nature_, digits_));
+    for (const Effort& effort : efforts) {
+      if (request_.estimate) request_.estimate(effort);
+      if (request_.force || (effort.seconds < longest_effort && effort.bytes < largest_effort)) continue;
+      throw InputError(fmt::format(
+          "{} digits of '{}' at t = {}: route {} would take about {} and {:.2g} GB; ask for less{}, or say --force",
+          request_.digits, request_.scene.name, request_.times.back().text(), effort.route,
+          duration_text(effort.seconds), effort.bytes / 1e9,
+          effort.route == "hbvm" ? ", or for --route taylor alone, which nothing confirms" : ""));
+    }
+  }
 
   /// \throws InputError if there is no such route for this scene
   std::vector<NamedRun> run() {
@@ -72,8 +113,12 @@ class Attempt {
     std::exception_ptr failure;
     for (auto& [route, future] : futures) try {
         if (auto run = future.get()) runs.push_back({name_of(route), std::move(*run)});
+      } catch (const Abandoned&) {
+      } catch (const IntegrationError&) {
+        // Two others confirm one another without the closed form.
+        if (!failure && (route != Route::closed_form || runs.size() < 2)) failure = std::current_exception();
       } catch (...) {
-        if (!failure) failure = std::current_exception();
+        failure = std::current_exception();
       }
     if (failure) std::rethrow_exception(failure);
     if (runs.empty()) throw InputError("no closed form of the motion of '" + request_.scene.name + "' is known");
@@ -89,23 +134,32 @@ class Attempt {
     return closed_form_of(assemble<Mpfr>(request_.scene)) != nullptr;
   }
 
+  /// A failure ends the other routes, too, but that of a closed form, which they may do without.
   std::optional<RouteRun> run(Route route) {
+    try {
+      return find(route);
+    } catch (...) {
+      if (route != Route::closed_form) failed_ = true;
+      throw;
+    }
+  }
+
+  std::optional<RouteRun> find(Route route) {
     const PrecisionScope scope(digits_);
     const Assembled<Mpfr> scene = assemble<Mpfr>(request_.scene);
     const std::vector<Mpfr> times = evaluated(request_.times, request_.scene.constants);
     const RouteProgress progress = [&](double part) {
+      if (failed_) throw Abandoned("another route has failed");
       if (!request_.progress) return;
       const std::lock_guard lock(reporting_);
       if (route == Route::taylor) taylor_done_ = part;
       if (route == Route::hbvm) hbvm_done_ = part;
-      request_.progress(request_.only || without_hbvm_ ? part : std::min(taylor_done_, hbvm_done_));
+      request_.progress(request_.only ? part : without_hbvm_ ? taylor_done_ : std::min(taylor_done_, hbvm_done_));
     };
-    const RouteWork work{scene, times, progress, nature_.legs, keeper(route)};
-    if (route == Route::taylor) return taylor_route(work);
-    if (route == Route::closed_form) return closed_form_route(work);
     // What errors grow by, and a few for their sum.
     constexpr int few = 3;
-    return hbvm_route(work, static_cast<double>(digits_) - few, nature_);
+    return function_(route)({scene, times, progress, nature_.legs(), keeper(route)},
+                            static_cast<double>(digits_) - few);
   }
 
   /// Under keys that say what a leg depends on.
@@ -119,10 +173,12 @@ class Attempt {
   }
 
   const ReferenceRequest& request_;
+  const std::function<RouteFunction(Route)>& function_;
   const MotionNature& nature_;
   unsigned digits_;
   bool without_hbvm_;
   double taylor_done_ = 0, hbvm_done_ = 0;
+  std::atomic<bool> failed_ = false;
   std::mutex reporting_;
 };
 
@@ -144,12 +200,22 @@ std::string scene_hash(const Scene& scene) {
   return Checksum(write_scene(plain)).text();
 }
 
-Reference compute_reference(const ReferenceRequest& request) {
+RouteFunction function_of(Route route) {
+  switch (route) {
+    case Route::taylor:
+      return [](const RouteWork& work, double) { return taylor_route(work); };
+    case Route::hbvm:
+      return hbvm_route;
+    case Route::closed_form:
+      break;
+  }
+  return [](const RouteWork& work, double) { return closed_form_route(work); };
+}
+
+Reference compute_reference(const ReferenceRequest& request, const std::function<RouteFunction(Route)>& function) {
   check(request);
-  refuse_endless(request);
-  MotionNature nature = nature_of(request.scene, request.times, [&](double part) {
-    if (request.progress) request.progress(part);
-  });
+  Patience patience(request);
+  const MotionNature nature = nature_of(request.scene, request.times, [&](double part) { patience.look(part); });
   constexpr int rounds = 3, first_guard = 10, more_guard = 8;
   Reference result{.scene = request.scene.name,
                    .title = request.scene.title,
@@ -161,14 +227,13 @@ Reference compute_reference(const ReferenceRequest& request) {
                    .digits_lost = nature.digits_lost};
   int guard = first_guard;
   for (int round = 1;; ++round) {
-    Attempt attempt(request, nature, guard);
+    Attempt attempt(request, function, nature, guard);
+    attempt.estimate();
     const std::vector<NamedRun> runs = attempt.run();
     const PrecisionScope scope(attempt.digits());
     const Agreement agreement(assemble<Mpfr>(request.scene), request.times, runs, request.digits);
     if (!agreement.holds()) {
       if (round == rounds) agreement.require();
-      // What the radius of convergence is later on may not have shown.
-      nature.log2_radius -= 1;
       guard += static_cast<int>(std::max(0L, request.digits + 1 - agreement.digits())) + more_guard;
       continue;
     }

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "between/force_bounds.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/product.hpp"
@@ -19,16 +20,18 @@ namespace {
 /// Polynomial motions are exact over any time; steps are no longer than 2^this.
 constexpr double longest = 40;
 
+}  // namespace
+
 /// Jorba and Zou have half of the bits, in units of e, from the work of the convolutions alone; what is linear in the
 /// order makes a fifth more the best (measured from 30 to 1000 digits).
-Index order_for(int bits) {
+Index TaylorMotion::order_for(int bits) {
   return std::max<Index>(8, static_cast<Index>(std::ceil(6 * bits * std::numbers::ln2 / 10)) + 1);
 }
 
-}  // namespace
-
-TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0)
+TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,
+                           std::function<void()> while_working)
     : problem_(problem),
+      while_working_(std::move(while_working)),
       order_(order_for(significand_bits<Mpfr>())),
       F_(problem.m()),
       weighted_(problem.m()),
@@ -52,10 +55,14 @@ TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
   for (const EffectTerm<Mpfr>& term : problem.potential.terms)
     for (Index n = 0; n < term.instances(); ++n) forces_.push_back(slope_of(term, n));
   aligned_lambda_.assign(static_cast<std::size_t>(problem.nu()), AlignedSeries(order_ + 1));
+  bounds_ = std::make_unique<ForceBounds>(problem);
+  next_log2_length_ = std::numeric_limits<double>::infinity();
   find_unit();
   take_up();
   finish();
 }
+
+TaylorMotion::~TaylorMotion() = default;
 
 void TaylorMotion::collect_forms() {
   for (Index a = 0; a < problem_.nu(); ++a) {
@@ -357,6 +364,7 @@ void TaylorMotion::begin(const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
 void TaylorMotion::expand(Index order) {
   for (Index n = 0; n < order; ++n) {
     const auto next = static_cast<unsigned long>(n + 1);
+    if (while_working_) while_working_();
     for (Index j = 0; j < F_.size(); ++j) mpfr_div_ui(raw(q_series(j)[n + 1]), raw(v_series(j)[n]), next, MPFR_RNDN);
     set_forms(n + 1);
     set_force(n);
@@ -449,15 +457,44 @@ void TaylorMotion::take_up() {
     const double radius = std::min(found.radius + log2_unit_, longest);
     least_radius_ = steps_ == 0 ? radius : std::min(least_radius_, radius);
     set(length_, unit_);
-    if (found.step < 0) {
-      const double whole = std::floor(found.step);
-      mpfr_set_d(raw(t_), std::exp2(found.step - whole), MPFR_RNDN);
+    const double length = bounded_length(log2_unit_ + std::min(found.step, 0.0)) - log2_unit_;
+    if (length < 0) {
+      const double whole = std::floor(length);
+      mpfr_set_d(raw(t_), std::exp2(length - whole), MPFR_RNDN);
       mpfr_mul_2si(raw(t_), raw(t_), static_cast<long>(whole), MPFR_RNDN);
       set_product(length_, length_, t_);
     }
     next_log2_unit_ = next;
     return;
   }
+}
+
+double TaylorMotion::bounded_length(double most) {
+  // Terms beyond the order are to be below 2^-(bits - slack) of the momenta: that far in, nothing is seen of how the
+  // series converges at its own step, which makes its last terms round-off.
+  constexpr double slack = 20, rise = 0.5;
+  const double order = static_cast<double>(order_), bits = significand_bits<Mpfr>();
+  const double log2_radii = (bits - slack + ForceBounds::allowed_bits) / order;
+  bounds_->start(start_q_, start_p_);
+  const auto slope = [this](std::size_t n) -> const Slope& {
+    return n < forces_.size() ? forces_[n] : constraint_slopes_[n - forces_.size()];
+  };
+  double length = std::min(most, next_log2_length_);
+  for (int tries = 0;; ++tries) {
+    if (bounds_->hold(length, [&](std::size_t force, Index input) {
+          const ProgramSeries& series = slope(force).series;
+          return circle_of([&](Index n) -> const Mpfr& { return series.input(input, n); }, order_ - 1,
+                           length + log2_radii - log2_unit_);
+        }))
+      break;
+    constexpr int careful = 4;
+    length -= tries < careful ? double{1} / 3 : 1;
+    if (!(length > first_log2_unit_ - 2 * bits) || !(length > log2_of(start_) - bits))
+      throw IntegrationError("the motion cannot be followed beyond t = " + to_scientific(start_, 10) + ": " +
+                             bounds_->obstacle());
+  }
+  next_log2_length_ = length < most ? length + rise : std::numeric_limits<double>::infinity();
+  return length;
 }
 
 void TaylorMotion::evaluate(const Mpfr& tau, Vector<Mpfr>& q, Vector<Mpfr>& p) {

@@ -30,22 +30,6 @@ std::string markdown_cell(const std::string& cell) {
   return text;
 }
 
-/// Names like e_H and rate_lambda as formulas.
-std::string latex_name(const std::string& name) {
-  if (name.starts_with("rate")) return "rate";
-  if (name == "+-") return "$\\pm$";
-  const auto underscore = name.find('_');
-  if (underscore == std::string::npos) return name.size() == 1 ? "$" + name + "$" : name;
-  std::string index = name.substr(underscore + 1);
-  if (index == "lambda")
-    index = "\\lambda";
-  else if (index.size() > 1)
-    index = "\\mathrm{" + index + "}";
-  const std::string base = name.substr(0, underscore);
-  if (base.size() > 1) return base + " " + name.substr(underscore + 1);
-  return "$" + base + "_{" + index + "}$";
-}
-
 /// Text as LaTeX shows it.
 std::string latex_text(const std::string& text) {
   if (text.starts_with(">= ")) return "$\\ge$ " + latex_text(text.substr(3));
@@ -59,6 +43,23 @@ std::string latex_text(const std::string& text) {
       result += c;
   }
   return result;
+}
+
+/// Names like e_H, rate_lambda and output_delta_H as formulas.
+std::string latex_name(const std::string& name) {
+  if (name.starts_with("rate")) return "rate";
+  if (name == "+-") return "$\\pm$";
+  const auto underscore = name.find('_');
+  if (underscore == std::string::npos) return name.size() == 1 ? "$" + name + "$" : latex_text(name);
+  const std::string base = name.substr(0, underscore), rest = name.substr(underscore + 1);
+  if (base == "delta" && rest.size() == 1) return "$\\delta " + rest + "$";
+  if (base.size() > 1) return latex_text(base) + " " + latex_name(rest);
+  std::string index = rest;
+  if (index == "lambda")
+    index = "\\lambda";
+  else if (index.size() > 1)
+    index = "\\mathrm{" + latex_text(index) + "}";
+  return "$" + base + "_{" + index + "}$";
 }
 
 }  // namespace
@@ -120,7 +121,7 @@ std::string to_latex(const Table& table) {
   for (const auto& group : table.groups) rows += group.rows.size();
   const bool fits = rows <= rows_of_a_page;
   const std::string columns = "{|" + std::string(names.size(), 'c') + "|}\n",
-                    caption = "\\caption{" + table.caption + "}";
+                    caption = "\\caption{" + latex_text(table.caption) + "}";
   text += fits ? "\\begin{table}[t]\n" + caption + "\n\\smallskip\\small\n\\centerline{\n\\begin{tabular}" + columns
                : "\\begin{longtable}" + columns + caption + "\\\\\n";
   text += "\\hline\n";

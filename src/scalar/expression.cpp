@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "expression_node.hpp"
+#include "hbvm/nearest.hpp"
 
 namespace hbvm {
 namespace {
@@ -185,6 +187,14 @@ class Parser {
     while (at_ < text_.size() && (is_name_start(text_[at_]) || is_digit(text_[at_]))) ++at_;
   }
 
+  [[noreturn]] void unknown_function(std::size_t start, const std::string& word) const {
+    std::vector<std::string> known;
+    for (const auto& [function, kind] : functions) known.emplace_back(function);
+    throw ExpressionError(text_, start,
+                          "'" + word + "' is no function" + did_you_mean_or_list(word, known) +
+                              "; if it is a name, a product is written " + word + "*(...)");
+  }
+
   NodePtr name() {
     const std::size_t start = at_;
     skip_word();
@@ -202,6 +212,7 @@ class Parser {
       return make(start, kind, argument);
     }
     if (word == "pi") return make(start, Kind::pi);
+    if (at_ < text_.size() && text_[at_] == '(' && word.size() > 1) unknown_function(start, word);
     return make(start, Kind::name, nullptr, nullptr, word);
   }
 

@@ -10,8 +10,9 @@ Precision Precision::parse(std::string_view name) {
   if (name == "double") return {Kind::binary64, 15};
   if (name == "quad") return {Kind::binary128, 33};
   constexpr std::string_view prefix = "mpfr:";
-  if (name.starts_with(prefix)) {
-    const std::string_view number = name.substr(prefix.size());
+  const bool digits_alone = !name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos;
+  if (name.starts_with(prefix) || digits_alone) {
+    const std::string_view number = digits_alone ? name : name.substr(prefix.size());
     unsigned digits = 0;
     const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), digits);
     if (status == std::errc() && end == number.data() + number.size() && digits >= min_digits && digits <= max_digits)
@@ -19,7 +20,7 @@ Precision Precision::parse(std::string_view name) {
     throw InputError("precision '" + std::string(name) + "': mpfr:N takes a whole number of digits from " +
                      std::to_string(min_digits) + " to " + std::to_string(max_digits));
   }
-  throw InputError("unknown precision '" + std::string(name) + "': use double, quad or mpfr:N (N digits)");
+  throw InputError("unknown precision '" + std::string(name) + "': use double, quad or mpfr:N, or N alone (N digits)");
 }
 
 std::string Precision::name() const {

@@ -13,13 +13,27 @@
 #include "hbvm/problem/effect/use.hpp"
 #include "hbvm/problem/formula/quadratic.hpp"
 #include "hbvm/problem/formula/symmetry.hpp"
+#include "hbvm/problem/point.hpp"
 #include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "hbvm/scalar/working_digits.hpp"
+#include "hbvm/scene/second_moment.hpp"
 #include "scene/formula_binding.hpp"
+#include "scene/nearest_position.hpp"
+#include "scene/own_precision.hpp"
 
 namespace hbvm {
 namespace {
+
+/// Not to the end of a long list.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  const std::size_t shown = names.size() > most + 1 ? most : names.size();
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) text += (i > 0 ? ", " : "") + names[i];
+  return text + (shown < names.size() ? fmt::format(", and {} more", names.size() - shown) : "");
+}
 
 template <Scalar S>
 class Assembler : private FormulaPlaces<S> {
@@ -57,15 +71,16 @@ class Assembler : private FormulaPlaces<S> {
     std::optional<S> mass;  // scalar
     Matrix<S> mass_matrix;  // of a body
     std::optional<S> charge;
-    std::string rigid_body = {};  // that it is a point of
+    std::string rigid_body = {};  // that it is, or is a point of
 
     bool is_fixed() const { return x.blocks.empty(); }
   };
   struct RigidBody {
-    Displacement<S> reference, center;
+    Displacement<S> reference;
     Frame<S> frame;
-    S mass;
   };
+
+  using Names = std::vector<std::string>;
 
   Problem<S>& problem() { return result_.problem; }
 
@@ -77,6 +92,8 @@ class Assembler : private FormulaPlaces<S> {
       throw InputError(at(line) + ": " + what + ": " + error.what());
     }
     lines_.resize(result_.problem.constraints.size(), line);
+    wholes_.resize(lines_.size(), whole_);
+    whole_.clear();
   }
   std::string at(std::size_t line) const { return scene_.name + (line > 0 ? ":" + std::to_string(line) : ""); }
 
@@ -136,7 +153,8 @@ class Assembler : private FormulaPlaces<S> {
     const S mass = number(body.mass);
     if (!(mass > 0)) throw InputError("a mass must be positive");
     const Vector<S> center = vector(body.center), reference = vector(body.position);
-    const Matrix<S> moment = symmetric(matrix(body.second_moment), "second_moment");
+    const Matrix<S> moment =
+        usable_second_moment<S>({mass, center, symmetric(matrix(body.second_moment), "second_moment")}, body.fixed);
     const Index origin = problem().m();
     // x = r + sum_a X_a d_a: the mass matrix is [[m, m c^T], [m c, J]] times the identity of space, r fixed: J alone.
     const Index first = body.fixed ? 0 : 1, blocks = first + d_;
@@ -154,7 +172,7 @@ class Assembler : private FormulaPlaces<S> {
 
     const Matrix<S> directors = matrix(body.directors);
     const Vector<S> omega = vector(body.angular_velocity);
-    RigidBody rigid{{}, {}, {Frame<S>::Of::rigid_body}, mass};
+    RigidBody rigid{{}, {Frame<S>::Of::rigid_body}};
     if (body.fixed) {
       rigid.reference.shift = reference;
     } else {
@@ -180,7 +198,15 @@ class Assembler : private FormulaPlaces<S> {
       }
     }
     append(momenta_, Vector<S>::Zero(d_ * blocks));
-    rigid.center = point_of(rigid, center);
+    whole_ = "rigid_body '" + body.name + "'";
+    // Where effects name the body itself, its centre of mass is meant.
+    Place place;
+    place.x = point_of(rigid, center);
+    place.frame = rigid.frame;
+    place.mass = mass;
+    place.mass_matrix = Matrix<S>::Identity(d_, d_) * mass;
+    place.rigid_body = body.name;
+    places_.emplace(body.name, std::move(place));
     rigid_bodies_.emplace(body.name, std::move(rigid));
   }
 
@@ -249,20 +275,13 @@ class Assembler : private FormulaPlaces<S> {
 
   // What a formula takes from the bodies and points of the scene.
 
-  /// Of a rigid body that of its centre of mass.
-  Displacement<S> position(const std::string& name) const override {
-    const auto rigid = rigid_bodies_.find(name);
-    return rigid != rigid_bodies_.end() ? rigid->second.center : place(name).x;
-  }
+  Displacement<S> position(const std::string& name) const override { return place(name).x; }
   S mass(const std::string& name) const override {
-    const auto rigid = rigid_bodies_.find(name);
-    if (rigid != rigid_bodies_.end()) return rigid->second.mass;
     typename EffectUse<S>::Instance i;
     give(name, true, false, i, 0);
     return i.masses[0];
   }
   S charge(const std::string& name) const override {
-    if (rigid_bodies_.contains(name)) throw InputError("'" + name + "' has no charge");
     typename EffectUse<S>::Instance i;
     give(name, false, true, i, 0);
     return i.charges[0];
@@ -301,46 +320,16 @@ class Assembler : private FormulaPlaces<S> {
     in_formula(formula, "U", [&] {
       const FormulaBinding<S> binding(formula, d_, scene_.constants);
       FormulaUse<S> use = binding.use();
-      const auto add_instance = [&](const std::vector<std::string>& of) {
+      EffectReach reach{acted_on(effect, formula.acts, false)};
+      for (const Names& of : reach.on) {
         use.instances.push_back(binding.instance(of, *this));
-      };
-      const auto named = [&](const std::string& name) {
-        return !effect.on || std::count(effect.on->begin(), effect.on->end(), name) > 0;
-      };
-      switch (formula.acts) {
-        case Acts::on_group:
-          add_instance(formula.of);
-          break;
-        case Acts::between_pairs:
-          for (const auto& [a, b] : pairs(effect, false)) add_instance({a, b});
-          break;
-        case Acts::on_each_body:
-          for (const SceneBody& body : scene_.bodies)
-            if (named(body.name)) add_instance({body.name});
-          for (const SceneRigidBody& body : scene_.rigid_bodies)
-            if (named(body.name)) add_instance({body.name});
-          break;
-        case Acts::about_a_center:
-          for (const SceneBody& body : scene_.bodies)
-            if (named(body.name)) add_centered(binding, use, body.name, effect.center);
-          for (const SceneAttachment& attachment : scene_.attachments)
-            if (effect.on && named(attachment.name)) add_centered(binding, use, attachment.name, effect.center);
-          break;
+        if (formula.acts == Acts::about_a_center) use.instances.back().x = {difference(of[0], effect.center)};
       }
-      if (use.instances.empty()) return;
       EffectTerm<S> term = make_term(use);
       check_formula(use, term, start());
       term.symmetry = formula_symmetry(use, problem().blocks, start());
-      problem().potential.terms.push_back(std::move(term));
+      add(std::move(term), std::move(reach));
     });
-  }
-
-  void add_centered(const FormulaBinding<S>& binding, FormulaUse<S>& use, const std::string& name,
-                    const std::string& center) const {
-    if (place(name).is_fixed()) throw InputError("'" + name + "' is fixed in space");
-    auto instance = binding.instance({name}, *this);
-    instance.x = {difference(name, center)};
-    use.instances.push_back(std::move(instance));
   }
 
   Vector<S> start() const {
@@ -357,6 +346,7 @@ class Assembler : private FormulaPlaces<S> {
         if (!key.optional || c.has(key.name)) give(c, key, use, name);
       auto made = Kind::from(use);
       if constexpr (requires { made.front().second; }) {
+        whole_ = name;
         for (auto& [part, form] : made) add(name + " (" + part + ")", form_of(std::move(form)));
       } else {
         add(name, form_of(std::move(made)));
@@ -383,7 +373,7 @@ class Assembler : private FormulaPlaces<S> {
       }
       case Takes::body: {
         const std::string& body = c.bodies.find(key.name)->second;
-        use.bodies.emplace(key.name, place(body).x.blocks.front().offset);
+        use.bodies.emplace(key.name, place(body).x);
         name += (name == c.kind ? " of '" : ", '") + body + "'";
         break;
       }
@@ -419,55 +409,65 @@ class Assembler : private FormulaPlaces<S> {
       const Vector<S> v = vector(e);
       use.vectors.emplace(key, std::vector<S>(v.begin(), v.end()));
     }
-    with_effect(effect.kind, [&]<class Effect>() { instances<Effect>(effect, use); });
-    if (!use.instances.empty()) problem().potential.terms.push_back(make_term(use));
+    with_effect(effect.kind, [&]<class Effect>() {
+      EffectReach reach{acted_on(effect, Effect::acts, Effect::needs_charge)};
+      for (const Names& names : reach.on) use.instances.push_back(instance<Effect>(effect, names));
+      add(make_term(use), std::move(reach));
+    });
+  }
+
+  void add(EffectTerm<S> term, EffectReach reach) {
+    problem().potential.terms.push_back(std::move(term));
+    result_.reach.push_back(std::move(reach));
   }
 
   template <class Effect>
-  void instances(const SceneEffect& effect, EffectUse<S>& use) const {
-    const auto instance = [&](const Displacement<S>& x) {
-      typename EffectUse<S>::Instance i;
-      i.x = x;
-      i.mass_matrix = Matrix<S>::Zero(d_, d_);
-      return i;
-    };
+  typename EffectUse<S>::Instance instance(const SceneEffect& effect, const Names& names) const {
+    typename EffectUse<S>::Instance i;
+    i.mass_matrix = Matrix<S>::Zero(d_, d_);
+    const Place& first = place(names[0]);
     if constexpr (Effect::acts == Acts::between_pairs) {
-      for (const auto& [a, b] : pairs(effect, Effect::needs_charge)) {
-        auto i = instance(difference(a, b));
-        const std::string* names[2] = {&a, &b};
-        for (int end = 0; end < 2; ++end) give(*names[end], Effect::needs_mass, Effect::needs_charge, i, end);
-        use.instances.push_back(std::move(i));
-      }
+      i.x = difference(names[0], names[1]);
     } else {
-      const auto named = [&](const std::string& name) {
-        return !effect.on || std::count(effect.on->begin(), effect.on->end(), name) > 0;
-      };
-      for (const SceneBody& body : scene_.bodies) {
-        if (!named(body.name)) continue;
-        const Place& p = place(body.name);
-        auto i = instance(Effect::acts == Acts::about_a_center ? difference(body.name, effect.center) : p.x);
-        i.mass_matrix = p.mass_matrix;
-        give(body.name, Effect::needs_mass, Effect::needs_charge, i, 0);
-        use.instances.push_back(std::move(i));
-      }
-      if constexpr (Effect::acts == Acts::on_each_body) {
-        for (const SceneRigidBody& body : scene_.rigid_bodies) {
-          if (!named(body.name)) continue;
-          const RigidBody& rigid = rigid_bodies_.at(body.name);
-          auto i = instance(rigid.center);
-          i.mass_matrix = Matrix<S>::Identity(d_, d_) * rigid.mass;
-          use.instances.push_back(std::move(i));
-        }
-      } else if (effect.on) {
-        for (const SceneAttachment& attachment : scene_.attachments) {
-          if (!named(attachment.name)) continue;
-          if (place(attachment.name).is_fixed()) throw InputError("'" + attachment.name + "' is fixed in space");
-          auto i = instance(difference(attachment.name, effect.center));
-          give(attachment.name, Effect::needs_mass, Effect::needs_charge, i, 0);
-          use.instances.push_back(std::move(i));
-        }
-      }
+      i.x = Effect::acts == Acts::about_a_center ? difference(names[0], effect.center) : first.x;
+      if (first.mass_matrix.size() > 0) i.mass_matrix = first.mass_matrix;
     }
+    for (std::size_t end = 0; end < names.size(); ++end)
+      give(names[end], Effect::needs_mass, Effect::needs_charge, i, static_cast<int>(end));
+    return i;
+  }
+
+  /// The bodies, pairs or groups that an effect names, or all: a rigid body counts as a body, at its centre of mass.
+  std::vector<Names> acted_on(const SceneEffect& effect, Acts acts, bool charged) const {
+    std::vector<Names> result;
+    if (acts == Acts::on_group) {
+      result = {effect.formula->of};
+    } else if (acts == Acts::between_pairs) {
+      result = pairs(effect, charged);
+    } else {
+      const auto add = [&](const std::string& name) {
+        if (effect.on && std::count(effect.on->begin(), effect.on->end(), name) == 0) return;
+        if (acts == Acts::about_a_center && place(name).is_fixed()) {
+          if (effect.on) throw InputError("'" + name + "' is fixed in space" + how(name));
+          return;
+        }
+        result.push_back({name});
+      };
+      for (const SceneBody& body : scene_.bodies) add(body.name);
+      for (const SceneRigidBody& body : scene_.rigid_bodies) add(body.name);
+      if (effect.on && acts == Acts::about_a_center)
+        for (const SceneAttachment& attachment : scene_.attachments) add(attachment.name);
+    }
+    if (!result.empty()) return result;
+    std::string why;
+    for (const auto& [name, reason] : left_out(scene_, effect, {}))
+      why += (why.empty() ? ": not on '" : ", nor on '") + name + "' (" + reason + ")";
+    throw InputError("it acts on nobody" + why);
+  }
+
+  /// How a place is fixed in space.
+  std::string how(const std::string& name) const {
+    return rigid_bodies_.contains(name) ? ", by its centre of mass" : "";
   }
 
   void give(const std::string& name, bool mass, bool charge, typename EffectUse<S>::Instance& i, int end) const {
@@ -476,26 +476,30 @@ class Assembler : private FormulaPlaces<S> {
       throw InputError("'" + name + "' has " + (p.mass_matrix.size() > 0 ? "a mass matrix" : "no mass") +
                        "; a scalar mass is needed");
     if (mass) i.masses[end] = *p.mass;
-    if (charge && !p.charge) throw InputError("'" + name + "' has no charge");
+    if (charge && !p.charge)
+      throw InputError("'" + name + "' has no charge" +
+                       (rigid_bodies_.contains(name) ? "; give one to a point of it, an [[attachment]]" : ""));
     if (charge) i.charges[end] = *p.charge;
   }
 
-  /// The pairs an effect names, or all: of bodies, and for charges of bodies and points.
-  std::vector<std::pair<std::string, std::string>> pairs(const SceneEffect& effect, bool charged) const {
-    std::vector<std::pair<std::string, std::string>> result;
+  /// The pairs an effect names, or all: of bodies, and for charges of whatever has one.
+  std::vector<Names> pairs(const SceneEffect& effect, bool charged) const {
+    std::vector<Names> result;
     const auto fixed = [&](const std::string& a, const std::string& b) {
       return place(a).is_fixed() && place(b).is_fixed();
     };
     if (effect.between) {
       for (const auto& [a, b] : *effect.between) {
-        if (fixed(a, b)) throw InputError("'" + a + "' and '" + b + "' are both fixed points");
-        result.emplace_back(a, b);
+        if (fixed(a, b)) throw InputError("'" + a + "' and '" + b + "' are both fixed in space");
+        result.push_back({a, b});
       }
       return result;
     }
-    std::vector<std::string> names;
+    Names names;
     for (const SceneBody& body : scene_.bodies)
       if (!charged || body.charge) names.push_back(body.name);
+    for (const SceneRigidBody& body : scene_.rigid_bodies)
+      if (!charged) names.push_back(body.name);
     for (const SceneAttachment& attachment : scene_.attachments)
       if (charged && attachment.charge) names.push_back(attachment.name);
     for (const ScenePoint& point : scene_.points)
@@ -505,7 +509,7 @@ class Assembler : private FormulaPlaces<S> {
     };
     for (std::size_t a = 0; a < names.size(); ++a)
       for (std::size_t b = a + 1; b < names.size(); ++b)
-        if (!fixed(names[a], names[b]) && !together(names[a], names[b])) result.emplace_back(names[a], names[b]);
+        if (!fixed(names[a], names[b]) && !together(names[a], names[b])) result.push_back({names[a], names[b]});
     return result;
   }
 
@@ -518,14 +522,28 @@ class Assembler : private FormulaPlaces<S> {
                  Eigen::Map<const Vector<S>>(momenta_.data(), m);
   }
 
-  void check_consistency() {
+  /// What the start breaks the constraints by, over the sizes of the terms, which round-off is proportional to.
+  struct Residuals {
+    Vector<S> v;     // the velocities
+    Vector<S> g, w;  // of positions and velocities
+    Vector<S> of_g, of_w;
+    Vector<S> squares;  // of the gradients in the metric M^-1
+    Vector<S> gradients;
+
+    bool are_within(const S& tolerance) const {
+      for (Index a = 0; a < g.size(); ++a)
+        if (!(magnitude(g[a]) <= tolerance * of_g[a] && magnitude(w[a]) <= tolerance * of_w[a])) return false;
+      return true;
+    }
+  };
+  Residuals residuals() {
     const Problem<S>& p = problem();
-    if (p.nu() == 0) return;
-    const S tolerance = consistency_tolerance<S>();
-    Vector<S> v(p.m());
-    p.mass.velocity(lanes(result_.p0), lanes(v));
+    const Index nu = p.nu();
+    Residuals r{Vector<S>(p.m()), Vector<S>(nu), Vector<S>(nu), Vector<S>(nu),
+                Vector<S>(nu),    Vector<S>(nu), Vector<S>(nu)};
+    p.mass.velocity(lanes(result_.p0), lanes(r.v));
     // The velocity of a coordinate carries the round-off of its block's momenta.
-    S speed = max_norm(v);
+    S speed = max_norm(r.v);
     for (const auto& block : p.mass.blocks())
       if (block.full)
         for (Index j = 0; j < block.size; ++j) {
@@ -533,27 +551,70 @@ class Assembler : private FormulaPlaces<S> {
           for (Index l = 0; l < block.size; ++l) sum += magnitude(S(block.W(j, l) * result_.p0[block.offset + l]));
           raise_to(speed, sum);
         }
-    const Independence<S> independence = find_independent(p, result_.q0, v);
-    for (const Dependence<S>& dependence : independence.redundant) check_agreement(dependence);
     ConstraintGradient<S> gradient(p, 1);
     gradient.update(lanes(result_.q0));
-    Matrix<S> gram;
-    gradient.gram(gram);
-    for (Index a = 0; a < p.nu(); ++a) {
+    S product;
+    gradient.for_each_own_coupling(Index{1}, &product, [&](Index a, Index b, const auto& at) {
+      if (a == b) set(r.squares[a], at(0, 0));
+    });
+    for (Index a = 0; a < nu; ++a) {
       const Constraint<S>& constraint = p.constraints[static_cast<std::size_t>(a)];
       const auto at_start = value(constraint, d_, result_.q0);
-      report(a, "position", at_start.g, S(tolerance * at_start.size));
-      S w;
-      gradient.transposed_times(a, lanes(v), &w);
-      report(a, "velocity", w, S(tolerance * speed * gradient_size(constraint, d_, result_.q0)));
-      check_range(a, gram(a, a), gradient_size(constraint, d_, result_.q0));
+      r.g[a] = at_start.g;
+      r.of_g[a] = at_start.size;
+      gradient.transposed_times(a, lanes(std::as_const(r.v)), &r.w[a]);
+      r.gradients[a] = gradient_size(constraint, d_, result_.q0);
+      r.of_w[a] = speed * r.gradients[a];
+    }
+    return r;
+  }
+
+  void check_consistency() {
+    const Problem<S>& p = problem();
+    if (p.nu() == 0) return;
+    S tolerance = consistency_tolerance<S>();
+    Residuals start = residuals();
+    if (!start.are_within(tolerance)) {
+      // Beyond its own digits it is told what those do not explain.
+      const S own = tolerance / epsilon<S>() * own_precision<S>(scene_);
+      if (!start.are_within(own))
+        tolerance = own;
+      else if (settle(start))
+        start = residuals();
+    }
+    const Independence<S> independence = find_independent(p, result_.q0, start.v);
+    for (const Dependence<S>& dependence : independence.redundant) check_agreement(dependence);
+    for (Index a = 0; a < p.nu(); ++a) {
+      report(a, "position", start.g[a], S(tolerance * start.of_g[a]));
+      report(a, "velocity", start.w[a], S(tolerance * start.of_w[a]));
+      check_range(a, start.squares[a], start.gradients[a]);
     }
     for (const Dependence<S>& dependence : independence.redundant) check_bending(dependence);
     check_angle(independence);
     if (independence.redundant.empty()) return;
-    for (const Dependence<S>& dependence : independence.redundant)
-      result_.redundant.push_back({name(dependence.constraint), names(dependence.others)});
+    list_redundant(independence.redundant);
     set_aside(problem(), independence);
+  }
+
+  /// Moves a start that is consistent to the digits it is written with to the nearest one that is so in S.
+  bool settle(const Residuals& start) {
+    using std::sqrt;
+    const S own = own_precision<S>(scene_);
+    if (own <= epsilon<S>()) return false;
+    try {
+      Problem<S> independent = problem();
+      set_aside(independent, find_independent(problem(), result_.q0, start.v, own));
+      const Vector<S> q = nearest_position(independent, result_.q0);
+      const S moved = max_norm(Vector<S>(q - result_.q0));
+      if (!(moved <= sqrt(own) * max_norm(q))) return false;
+      result_.p0 = Point<S>(independent).tangential(q, result_.p0);
+      result_.q0 = q;
+      result_.settled = fmt::format("consistent to its own {} digits; moved by up to {} to where the constraints hold",
+                                    own_digits(scene_), to_scientific(moved, 3));
+      return true;
+    } catch (const Error&) {
+      return false;  // the check says what is wrong
+    }
   }
 
   /// The file and the line that made a constraint.
@@ -562,15 +623,37 @@ class Assembler : private FormulaPlaces<S> {
     return "constraint " + std::to_string(a + 1) + " (" +
            result_.problem.constraints[static_cast<std::size_t>(a)].name + ")";
   }
+  /// The joint or rigid body that a constraint is a part of; empty if it is a whole one.
+  const std::string& whole(Index a) const { return wholes_[static_cast<std::size_t>(a)]; }
+  /// Joints and rigid bodies once.
   std::vector<std::string> names(const std::vector<Index>& constraints) const {
     std::vector<std::string> result;
-    for (const Index a : constraints) result.push_back(name(a));
+    for (const Index a : constraints) {
+      std::string text = whole(a).empty() ? name(a) : whole(a);
+      if (std::find(result.begin(), result.end(), text) == result.end()) result.push_back(std::move(text));
+    }
     return result;
   }
-  std::string list(const std::vector<Index>& constraints) const {
-    std::string text;
-    for (const std::string& other : names(constraints)) text += (text.empty() ? "" : ", ") + other;
-    return text;
+  std::string list(const std::vector<Index>& constraints) const { return listed(names(constraints)); }
+
+  /// Those of one joint together.
+  void list_redundant(const std::vector<Dependence<S>>& redundant) {
+    for (auto first = redundant.begin(); first != redundant.end();) {
+      const std::string& of = whole(first->constraint);
+      const auto last = std::find_if(first + 1, redundant.end(), [&](const Dependence<S>& next) {
+        return of.empty() || whole(next.constraint) != of;
+      });
+      std::vector<Index> others;
+      std::string numbers;
+      for (auto one = first; one != last; ++one) {
+        others.insert(others.end(), one->others.begin(), one->others.end());
+        numbers += (one == first ? "" : one + 1 == last ? " and " : ", ") + std::to_string(one->constraint + 1);
+      }
+      std::sort(others.begin(), others.end());
+      result_.redundant.push_back(
+          {last == first + 1 ? name(first->constraint) : "constraints " + numbers + " (" + of + ")", names(others)});
+      first = last;
+    }
   }
 
   /// Contradictory constraints leave no state at all, and one whose gradient vanishes has no multiplier.
@@ -619,11 +702,18 @@ class Assembler : private FormulaPlaces<S> {
                      "by a number that brings it closer to 1");
   }
 
+  static std::string precision() {
+    if constexpr (std::same_as<S, double>) return "double";
+    if constexpr (std::same_as<S, Quad>) return "quad";
+    return "mpfr:" + std::to_string(digits10<S>());
+  }
+
   void report(Index a, const std::string& what, const S& residual, const S& tolerance) const {
     if (magnitude(residual) <= tolerance) return;
     throw InputError(where(a) + ": the initial " + what + " is not consistent with " + name(a) + ": residual " +
                      to_scientific(residual, 3) + ", tolerance " + to_scientific(tolerance, 3) +
-                     " at this precision; `hbvm scene project` writes the nearest scene that is");
+                     " at this precision; `hbvm scene project --precision " + precision() +
+                     "` writes the nearest scene that is");
   }
 
   const Scene& scene_;
@@ -632,17 +722,21 @@ class Assembler : private FormulaPlaces<S> {
   std::map<std::string, Place> places_;
   std::vector<S> positions_, velocities_, momenta_;
   std::map<std::string, RigidBody> rigid_bodies_;
-  std::vector<std::size_t> lines_;  ///< of the constraints
+  std::vector<std::size_t> lines_;   ///< of the constraints
+  std::vector<std::string> wholes_;  ///< of the constraints: the joint or rigid body they are parts of
+  std::string whole_;                ///< of those being added
 };
 
 }  // namespace
 
 std::string to_text(const Redundancy& redundancy) {
-  return fmt::format("{} follows from {}", redundancy.name, fmt::join(redundancy.others, ", "));
+  const bool several = redundancy.name.starts_with("constraints ");
+  return redundancy.name + (several ? " follow from " : " follows from ") + listed(redundancy.others);
 }
 
 template <Scalar S>
 Assembled<S> assemble(const Scene& scene, Consistency consistency) {
+  require_working_digits<S>();
   return Assembler<S>(scene).assemble(consistency);
 }
 

@@ -2,59 +2,32 @@
 
 #include <Eigen/Geometry>
 
-#include "hbvm/linear/lu.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/problem/regularity.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
+#include "scene/nearest_position.hpp"
+#include "scene/own_precision.hpp"
 
 namespace hbvm {
 namespace {
 
-[[noreturn]] void throw_no_position(const std::string& name) {
-  throw InputError(name +
-                   ": no consistent position was found near the given one; the constraints may contradict one another");
-}
-
-/// q with g(q) = 0 nearest to `target` in the metric M. Each sweep minimises the distance under the constraints
-/// linearised at the last q: q = target - M^-1 grad g mu with
-/// grad g^T M^-1 grad g mu = g(q) + grad g^T (target - q).
+/// nearest_position, which says of which scene it is.
 template <Scalar S>
-Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target, const std::string& name) {
-  const Index nu = problem.nu();
-  Point<S> point(problem);
-  ConstraintGradient<S> gradient(problem, 1);
-  Lu<S> gram;
-  Matrix<S> gram_matrix;
-  Vector<S> q = target, next(problem.m()), mu(nu);
-  Matrix<S> row(1, nu);
-  S least = -1;
-  // The convergence is linear, the faster the nearer the target is to the constraints.
-  const int sweeps = 50 + 10 * digits10<S>();
-  for (int sweep = 0, waiting = 0; sweep < sweeps; ++sweep) {
-    gradient.update(lanes(q));
-    const Vector<S> away = target - q;
-    const Vector<S>& g = point.constraints(q);
-    for (Index a = 0; a < nu; ++a) {
-      gradient.transposed_times(a, lanes(away), &mu[a]);
-      mu[a] += g[a];
-    }
-    gradient.gram(gram_matrix);
-    gram.set(gram_matrix);
-    if (!gram.factor()) break;
-    gram.solve(mu);
-    for (Index a = 0; a < nu; ++a) row(0, a) = -mu[a];
-    next = target;
-    gradient.add_weighted_times(row, lanes(next));
-    const S increment = distance(next, q);
-    q = next;
-    if (!is_finite(increment)) break;
-    waiting = least < 0 || increment < least ? 0 : waiting + 1;
-    if (waiting == 0) least = increment;
-    const S tolerance = S(static_cast<long>(16 * (problem.m() + nu))) * epsilon<S>() * max_norm(q);
-    if (increment == 0 || (increment <= tolerance && waiting >= 2)) return q;
+Vector<S> nearest_of(const Scene& scene, const Problem<S>& problem, const Vector<S>& target) {
+  Vector<S> q = target;
+  std::string flaw;
+  try {
+    if (problem.nu() > 0) q = nearest_position(problem, target);
+    for (const auto& redundant : problem.redundant)
+      if (!value(redundant.constraint, problem.dimension, q).vanishes())
+        flaw = "no consistent position was found near the given one; " + redundant.constraint.name +
+               " contradicts the others";
+  } catch (const InputError& error) {
+    flaw = error.what();
   }
-  throw_no_position(name);
+  if (!flaw.empty()) throw InputError(scene.name + ": " + flaw);
+  return q;
 }
 
 /// Entries of v as decimals; those that are what they were keep their expressions.
@@ -74,13 +47,10 @@ template <Scalar S>
 Scene project(const Scene& scene) {
   Assembled<S> assembled = assemble<S>(scene, Consistency::unchecked);
   // What follows from other constraints is fulfilled with them, or contradicts them.
-  set_aside(assembled.problem,
-            find_independent<S>(assembled.problem, assembled.q0, Vector<S>::Zero(assembled.problem.m())));
+  set_aside(assembled.problem, find_independent<S>(assembled.problem, assembled.q0,
+                                                   Vector<S>::Zero(assembled.problem.m()), own_precision<S>(scene)));
   const Problem<S>& problem = assembled.problem;
-  const Vector<S> q = problem.nu() > 0 ? nearest_position(problem, assembled.q0, scene.name) : assembled.q0;
-  for (const auto& redundant : problem.redundant) {
-    if (!value(redundant.constraint, problem.dimension, q).vanishes()) throw_no_position(scene.name);
-  }
+  const Vector<S> q = nearest_of(scene, problem, assembled.q0);
   Point<S> point(problem);
   const Vector<S> p = point.tangential(q, assembled.p0);
   Vector<S> v(problem.m());

@@ -16,14 +16,29 @@
 namespace hbvm {
 namespace {
 
+/// What may stand where a body is named.
+struct Allowed {
+  bool points = false, attachments = false, rigid_bodies = false;
+};
+/// At the ends of a constraint, and of an effect, which takes a rigid body by its centre of mass.
+constexpr Allowed of_constraint{.points = true, .attachments = true},
+    of_effect{.points = true, .attachments = true, .rigid_bodies = true};
+
+/// Made when first asked for, since scenes may be read before main().
+const std::set<std::string, std::less<>>& top_keys() {
+  static const std::set<std::string, std::less<>> keys{"title",      "source",     "dimension", "observables",
+                                                       "constants",  "point",      "body",      "rigid_body",
+                                                       "attachment", "constraint", "effect"};
+  return keys;
+}
+
 class SceneReader {
  public:
   SceneReader(const TomlSource& source, Scene& scene) : source_(source), scene_(scene) {}
 
   void read(const toml::table& root) {
     TomlTable top(source_, root, "scene");
-    top.expect({"title", "source", "dimension", "observables", "constants", "point", "body", "rigid_body", "attachment",
-                "constraint", "effect"});
+    top.expect({top_keys().begin(), top_keys().end()});
     scene_.title = top.optional_string("title");
     scene_.source = top.optional_string("source");
     const long dimension = top.integer("dimension");
@@ -42,7 +57,7 @@ class SceneReader {
       const std::vector<std::string> known{"energy", "linear_momentum", "angular_momentum"};
       for (const std::string& name : scene_.observables)
         if (std::count(known.begin(), known.end(), name) == 0)
-          top.fail(*node, "unknown observable '" + name + "'" + did_you_mean(name, known));
+          top.fail(*node, "unknown observable '" + name + "'" + did_you_mean_or_list(name, known));
     }
     if (scene_.bodies.empty() && scene_.rigid_bodies.empty()) top.fail("there is no [[body]]");
   }
@@ -54,6 +69,9 @@ class SceneReader {
     TomlTable reader(source_, *table, "constants");
     for (const auto& [key, value] : *table) {
       const std::string name(key.str());
+      const bool is_number = value.is_number() || value.is_string();
+      if (source_.is_top_key(name) && (!is_number || name == "title" || name == "source"))
+        reader.misplaced(name, value);
       bool valid = !name.empty() && !(name[0] >= '0' && name[0] <= '9');
       for (const char c : name)
         valid = valid && ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_');
@@ -98,6 +116,7 @@ class SceneReader {
     (table.has("velocity") ? b.velocity : b.momentum) =
         table.vector(table.has("velocity") ? "velocity" : "momentum", d_);
     b.charge = table.optional_number("charge");
+    for (const char* key : {"velocity", "momentum"}) table.take(key);
     table.finish();
     bodies_.insert(b.name);
     scene_.bodies.push_back(std::move(b));
@@ -106,6 +125,7 @@ class SceneReader {
   void rigid_body(TomlTable table) {
     const std::string name = new_name(table, "rigid_body");
     const bool fixed = table.has("fixed_at");
+    if (!fixed) table.take("fixed_at");
     SceneRigidBody b{name,
                      fixed,
                      table.vector(fixed ? "fixed_at" : "position", d_),
@@ -163,11 +183,6 @@ class SceneReader {
     return name;
   }
 
-  /// What may stand where a body is named.
-  struct Allowed {
-    bool points = false, attachments = false, rigid_bodies = false;
-  };
-
   /// Refuses a name that is not among the bodies or what is allowed besides.
   void check_name(const TomlTable& table, const std::string& name, const Allowed& allowed) const {
     if (bodies_.contains(name) || (allowed.points && points_.contains(name)) ||
@@ -206,15 +221,17 @@ class SceneReader {
     return result;
   }
 
-  std::array<std::string, 2> pair(TomlTable& table, std::string_view key) {
+  std::array<std::string, 2> pair(TomlTable& table, std::string_view key, const Allowed& allowed) {
     const std::vector<std::string> ends = names(table, key);
     if (ends.size() != 2) table.fail("'" + std::string(key) + "' must name two bodies or points");
-    check_pair(table, key, ends[0], ends[1]);
+    check_pair(table, key, {ends[0], ends[1]}, allowed);
     return {ends[0], ends[1]};
   }
 
-  void check_pair(const TomlTable& table, std::string_view key, const std::string& a, const std::string& b) const {
-    for (const std::string& end : {a, b}) check_name(table, end, {.points = true, .attachments = true});
+  void check_pair(const TomlTable& table, std::string_view key, const std::array<std::string, 2>& ends,
+                  const Allowed& allowed) const {
+    const auto& [a, b] = ends;
+    for (const std::string& end : ends) check_name(table, end, allowed);
     if (a == b) table.fail("'" + std::string(key) + "' names '" + a + "' twice");
   }
 
@@ -247,7 +264,9 @@ class SceneReader {
         if (d_ != 3) table.fail("it needs dimension = 3; in the plane bodies turn about a 'ball_joint'");
       for (const ConstraintKey& key : Kind::keys) value(table, key, c);
     });
-    if (!known) table.fail("unknown kind of constraint" + did_you_mean(c.kind, with_formula(constraint_kinds())));
+    if (!known)
+      table.fail("unknown kind of constraint" + did_you_mean_or_list(c.kind, with_formula(constraint_kinds())) +
+                 ". Constraints are equations for positions: rolling, contact and slack ropes are beyond this program");
     std::vector<std::string> ends;
     for (const auto& [key, pair] : c.pairs) ends.insert(ends.end(), pair.begin(), pair.end());
     if (!ends.empty() && c.bodies.empty()) check_ends(table, ends);
@@ -287,11 +306,11 @@ class SceneReader {
   }
 
   /// The bodies and points of 'of', one of which moves.
-  std::vector<std::string> group(TomlTable& table) {
+  std::vector<std::string> group(TomlTable& table, const Allowed& allowed) {
     std::vector<std::string> of = names(table, "of");
     if (of.empty()) table.fail("'of' must name a body");
     for (std::size_t i = 0; i < of.size(); ++i) {
-      check_name(table, of[i], {.points = true, .attachments = true});
+      check_name(table, of[i], allowed);
       if (std::count(of.begin(), of.end(), of[i]) > 1) table.fail("'of' names '" + of[i] + "' twice");
     }
     if (std::all_of(of.begin(), of.end(), [&](const std::string& name) { return points_.contains(name); }))
@@ -307,11 +326,11 @@ class SceneReader {
       check_name(table, body, {.attachments = true});
       c.formula = formula(table, "g", Acts::on_each_body, {body});
     } else if (key == "between") {
-      const auto ends = pair(table, "between");
+      const auto ends = pair(table, "between", of_constraint);
       check_ends(table, {ends.begin(), ends.end()});
       c.formula = formula(table, "g", Acts::between_pairs, {ends.begin(), ends.end()});
     } else {
-      std::vector<std::string> of = group(table);
+      std::vector<std::string> of = group(table, of_constraint);
       c.formula = formula(table, "g", Acts::on_group, std::move(of));
     }
     table.finish();
@@ -321,7 +340,7 @@ class SceneReader {
   void formula_effect(TomlTable& table, SceneEffect& e) {
     const std::string key = key_of(table, {"center", "between", "of"});
     if (key == "of") {
-      std::vector<std::string> of = group(table);
+      std::vector<std::string> of = group(table, of_effect);
       e.formula = formula(table, "U", Acts::on_group, std::move(of));
     } else {
       const Acts how = key.empty() ? Acts::on_each_body : key == "center" ? Acts::about_a_center : Acts::between_pairs;
@@ -340,12 +359,12 @@ class SceneReader {
     using Takes = ConstraintKey::Takes;
     switch (key.takes) {
       case Takes::pair:
-        c.pairs.emplace(key.name, pair(table, key.name));
+        c.pairs.emplace(key.name, pair(table, key.name, of_constraint));
         break;
       case Takes::body: {
-        const std::string name = table.string(key.name);
-        check_name(table, name, {});
-        c.bodies.emplace(key.name, name);
+        std::string body = name(table, table.require(key.name), "'" + std::string(key.name) + "'");
+        check_name(table, body, {.attachments = true});
+        c.bodies.emplace(key.name, std::move(body));
         break;
       }
       case Takes::number:
@@ -382,7 +401,9 @@ class SceneReader {
       }
       acts(table, e, Effect::acts);
     });
-    if (!known) table.fail("unknown kind of effect" + did_you_mean(e.kind, with_formula(effect_kinds())));
+    if (!known)
+      table.fail("unknown kind of effect" + did_you_mean_or_list(e.kind, with_formula(effect_kinds())) +
+                 ". Effects have a potential: friction, damping, motors and magnetic fields are beyond this program");
     table.finish();
     scene_.effects.push_back(std::move(e));
   }
@@ -403,8 +424,8 @@ class SceneReader {
       table.take("on");
       if (!table.has("on")) return;
       e.on = names(table, "on");
-      const bool each = acts == Acts::on_each_body;  // a rigid body by its centre of mass; a point of it has none
-      for (const std::string& body : *e.on) check_name(table, body, {.attachments = !each, .rigid_bodies = each});
+      const bool each = acts == Acts::on_each_body;  // which need a mass, and a point of a rigid body has none
+      for (const std::string& body : *e.on) check_name(table, body, {.attachments = !each, .rigid_bodies = true});
       for (std::size_t i = 0; i < e.on->size(); ++i)
         if (std::count(e.on->begin(), e.on->end(), (*e.on)[i]) > 1) table.fail("'on' names '" + (*e.on)[i] + "' twice");
       return;
@@ -415,7 +436,7 @@ class SceneReader {
     const toml::array* const array = between->as_array();
     const bool list = array && !array->empty() && array->front().is_array();
     if (!list) {
-      const auto ends = pair(table, "between");
+      const auto ends = pair(table, "between", of_effect);
       check_rigid(table, ends);
       e.between->emplace_back(ends[0], ends[1]);
       return;
@@ -424,7 +445,7 @@ class SceneReader {
       const toml::array* const ends = entry.as_array();
       if (!ends || ends->size() != 2) table.fail(entry, "each pair of 'between' must name two bodies or points");
       const std::string a = name(table, (*ends)[0], "each name"), b = name(table, (*ends)[1], "each name");
-      check_pair(table, "between", a, b);
+      check_pair(table, "between", {a, b}, of_effect);
       check_rigid(table, {a, b});
       for (const auto& [x, y] : *e.between)
         if ((x == a && y == b) || (x == b && y == a))
@@ -448,7 +469,7 @@ class SceneReader {
 }  // namespace
 
 Scene read_scene(const std::string& toml, const std::string& name) {
-  const TomlSource source(toml, name);
+  const TomlSource source(toml, name, top_keys());
   const toml::table root = source.parse();
   Scene scene;
   scene.name = name;

@@ -1,6 +1,10 @@
 #include "hbvm/step/registry.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "hbvm/method/method_spec.hpp"
+#include "hbvm/nearest.hpp"
 #include "hbvm/step/composition.hpp"
 #include "hbvm/step/energy_momentum.hpp"
 #include "hbvm/step/hbvm_method.hpp"
@@ -33,6 +37,26 @@ std::vector<MethodFamily>& all_families() {
   return families;
 }
 
+/// Methods that are here under another name.
+struct Synonym {
+  std::string_view name, meant;
+};
+constexpr std::array synonyms{
+    Synonym{"verlet", "rattle, which is Verlet where there are no constraints"},
+    Synonym{"velocity_verlet", "rattle, which is Verlet where there are no constraints"},
+    Synonym{"stormer_verlet", "rattle, which is Verlet where there are no constraints"},
+    Synonym{"leapfrog", "rattle, which is the leapfrog where there are no constraints"},
+    Synonym{"shake", "rattle, which has the positions of SHAKE"},
+    Synonym{"gauss", "hbvm:S,S, which is Gauss with S stages where there are no constraints"},
+    Synonym{"midpoint", "hbvm:1,1, which is the implicit midpoint rule where there are no constraints"},
+    Synonym{"yoshida", "compose:rattle,4"},
+    Synonym{"euler", "tableau:FILE, which takes any Runge-Kutta method"},
+    Synonym{"rk4", "tableau:FILE, which takes any Runge-Kutta method"},
+    Synonym{"rk45", "rkf78, or tableau:FILE, which takes any Runge-Kutta method"},
+    Synonym{"dopri5", "rkf78, or tableau:FILE, which takes any Runge-Kutta method"},
+    Synonym{"radau", "tableau:FILE, which takes any Runge-Kutta method"},
+};
+
 }  // namespace
 
 const std::vector<MethodFamily>& method_families() { return all_families(); }
@@ -47,7 +71,13 @@ MethodPtr parse_method(std::string_view text) {
   const MethodSpec spec = MethodSpec::parse(text);
   for (const MethodFamily& family : method_families())
     if (family.name == spec.family) return family.make(spec.arguments);
-  throw InputError("unknown method '" + std::string(text) + "': use " + method_usage());
+  std::vector<std::string> names;
+  for (const MethodFamily& family : method_families()) names.emplace_back(family.name);
+  const auto synonym =
+      std::find_if(synonyms.begin(), synonyms.end(), [&](const Synonym& one) { return one.name == spec.family; });
+  const std::string what = "unknown method '" + std::string(text) + "'";
+  throw InputError(synonym == synonyms.end() ? what + did_you_mean_or_list(spec.family, names)
+                                             : what + ": take " + std::string(synonym->meant));
 }
 
 std::string method_usage() {

@@ -7,7 +7,8 @@
 
 namespace hbvm {
 
-TomlSource::TomlSource(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+TomlSource::TomlSource(std::string text, std::string name, std::set<std::string, std::less<>> top_keys)
+    : text_(std::move(text)), name_(std::move(name)), top_keys_(std::move(top_keys)) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
   line_starts_.push_back(0);
@@ -93,7 +94,27 @@ void TomlTable::missing(const std::vector<std::string>& keys) const {
     if (!nearest(present.str(), keys).empty())
       fail(value, "unknown key '" + std::string(present.str()) + "'" + did_you_mean(present.str(), keys));
   }
+  for (const std::string& key : keys) {
+    if (!source_.is_top_key(key)) continue;
+    const auto look_inside = [&](const toml::table& table, const std::string& name) {
+      if (const toml::node* const node = table.get(key)) TomlTable(source_, table, name).misplaced(key, *node);
+    };
+    for (const auto& [name, value] : table_) {
+      if (const toml::table* const table = value.as_table()) look_inside(*table, std::string(name.str()));
+      if (const toml::array* const array = value.as_array())
+        for (const toml::node& entry : *array)
+          if (const toml::table* const table = entry.as_table()) look_inside(*table, std::string(name.str()));
+    }
+  }
   fail("the key '" + keys.front() + "' is missing");
+}
+
+void TomlTable::misplaced(std::string_view key, const toml::node& node) const {
+  const std::string name(key);
+  const toml::array* const array = node.as_array();
+  const bool tables = array && !array->empty() && array->front().is_table();
+  fail(node, "'" + name + "' stands inside this table, as all does that follows a header in brackets; write '" + name +
+                 " = ...' above the first header" + (tables ? ", or as [[" + name + "]] tables" : ""));
 }
 
 std::string TomlTable::to_string(const toml::node& node, const std::string& where) const {
@@ -200,8 +221,11 @@ std::vector<const toml::table*> TomlTable::tables(std::string_view key) {
 void TomlTable::finish() const {
   for (const auto& [key, value] : table_) {
     if (known_.contains(key.str())) continue;
-    fail(value,
-         "unknown key '" + std::string(key.str()) + "'" + did_you_mean(key.str(), {known_.begin(), known_.end()}));
+    if (source_.is_top_key(key.str())) misplaced(key.str(), value);
+    const std::string guess = did_you_mean(key.str(), {known_.begin(), known_.end()});
+    std::string all;
+    for (const std::string& known : known_) all += (all.empty() ? "; those there are: " : ", ") + known;
+    fail(value, "unknown key '" + std::string(key.str()) + "'" + (guess.empty() ? all : guess));
   }
 }
 

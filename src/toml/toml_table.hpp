@@ -14,9 +14,11 @@ namespace hbvm {
 /// The text of a TOML file, to read decimals from it exactly, and its name for messages.
 class TomlSource {
  public:
-  TomlSource(std::string text, std::string name);
+  /// \param top_keys those of the file itself, which messages point out where they stand inside a table instead
+  TomlSource(std::string text, std::string name, std::set<std::string, std::less<>> top_keys = {});
 
   const std::string& name() const { return name_; }
+  bool is_top_key(std::string_view key) const { return top_keys_.contains(key); }
   /// Without the byte order mark that it may have begun with.
   const std::string& text() const { return text_; }
   toml::table parse() const;
@@ -31,6 +33,7 @@ class TomlSource {
 
  private:
   std::string text_, name_;
+  std::set<std::string, std::less<>> top_keys_;
   std::vector<std::size_t> line_starts_;
 };
 
@@ -52,6 +55,8 @@ class TomlTable {
   const toml::node& require(std::string_view key);
   /// Refuses the table because one of these keys should be there.
   [[noreturn]] void missing(const std::vector<std::string>& keys) const;
+  /// Refuses a key of the file itself that stands here, since what follows a header belongs to its table.
+  [[noreturn]] void misplaced(std::string_view key, const toml::node& node) const;
   /// Refuses keys that are not among these.
   void expect(const std::vector<std::string>& keys);
 
@@ -71,7 +76,7 @@ class TomlTable {
   std::vector<Expression> to_vector(const toml::node& node, std::size_t size, const std::string& where) const;
   std::string to_string(const toml::node& node, const std::string& where) const;
 
-  /// \throws InputError naming the first unknown key and the nearest known one
+  /// \throws InputError naming the first unknown key and the nearest known one, or all
   void finish() const;
 
  private:

@@ -107,6 +107,12 @@ TEST(AccountBalance, BringsElapsedTimeToThatOfTheProcessorAndAddsTheRest) {
   balance(fast, 10, 9);
   EXPECT_EQ(fast.lines[0].seconds, 1);
   EXPECT_EQ(fast.lines.back().seconds, 1);
+  // Nor is a line that was held up longer than all steps: 9 seconds of 8.
+  Account held = account();
+  held.lines.pop_back();
+  balance(held, 3, 8);
+  EXPECT_EQ(held.lines[0].seconds, 1 / double{3});
+  EXPECT_EQ(held.lines.back().seconds, 0);
 }
 
 /// Parts of solvers with other numbers of nodes are one line, each with its own operations.

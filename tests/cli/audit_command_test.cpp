@@ -2,6 +2,7 @@
 #include <set>
 
 #include "cli/program.hpp"
+#include "hbvm/checksum.hpp"
 
 namespace hbvm {
 namespace {
@@ -141,12 +142,20 @@ TEST(AuditCommand, FullGoesOnFromWhatItFound) {
   std::ofstream(store, std::ios::binary) << all.substr(0, all.size() / 2);
   const Outcome second = hbvm(arguments, 600);
   EXPECT_EQ(text_of(store), all);
-  const Outcome third = hbvm(arguments, 600);
   EXPECT_EQ(second.code, 0) << second.err;
   EXPECT_EQ(first.out, second.out);
-  EXPECT_EQ(first.out, third.out);
-  EXPECT_EQ(text_of(store), all);
-  EXPECT_LT(third.cpu_seconds, 1) << "nothing is found again";
+  // Nothing is found again: another measurement under the seal of the first line is believed.
+  const std::size_t end = all.find(",\"checksum\":");
+  std::string line = all.substr(0, end);
+  const std::size_t measured = line.find("\"measured\":");
+  ASSERT_NE(measured, std::string::npos) << line;
+  line.replace(measured, line.find(',', measured) - measured, "\"measured\":0.765");
+  line += ",\"checksum\":\"" + Checksum(line).text() + "\"}";
+  std::ofstream(store, std::ios::binary) << line + all.substr(all.find('\n'));
+  const Outcome third = hbvm(arguments, 600);
+  EXPECT_EQ(third.code, 0) << third.err;
+  EXPECT_EQ(first.out.find("0.765"), std::string::npos) << first.out;
+  EXPECT_NE(third.out.find("0.765"), std::string::npos) << third.out;
 }
 
 /// Of three computers, each with a third of the work; the last line of one was cut off.
@@ -181,7 +190,6 @@ TEST(AuditCommand, MergesShardsToTheSameFiles) {
   EXPECT_NE(incomplete.err.find("in none of these files"), std::string::npos) << incomplete.err;
   const Outcome all = hbvm(work + merged + Arguments{"--out", folder / "merged"}, 600);
   EXPECT_EQ(all.code, 0) << all.err;
-  EXPECT_LT(all.cpu_seconds, 2);
   const Outcome one = hbvm(work + Arguments{"--shard", "1/1", "--jobs", "1", "--out", folder / "one"}, 600);
   EXPECT_EQ(one.code, 0) << one.err;
   EXPECT_EQ(files("merged")[0], files("one")[0]);

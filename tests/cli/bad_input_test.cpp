@@ -100,6 +100,15 @@ TEST(BadMethod, IsRefused) {
     expect_refused(run_with("--method", method), {"method"});
 }
 
+/// Briefly: what there is, or what it is called here.
+TEST(BadMethod, OfAnotherNameIsKnownOrListed) {
+  expect_refused(run_with("--method", "verlet"), {"unknown method 'verlet': take rattle, which is Verlet where"});
+  expect_refused(run_with("--method", "rk4"), {"unknown method 'rk4': take tableau:FILE"});
+  expect_refused(run_with("--method", "rattel"), {"did you mean 'rattle'? There are hbvm, ", ", tableau"});
+  expect_refused({"audit", "--method", "rattel"}, {"unknown method 'rattel': did you mean 'rattle'?"});
+  EXPECT_LT(hbvm(run_with("--method", "adams")).err.size(), 250u);
+}
+
 TEST(BadTimes, OfAStepAreRefused) {
   for (const char* step :
        {"",    "abc", "0.1.1", "1/",   "(1",  "1)",     "2^",       "0,1",    "0x10",  "1 2",      "0",    "-0.1",
@@ -143,6 +152,28 @@ TEST(BadOutput, UnwritableIsRefused) {
 }
 
 TEST(BadOutput, WithoutANameIsRefused) { expect_refused(run_with("--out", ""), {"--out"}); }
+
+TEST(BadOutput, OfADashIsNoFile) {
+  for (const char* option : {"--out", "--plot", "--checkpoint"})
+    expect_refused(run_with(option, "-"), {option, "name a file"});
+  expect_refused({"audit", "--out", "-"}, {"--out", "name a file"});
+}
+
+/// The second of two at once ends, and leaves the first one's file alone.
+TEST(BadOutput, ThatAnotherRunWritesIsRefused) {
+  const Folder folder;
+  const std::string csv = folder / "both.csv";
+  const Arguments run{"run", "kepler", "--method", "hbvm:3,2", "--step", "1/1000", "--until", "1e6", "--out", csv};
+  const Outcome first = hbvm(run, 60, [&](pid_t child) {
+    while (!std::filesystem::exists(csv)) usleep(1'000);
+    const Outcome second = hbvm(run);
+    EXPECT_EQ(second.code, 2);
+    EXPECT_EQ(second.err,
+              "hbvm: --out: '" + csv + "' is being written by another run; wait for its end, or name another\n");
+    kill(child, SIGTERM);
+  });
+  EXPECT_EQ(first.code, 128 + SIGTERM);
+}
 
 TEST(BadOutput, OnAFullDiskIsRefused) { expect_refused(run_with("--out", "/dev/full"), {"/dev/full"}); }
 

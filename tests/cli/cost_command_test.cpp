@@ -15,7 +15,8 @@ const Arguments small{"cost",   "double_pendulum", "--digits-range", "2:10", "--
 /// What of the cells is no time.
 std::map<std::string, Json> timeless(const std::string& json) {
   std::map<std::string, Json> result;
-  for (Json cell : Json::parse(json).at("cells")) {
+  const Json parsed = Json::parse(json);
+  for (Json cell : parsed.at("cells")) {
     for (const char* const time :
          {"seconds", "spread", "slowdown", "setup_seconds", "repetitions", "disturbed", "front"})
       cell.erase(time);

@@ -149,6 +149,21 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   ASSERT_EQ(j["files"].size(), 4u);
   ASSERT_EQ(j["orders"].size(), 3u);
   for (const auto& order : j["orders"]) EXPECT_NEAR(order.get<double>(), 2, 0.05);
+  // A step is stored beside each file, and the order of their names says nothing.
+  const Outcome shuffled =
+      hbvm({"reference", "simple_pendulum", "--against",
+            (folder / "32.csv").string() + "," + (folder / "128.csv").string() + "," + (folder / "64.csv").string(),
+            "--expect-order", "2", "--require", "2.5"});
+  EXPECT_EQ(shuffled.code, 0) << shuffled.err;
+  EXPECT_NE(shuffled.out.find("32.csv to "), std::string::npos) << shuffled.out;
+  const Outcome fourth = hbvm({"reference", "simple_pendulum", "--against", files, "--expect-order", "4"});
+  EXPECT_EQ(fourth.code, 1);
+  EXPECT_NE(fourth.err.find("the order is 2.0"), std::string::npos) << fourth.err;
+  const Outcome more = hbvm({"reference", "simple_pendulum", "--against", files, "--require", "12"});
+  EXPECT_EQ(more.code, 1);
+  EXPECT_NE(more.err.find("digits are right, and not 12"), std::string::npos) << more.err;
+  EXPECT_EQ(hbvm({"reference", "simple_pendulum", "--against", files, "--steps", "1,2"}).code, 2);
+  EXPECT_EQ(hbvm({"reference", "simple_pendulum", "--steps", "1"}).code, 2);
   const std::string file = (folder / "hbvm.csv").string();
   ASSERT_EQ(hbvm({"run", "simple_pendulum", "--method", "hbvm:8,8", "--step", "1/8", "--until", "4", "--precision",
                   "mpfr:40", "--out", file})
@@ -159,6 +174,21 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   for (const auto& [name, digits] : many["files"][0]["right_digits"].items())
     for (const auto& right : digits) EXPECT_GT(right.get<double>(), 12) << name;
   std::filesystem::remove_all(folder);
+}
+
+/// That the start is another is said before any digits; times are as short as they can be.
+TEST(ReferenceCommand, SaysFirstThatAStartIsAnother) {
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("another_start_" + std::to_string(getpid()) + ".csv")).string();
+  std::ofstream(file) << "t,bob.x,bob.y,bob.px,bob.py\n0,0,1,1.001,0\n0.30000000000000004,0.29,-0.95,0.9,0.3\n";
+  const Outcome outcome = hbvm({"reference", "simple_pendulum", "--against", file});
+  const std::size_t start = outcome.out.find("ITS START IS ANOTHER"), table = outcome.out.find("least right");
+  ASSERT_NE(start, std::string::npos) << outcome.out;
+  EXPECT_LT(start, table);
+  EXPECT_NE(outcome.out.find("bob.y is 1, and -1 in the scene: of the other sign"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("bob.px is 1.001, and 1 in the scene: 3.0 digits are right"), std::string::npos);
+  EXPECT_NE(outcome.out.find("\n  0.3  "), std::string::npos) << outcome.out;
+  std::filesystem::remove(file);
 }
 
 TEST(ReferenceCommand, RefusesWhatItCannotDo) {

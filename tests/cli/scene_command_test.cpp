@@ -31,6 +31,60 @@ TEST(SceneCheck, ReadsAFileInThePrecisionAsked) {
     EXPECT_NE(hbvm({"scene", "check", path, "--precision", precision}).out.find(H), std::string::npos) << precision;
 }
 
+TEST(SceneCheck, SaysOnWhomEffectsAct) {
+  const Folder folder;
+  const std::string scene = R"(dimension = 3
+[[point]]
+name = "Earth"
+position = [0, 0, 0]
+[[rigid_body]]
+name = "sat"
+position = [7, 0, 0]
+velocity = [0, 1, 0]
+mass = 500
+center = [0, 0, 0]
+second_moment = [[3e-4, 0, 0], [0, 2e-4, 0], [0, 0, 1e-4]]
+directors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+angular_velocity = [0, 0, 0]
+[[body]]
+name = "probe"
+mass = 20
+position = [8, 0, 0]
+velocity = [0, 1, 0]
+[[effect]]
+kind = "central_gravity"
+center = "Earth"
+strength = 3
+[[effect]]
+kind = "trap"
+center = "Earth"
+stiffness = 3
+exponent = 2
+on = ["probe"]
+)";
+  const std::string report = hbvm({"scene", "check", folder.write("scene.toml", scene)}).out;
+  for (const char* words :
+       {"central_gravity, 2 in all", "on                  'probe', 'sat'\n",
+        "rigid bodies at the centre of mass, the change of the field across them neglected",
+        "not on              'sat' (not named)", "'sat'               inertia 0.0003, 0.0004, 0.0005"})
+    EXPECT_NE(report.find(words), std::string::npos) << words << " is not in " << report;
+}
+
+/// A start that a projection in double made is taken with more digits, and said to be moved.
+TEST(SceneProject, InDoubleServesMoreDigits) {
+  const Folder folder;
+  const std::string from = folder.write("from.toml", inconsistent_pendulum()), to = folder / "to.toml";
+  ASSERT_EQ(hbvm({"scene", "project", from, "--out", to}).code, 0);
+  const Outcome check = hbvm({"scene", "check", to, "--precision", "60"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.out.find("to its own 1"), std::string::npos) << check.out;
+  const Arguments run{"run", to, "--method", "hbvm:3,3", "--step", "1/8", "--until", "1", "--precision", "mpfr:30"};
+  const Outcome outcome = hbvm(run);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("the start is consistent to its own 1"), std::string::npos) << outcome.out;
+  EXPECT_NE(hbvm(run + Arguments{"--json"}).out.find("\"start_settled\""), std::string::npos);
+}
+
 TEST(SceneCheck, RefusesBadInput) {
   const Folder folder;
   expect_refused({"scene"}, {"subcommand"});

@@ -18,5 +18,10 @@ TEST(Nearest, IsAskedForOnlyIfThereIsOne) {
   EXPECT_EQ(did_you_mean("zzz", {"nodes", "run"}), "");
 }
 
+TEST(Nearest, ListsAllThereAre) {
+  EXPECT_EQ(did_you_mean_or_list("runn", {"nodes", "run"}), ": did you mean 'run'? There are nodes, run");
+  EXPECT_EQ(did_you_mean_or_list("zzz", {"nodes", "run"}), "; there are nodes, run");
+}
+
 }  // namespace
 }  // namespace hbvm

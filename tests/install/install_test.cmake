@@ -1,4 +1,5 @@
-# Builds the README's example in a folder of its own (WORK) by one ROUTE to the library:
+# Builds the README's example in a folder of its own (WORK), with the compiler CXX and the FLAGS of the library (without
+# those of its sanitizers it would not link), by one ROUTE to it:
 #   find_package      installed from BUILD, found by CMake
 #   pkg_config        installed from BUILD, found by pkg-config
 #   add_subdirectory  the SOURCE as a part of the project: the example is compiled against it; the library itself would
@@ -16,7 +17,7 @@ endfunction()
 
 if(ROUTE STREQUAL add_subdirectory)
   run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/project -B ${WORK}/build -DHBVM_SOURCE=${SOURCE} -DCMAKE_CXX_COMPILER=${CXX}
-      -DCMAKE_EXPORT_COMPILE_COMMANDS=ON)
+      "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON)
   if(NOT WHOLE)
     # By its own command: the build would first make what the library is generated from.
     file(READ ${WORK}/build/compile_commands.json commands)
@@ -45,13 +46,13 @@ else()
 endif()
 if(ROUTE STREQUAL pkg_config)
   run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${package_folder} pkg-config --define-prefix --cflags --libs hbvm)
-  separate_arguments(flags UNIX_COMMAND "${output}")
+  separate_arguments(flags UNIX_COMMAND "${FLAGS} ${output}")
   file(MAKE_DIRECTORY ${WORK}/build)
   run(${CXX} ${WORK}/project/example.cpp -o ${WORK}/build/example ${flags})
 else()
   if(ROUTE STREQUAL find_package)
     run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/project -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/installed
-        -DCMAKE_CXX_COMPILER=${CXX})
+        -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${FLAGS}")
   endif()
   run(${CMAKE_COMMAND} --build ${WORK}/build --target example)
 endif()

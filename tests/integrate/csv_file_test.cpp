@@ -32,6 +32,18 @@ class CsvFiles : public ::testing::Test {
   std::string path_;
 };
 
+TEST_F(CsvFiles, HaveOneWriter) {
+  {
+    CsvFile file(path_, CsvFile::Opening::anew);
+    file << "1,2\n";
+    EXPECT_THROW(CsvFile(path_, CsvFile::Opening::anew), InputError);
+    EXPECT_THROW(CsvFile(path_, CsvFile::Opening::to_go_on), InputError);
+  }
+  EXPECT_EQ(text(), "1,2\n") << "whoever was refused has cut nothing";
+  { CsvFile file(path_, CsvFile::Opening::anew); }
+  EXPECT_EQ(text(), "");
+}
+
 TEST_F(CsvFiles, HoldCompleteLinesOnly) {
   std::string expected;
   {

@@ -92,7 +92,7 @@ TEST(Drift, WatchesRedundantConstraints) {
   Assembled<double> scene = assemble<double>(load_scene("simple_pendulum"));
   Vector<double> normal = Vector<double>::Zero(2);
   normal[0] = 1;
-  scene.problem.redundant.push_back({1, {"wall", Plane<double>{0, normal, 0}}});
+  scene.problem.redundant.push_back({1, {"wall", Plane<double>{{0}, normal, 0}}});
   Drift<double> drift(scene.problem);
   Snapshot<double> snapshot{3, 0.5, scene.q0, scene.p0, Vector<double>::Zero(1)};
   snapshot.q << 0, -1;
@@ -120,7 +120,7 @@ TEST(Drift, WatchesRedundantConstraints) {
 TEST(Drift, ToleratesSmallViolationsOfRedundantConstraints) {
   Assembled<double> scene = assemble<double>(load_scene("simple_pendulum"));
   Vector<double> normal = Vector<double>::Ones(2);
-  scene.problem.redundant.push_back({0, {"wall", Plane<double>{0, normal, -1}}});
+  scene.problem.redundant.push_back({0, {"wall", Plane<double>{{0}, normal, -1}}});
   Drift<double> drift(scene.problem);
   Snapshot<double> snapshot{0, 0, scene.q0, scene.p0, Vector<double>::Zero(1)};
   snapshot.q << 0, -1 + 0x1p-27;  // terms of 2

@@ -45,6 +45,16 @@ TEST(EnergyBalance, ComparesWithTheGreatestTermOfH) {
   }
 }
 
+/// 2e5 terms are added up with 2e5 roundings.
+TEST(EnergyBalance, CountsTheTermsThatAreAddedUp) {
+  Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
+  const EnergyBalance<double> energy(scene.problem);
+  long effects = 0;
+  for (const EffectTerm<double>& term : scene.problem.potential.terms) effects += term.instances();
+  EXPECT_GT(effects, 1);
+  EXPECT_EQ(energy.count(), scene.problem.m() + effects);
+}
+
 TEST(EnergyBalance, KnowsWhatRoundingTheCoordinatesChanges) {
   const Scene far_spring = read_scene(
       "dimension = 2\npoint = [{name = \"o\", position = [1000, 0]}]\n"

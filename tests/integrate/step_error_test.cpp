@@ -17,6 +17,17 @@ TEST(StepErrors, SayWhatWhereAndWhatToDo) {
   EXPECT_EQ(error.increment(), "3.14e-2");
 }
 
+TEST(StepErrors, TakeOtherAdvice) {
+  const StepError error(7, "2", StageFailure(FailureCause::near_singular_constraints, "x", "0", 1));
+  const StepError other(error, "take a smaller step");
+  EXPECT_STREQ(other.what(),
+               "step 7 from t = 2: near_singular_constraints: x after 1 sweeps, last increment 0 of the unknowns; take "
+               "a smaller step");
+  EXPECT_EQ(other.cause(), error.cause());
+  EXPECT_EQ(other.step(), 7);
+  EXPECT_EQ(other.time(), "2");
+}
+
 /// The program exits with 3, and scripts look for the cause.
 TEST(StepErrors, AreIntegrationErrorsOfTheirCause) {
   for (const FailureCause cause :

@@ -15,6 +15,10 @@ def find():
     return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 
+# Of an answer: no busy machine needs it, and no test hangs.
+PATIENCE = 900
+
+
 class Browser:
     """One page at a time; what it complains of and what it asks the network for is kept."""
 
@@ -52,7 +56,7 @@ class Browser:
         try:
             self.session = None
             self.call("Browser.close")
-            self.process.wait(10)
+            self.process.wait(PATIENCE)
         except (OSError, RuntimeError, subprocess.TimeoutExpired):
             self.process.kill()
             self.process.wait()
@@ -84,7 +88,7 @@ class Browser:
         elif method == "Page.loadEventFired":
             self.loaded = True
 
-    def call(self, method, seconds=60, **params):
+    def call(self, method, seconds=PATIENCE, **params):
         self.number += 1
         message = {"id": self.number, "method": method, "params": params}
         if self.session:
@@ -99,7 +103,7 @@ class Browser:
                 return answer["result"]
             self._note(answer)
 
-    def open(self, path, address="", seconds=60):
+    def open(self, path, address="", seconds=PATIENCE):
         """Of a file; `address` is what follows its name, as #t=1."""
         # By way of nothing: another address of the same file is no other page.
         self._go("about:blank", seconds)

@@ -83,7 +83,7 @@ def it_moves(chromium):
         return
     chromium.evaluate("player.choose(0)")
     chromium.press(" ")
-    until = time.monotonic() + 20
+    until = time.monotonic() + browser.PATIENCE
     while chromium.evaluate("player.index") == 0:
         check(time.monotonic() < until, "playing moves nothing")
         time.sleep(0.05)

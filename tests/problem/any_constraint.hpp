@@ -22,7 +22,7 @@ Constraint<S> any_constraint(Index d, RandomValues<S>& random) {
         break;
       }
       case Takes::body:
-        use.bodies.emplace(key.name, ++bodies * d);
+        use.bodies.emplace(key.name, Displacement<S>{{{++bodies * d, S(1)}}, {}});
         break;
       case Takes::number:
         use.numbers.emplace(key.name, S(2 + random.value()));

@@ -144,7 +144,7 @@ TYPED_TEST(ConstraintGradientTest, CouplesOverAFullMassBlockWithoutSharedCoordin
   problem.mass.add_full(mass_block<S>(4));
   Vector<S> normal(2);
   normal << S(1), S(0);
-  problem.constraints = {{"one", Plane<S>{0, normal, S(0)}}, {"other", Plane<S>{2, normal, S(0)}}};
+  problem.constraints = {{"one", Plane<S>{{0}, normal, S(0)}}, {"other", Plane<S>{{2}, normal, S(0)}}};
   ConstraintGradient<S> gradient(problem, 1);
   const Vector<S> q = this->random.vector(4);
   gradient.update(lanes(q));
@@ -165,7 +165,7 @@ TYPED_TEST(ConstraintGradientTest, SeparateBodiesDoNotCouple) {
   problem.mass.add_scalar(2, S(1));
   Vector<S> normal(2);
   normal << S(1), S(1);
-  problem.constraints = {{"one", Plane<S>{0, normal, S(0)}}, {"other", Plane<S>{2, normal, S(0)}}};
+  problem.constraints = {{"one", Plane<S>{{0}, normal, S(0)}}, {"other", Plane<S>{{2}, normal, S(0)}}};
   const ConstraintGradient<S> gradient(problem, 1);
   ASSERT_EQ(gradient.couplings().size(), 2u);
   for (const auto& pair : gradient.couplings()) EXPECT_EQ(pair.a, pair.b);

@@ -105,7 +105,7 @@ Problem<S> constrained_problem(Index d) {
   A(0, 1) = A(1, 0) = 0;
   problem.constraints.push_back({"quadric", Quadric<S>{{d}, A, linear, S(-3)}});
   problem.constraints.push_back({"sphere", Quadric<S>{{3 * d}, Matrix<S>::Identity(d, d), Vector<S>::Zero(d), S(-1)}});
-  problem.constraints.push_back({"plane", Plane<S>{2 * d, normal, S(5) / 2}});
+  problem.constraints.push_back({"plane", Plane<S>{{2 * d}, normal, S(5) / 2}});
   rod("between centres", Displacement<S>{{{0, S(1) / 2}, {3 * d, S(1) / 2}, {2 * d, S(-1)}}, {}}, S(1));
   return problem;
 }

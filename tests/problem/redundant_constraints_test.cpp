@@ -1,11 +1,23 @@
 #include "hbvm/problem/redundant_constraints.hpp"
 
+#include <utility>
+
 #include "hbvm/problem/regularity.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
 
 namespace hbvm {
 namespace {
+
+/// Constraint `which` once more, at this place. (An insertion would assign to numbers that it has moved from.)
+template <Scalar S>
+void repeat(Problem<S>& problem, std::size_t which, std::size_t place) {
+  const std::vector<Constraint<S>> before = std::exchange(problem.constraints, {});
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (i == place) problem.constraints.push_back(before[which]);
+    problem.constraints.push_back(before[i]);
+  }
+}
 
 template <class S>
 class RedundantConstraintsTest : public ::testing::Test {
@@ -38,7 +50,7 @@ TYPED_TEST(RedundantConstraintsTest, AreNoneInARegularProblem) {
 TYPED_TEST(RedundantConstraintsTest, KeepTheirPlacesValuesAndHiddenConstraints) {
   using S = TypeParam;
   auto full = constrained_problem<S>(3);
-  full.constraints.insert(full.constraints.begin() + 2, full.constraints[1]);
+  repeat(full, 1, 2);
   full.constraints.push_back(full.constraints[4]);
   const auto q = this->random.vector(full.m()), p = this->random.vector(full.m());
   const typename TestFixture::Split split(full, q);
@@ -73,7 +85,7 @@ TYPED_TEST(RedundantConstraintsTest, ShareTheMultipliers) {
   full.potential.m = 2;
   for (const int factor : {1, 2, 3}) {
     const Vector<S> normal = (Vector<S>(2) << S(factor), S(-factor)).finished();
-    full.constraints.push_back({"plane", Plane<S>{0, normal, S(0)}});
+    full.constraints.push_back({"plane", Plane<S>{{0}, normal, S(0)}});
   }
   const Vector<S> q = Vector<S>::Zero(2), lambda = Vector<S>::Constant(1, S(28));
   const typename TestFixture::Split split(full, q);
@@ -88,7 +100,7 @@ TYPED_TEST(RedundantConstraintsTest, HaveMultipliersOfLeastNorm) {
   using S = TypeParam;
   for (const Index d : {2, 3}) {
     Problem<S> full = constrained_problem<S>(d);
-    full.constraints.insert(full.constraints.begin() + 1, full.constraints[3]);  // a quadric, later in the list as well
+    repeat(full, 3, 1);  // a quadric, later in the list as well
     full.constraints.push_back(full.constraints[0]);
     full.constraints.push_back(full.constraints[0]);
     const auto q = this->random.vector(full.m());

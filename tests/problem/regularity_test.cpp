@@ -32,7 +32,7 @@ class Regularity : public ::testing::Test {
     return problem;
   }
   static void hold(Problem<S>& problem, Index body, std::initializer_list<const char*> normal) {
-    problem.constraints.push_back({"plane", Plane<S>{2 * body, vector(normal), S(0)}});
+    problem.constraints.push_back({"plane", Plane<S>{{2 * body}, vector(normal), S(0)}});
   }
   static void tie(Problem<S>& problem, Index a, Index b) {
     const Displacement<S> x{{{2 * a, S(1)}, {2 * b, S(-1)}}, {}};
@@ -177,7 +177,7 @@ TYPED_TEST(Regularity, SeesTheRedundantBendAway) {
   EXPECT_EQ(found.redundant[0].bending, -9);
   EXPECT_LT(found.redundant[0].round_off, 200'000 * epsilon<TypeParam>());
   EXPECT_GT(found.redundant[0].round_off, epsilon<TypeParam>());
-  std::swap(problem.constraints[0], problem.constraints[1]);
+  problem.constraints = {problem.constraints[1], problem.constraints[0]};
   found = find_independent(problem, this->vector({"1", "0"}), this->vector({"0", "3"}));
   ASSERT_EQ(found.redundant.size(), 1u);
   EXPECT_EQ(found.redundant[0].bending, 18);
@@ -287,6 +287,41 @@ TYPED_TEST(Regularity, ConditionIsTheRatioOfTheEigenvalues) {
   this->tie(chain, 0, 1);
   const double root = std::sqrt(5.0);
   this->expect_condition(chain, this->vector({"1", "0", "2", "0"}), (3 + root) / (3 - root));
+}
+
+/// A stretched chain of n rods from the origin: 4 times the matrix with 1, 2, 2, ... on the diagonal and -1 beside it,
+/// whose eigenvalues are 2 - 2 cos((2 k - 1) pi/(2 n + 1)).
+TYPED_TEST(Regularity, ConditionOfManyConstraints) {
+  for (const Index n : {127, 128, 400}) {
+    auto chain = this->bodies({});
+    for (Index i = 0; i < n; ++i) chain.mass.add_scalar(2, TypeParam(1));
+    Vector<TypeParam> q = Vector<TypeParam>::Zero(2 * n);
+    this->pin(chain, 0);
+    for (Index i = 1; i < n; ++i) this->tie(chain, i - 1, i);
+    for (Index i = 0; i < n; ++i) q[2 * i] = TypeParam(i + 1);
+    const double angle = std::acos(-1.0) / static_cast<double>(2 * n + 1);
+    const double expected = (1 - std::cos(static_cast<double>(2 * n - 1) * angle)) / (1 - std::cos(angle));
+    EXPECT_NEAR(gram_condition(chain, q) / expected, 1, 1e-3) << n;
+    // Heavier by the same factor and in another unit of length: the angles are as they were, and the first gradient is
+    // as long as the others' where its body is half as heavy.
+    EXPECT_GT(angle_condition(chain, q) / expected, 0.2) << n;
+    EXPECT_LT(angle_condition(chain, q) / expected, 1) << n;
+    EXPECT_TRUE(this->independent(chain, q)) << n;
+  }
+}
+
+/// Constraints that share no body cost nothing: in a dense matrix this takes hours.
+TYPED_TEST(Regularity, SeesRedundantOnesAmongThousands) {
+  constexpr Index n = 3'000;
+  auto pairs = this->bodies({});
+  for (Index i = 0; i < 2 * n; ++i) pairs.mass.add_scalar(2, TypeParam(1));
+  Vector<TypeParam> q = Vector<TypeParam>::Zero(4 * n);
+  for (Index i = 0; i < n; ++i) {
+    this->tie(pairs, 2 * i, 2 * i + 1);
+    q[4 * i] = 1;
+  }
+  this->tie(pairs, 2 * n - 2, 2 * n - 1);
+  this->expect_dependence(pairs, q, n, {n - 1});
 }
 
 /// Normals (1, 0) and (1, a): trace 2 + a^2 and determinant a^2, which double cannot hold.

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
 #include <map>
 
-#include "hbvm/clock.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/reference/reference.hpp"
@@ -18,9 +18,10 @@ namespace {
 
 constexpr int wanted_of_each = 30;
 
-/// What a scene may take.
-constexpr double most_seconds = 30;
+/// Of processor time that each of all scenes may take.
+constexpr double most_seconds = 60;
 struct TooLong {};
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Two radii of convergence of the series at the start: a characteristic time, whatever masses and forces are; of a
 /// motion that is a polynomial any. As a power of two, which is an exact text.
@@ -72,14 +73,14 @@ TEST(RandomScenes, HaveAgreedDigitsOrAReason) {
   double longest = 0, most_lost = 0;
   for (const std::uint64_t seed : seeds) {
     const std::string text = RandomScene(seed).text();
-    const double before = elapsed_seconds();
+    const double before = processor_seconds();
     try {
       ReferenceRequest request;
       request.scene = read_scene(text, fmt::format("random scene {}", seed));
       request.times = {characteristic_time(request.scene)};
       request.digits = wanted_of_each;
       request.progress = [&](double) {
-        if (elapsed_seconds() - before > most_seconds) throw TooLong();
+        if (all && processor_seconds() - before > most_seconds) throw TooLong();
       };
       const Reference reference = compute_reference(request);
       ++agreed;
@@ -92,15 +93,15 @@ TEST(RandomScenes, HaveAgreedDigitsOrAReason) {
       reasons.emplace(seed, error.what());
     } catch (const TooLong&) {
       ++too_long;
-      reasons.emplace(seed, fmt::format("takes more than {} s", most_seconds));
+      reasons.emplace(seed, fmt::format("takes more than {} s of processor time", most_seconds));
     }
-    const double seconds = elapsed_seconds() - before;
+    const double seconds = processor_seconds() - before;
     longest = std::max(longest, seconds);
     if (all) std::cout << fmt::format("{}: {:.1f} s\n", seed, seconds) << std::flush;
   }
   std::cout << fmt::format(
-      "{} of {} scenes have their digits, of errors that grow by up to 10^{:.0f}; at most {:.1f} s\n", agreed,
-      seeds.size(), most_lost, longest);
+      "{} of {} scenes have their digits, of errors that grow by up to 10^{:.0f}; at most {:.1f} s of processor time\n",
+      agreed, seeds.size(), most_lost, longest);
   for (const auto& [seed, reason] : reasons) std::cout << fmt::format("scene {}: {}\n", seed, reason);
   if (!all) {
     EXPECT_EQ(agreed, seeds.size());

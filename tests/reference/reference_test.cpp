@@ -1,6 +1,7 @@
 #include "hbvm/reference/reference.hpp"
 
 #include "hbvm/error.hpp"
+#include "hbvm/reference/agreement.hpp"
 #include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
@@ -112,6 +113,128 @@ TEST(ReferenceSolution, KnowsItsSceneByWhatItSays) {
   EXPECT_EQ(scene_hash(scene), hash);
   scene.bodies.front().mass = Expression::parse("2");
   EXPECT_NE(scene_hash(scene), hash);
+}
+
+/// Forces of short range that the start does not feel, with values that were found by quadrature. Steps that were
+/// chosen at points alone passed by them, and both routes agreed on the motion without them.
+TEST(ReferenceSolution, SeesForcesBetweenThePoints) {
+  struct Case {
+    const char *toml, *t, *q_1;
+    int digits;
+  };
+  const std::string at_rest =
+      "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [1, 0], velocity = [0, 0] }]\n";
+  const std::string wide =
+      at_rest + "[[effect]]\nkind = \"formula\"\nU = \"-x^2/2 - y^2/2 - exp(-((x - 0.2)/1e-3)^2)/4\"\n";
+  const std::string narrow =
+      at_rest + "[[effect]]\nkind = \"formula\"\nU = \"-x^2/2 - y^2/2 - exp(-((x - 0.2)/1e-5)^2)/4\"\n";
+  const std::string grains =
+      "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [-2, 0], velocity = [1, 0] },\n"
+      "{ name = \"b\", mass = 1, position = [2, \"1/50\"], velocity = [-1, 0] }]\n"
+      "[[effect]]\nkind = \"formula\"\nbetween = [\"a\", \"b\"]\nU = \"-exp(-200*r)/r\"\n";
+  const std::string wall =
+      "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\n"
+      "body = [{ name = \"a\", mass = 1, position = [\"-0.6\", \"-0.8\"], velocity = [0, 0] }]\n"
+      "constraint = [{ kind = \"rod\", between = [\"o\", \"a\"], length = 1 }]\n"
+      "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, \"-9.81\"]\n"
+      "[[effect]]\nkind = \"formula\"\nU = \"-exp((x - 0.05)/0.001)\"\n";
+  for (const Case& c : {Case{wide.c_str(), "3", "-0.98989641182588406", 17},
+                        {narrow.c_str(), "3", "-0.98999153801451", 14},
+                        {grains.c_str(), "4", "1.3458191561146427323", 19},
+                        {wall.c_str(), "2", "-0.535628851862", 12}}) {
+    ReferenceRequest request;
+    request.scene = read_scene(c.toml, "short_range");
+    request.times = {Expression::parse(c.t)};
+    request.digits = c.digits;
+    const Reference found = compute_reference(request);
+    const PrecisionScope scope(40);
+    EXPECT_LE(magnitude(Mpfr(literal<Mpfr>(found.times[0].q[0]) - literal<Mpfr>(c.q_1))),
+              pow(Mpfr(10), -c.digits) * 6 / 10)
+        << found.times[0].q[0];
+  }
+}
+
+/// A route that is off by a part in 10^8 in one component, whichever route and component: nothing is given out, and
+/// both values are said.
+TEST(ReferenceSolution, GivesNothingOutWhereARouteIsWrong) {
+  for (const Route liar : all_routes)
+    for (const std::size_t kind : {0, 1, 2}) {
+      const auto wrong = [&](Route route) -> RouteFunction {
+        const RouteFunction right = function_of(route);
+        if (route != liar) return right;
+        return [right, kind](const RouteWork& work, double digits) {
+          std::optional<RouteRun> run = right(work, digits);
+          ExactPoint& at = run->points.back();
+          Vector<Mpfr>& x = kind == 0 ? at.q : kind == 1 ? at.p : at.lambda;
+          x[x.size() - 1] *= 1 + literal<Mpfr>("1e-8");
+          return run;
+        };
+      };
+      try {
+        compute_reference(request_of("simple_pendulum", {"1", "3"}, 15), wrong);
+        FAIL() << name_of(liar) << " was believed";
+      } catch (const Disagreement& found) {
+        EXPECT_EQ(found.t, "3");
+        EXPECT_EQ(found.component, kind == 0 ? "q_2" : kind == 1 ? "p_2" : "lambda_1");
+        ASSERT_EQ(found.values.size(), 3u);
+        for (const auto& [route, number] : found.values)
+          EXPECT_NE(std::string(found.what()).find(number + " by " + route), std::string::npos) << found.what();
+      }
+    }
+}
+
+/// A closed form that fails leaves the others, and any other route that fails ends all.
+TEST(ReferenceSolution, NeedsTwoRoutes) {
+  const auto failing = [](Route broken) {
+    return [broken](Route route) -> RouteFunction {
+      if (route != broken) return function_of(route);
+      return [](const RouteWork&, double) -> std::optional<RouteRun> { throw IntegrationError("it fails"); };
+    };
+  };
+  const ReferenceRequest request = request_of("simple_pendulum", {"3"}, 15);
+  EXPECT_EQ(compute_reference(request, failing(Route::closed_form)).routes.size(), 2u);
+  EXPECT_THROW(compute_reference(request, failing(Route::taylor)), IntegrationError);
+  EXPECT_THROW(compute_reference(request, failing(Route::hbvm)), IntegrationError);
+}
+
+/// A body that tumbles end over end: two components of its angular momentum are 0 but for rounding, in some route.
+TEST(ReferenceSolution, MeasuresWhatVanishesByItsVector) {
+  ReferenceRequest request;
+  request.scene = read_scene(R"(dimension = 3
+[[rigid_body]]
+name = "b"
+position = [0, 0, 0]
+velocity = [0, 0, 0]
+mass = 1
+center = [0, 0, 0]
+second_moment = [[1, 0, 0], [0, 1, 0], [0, 0, 2]]
+directors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+angular_velocity = [1, 0, 0]
+)",
+                             "tumbling");
+  request.times = {Expression::parse("3")};
+  request.digits = 10;
+  const Reference found = compute_reference(request);
+  EXPECT_GT(found.times[0].agreed, 10);
+  EXPECT_EQ(found.routes.size(), 3u);
+}
+
+/// What would take years is refused before it begins, with what it would take.
+TEST(ReferenceSolution, RefusesWhatCannotEnd) {
+  for (const bool only_taylor : {false, true}) {
+    ReferenceRequest request = request_of("double_pendulum", {"5"}, only_taylor ? 5000 : 3000);
+    if (only_taylor) {
+      request.only = Route::taylor;
+      request.times = {Expression::parse("5000")};
+    }
+    try {
+      compute_reference(request);
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("would take about"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("--force"), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

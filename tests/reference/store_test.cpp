@@ -106,8 +106,9 @@ TEST(Store, ShipsReferencesThatCanBeRead) {
 
 /// What is conserved is what it was at the start, to the last digit that is printed, and what the printed state has.
 TEST(Store, ShipsWhatIsConserved) {
-  for (const auto& [name, text] : shipped_references()) {
-    const Reference reference = read_reference(text, name).reference;
+  for (const auto& shipped : shipped_references()) {
+    const std::string& name = shipped.first;
+    const Reference reference = read_reference(shipped.second, name).reference;
     const PrecisionScope scope(static_cast<unsigned>(reference.digits) + 20);
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(reference.scene));
     Point<Mpfr> point(scene.problem);

@@ -42,6 +42,19 @@ TEST(Table, LatexShowsTextAsItIs) {
             std::string::npos);
 }
 
+/// An underscore outside a formula stops LaTeX.
+TEST(Table, LatexHasNoUnderscoreOutsideAFormula) {
+  const std::string text = to_latex({"Long runs of a_b, 5 %",
+                                     {},
+                                     {},
+                                     {"output_delta_H", "two_words_here", "e_g_max", "a%"},
+                                     {{"", {}, {{"1", "2", "3", "4"}}}}});
+  EXPECT_NE(text.find("\\caption{Long runs of a\\_b, 5 \\%}"), std::string::npos) << text;
+  EXPECT_NE(text.find("\noutput $\\delta H$ & two words here & $e_{\\mathrm{g\\_max}}$ & a\\%\\\\\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(Table, LatexOfManyRowsMayBreakAcrossPages) {
   Table many{"Many", {}, {}, {"a", "+-"}, {{"heavy_top", {}, {{">= 2", "1"}}}}};
   const std::string one = to_latex(many);

@@ -96,6 +96,20 @@ INSTANTIATE_TEST_SUITE_P(Functions, Value,
                                            Example{"sqrt(2)*sqrt(2)", 2}, Example{"8^(1/3)", 2},
                                            Example{"sin(pi/6)", 0.5}, Example{"pi", 3.141592653589793}));
 
+TEST(Expression, UnknownFunctionsListThoseThereAre) {
+  for (const auto& [text, words] :
+       {std::pair("1 + atan2(y, x)", "column 5: 'atan2' is no function: did you mean 'atan'? There are sqrt, sin,"),
+        {"abs(x)", "'abs' is no function; there are sqrt, sin, cos, tan, exp, log, sinh, cosh, tanh, atan"},
+        {"mu(x + 1)", "if it is a name, a product is written mu*(...)"}})
+    try {
+      Expression::parse(text, Expression::Syntax::formula);
+      ADD_FAILURE() << text;
+    } catch (const ExpressionError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  EXPECT_THROW(Expression::parse("k(x + 1)", Expression::Syntax::formula), ExpressionError);
+}
+
 TEST(Expression, NamesAreWhatIsNeitherAFunctionNorPi) {
   EXPECT_EQ(Expression::parse("2*a + sin(b_1)^a - pi*sqrt(_c)/Pi").names(),
             (std::set<std::string>{"a", "b_1", "_c", "Pi"}));

@@ -24,6 +24,7 @@ TEST(Precision, ReadsMpfrWithinItsLimits) {
     const Precision precision = Precision::parse("mpfr:" + std::to_string(digits));
     EXPECT_EQ(precision.kind(), Precision::Kind::mpfr);
     EXPECT_EQ(precision.digits(), digits);
+    EXPECT_EQ(Precision::parse(std::to_string(digits)), precision) << "the digits alone";
   }
 }
 
@@ -55,10 +56,10 @@ TEST_P(RefusedPrecision, IsAnInputErrorThatQuotesIt) {
 INSTANTIATE_TEST_SUITE_P(Forms, RefusedPrecision,
                          ::testing::Values("", " ", "Double", "double ", " quad", "QUAD", "float", "mpfr",
                                            "mpfr:", "mpfr50", "Mpfr:50", "mpfr: 50", "mpfr:50 ", "mpfr:+50", "mpfr:-50",
-                                           "mpfr:50.0", "mpfr:1e3", "mpfr:0x40", "mpfr:fifty", "mpfr:50,60", "50"));
+                                           "mpfr:50.0", "mpfr:1e3", "mpfr:0x40", "mpfr:fifty", "mpfr:50,60", "50.0"));
 INSTANTIATE_TEST_SUITE_P(Limits, RefusedPrecision,
-                         ::testing::Values("mpfr:0", "mpfr:1", "mpfr:19", "mpfr:10001", "mpfr:4294967316",
-                                           "mpfr:18446744073709551666"));
+                         ::testing::Values("mpfr:0", "mpfr:1", "mpfr:19", "19", "0", "10001", "mpfr:10001",
+                                           "mpfr:4294967316", "mpfr:18446744073709551666"));
 
 }  // namespace
 }  // namespace hbvm

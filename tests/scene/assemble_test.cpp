@@ -176,7 +176,7 @@ TEST_F(EveryKey, EnergyIsTheSumOfTheTable) {
   for (const Mpfr& r : {distance(qa, qb), distance(qc, charge)})
     V += literal<Mpfr>("5/16") * pow(Mpfr(r - Mpfr(1) / 3), 4);
   V += squared(Vector<Mpfr>(qb - qc));
-  for (const Vector<Mpfr>& x : {qa, qb, qc}) {
+  for (const Vector<Mpfr>& x : {qa, qb, qc, top_centre, stone_centre}) {
     const Mpfr r = distance(x, charge);
     V += pow(r, 4) / 80;
     V -= cos(r) / 2;
@@ -355,6 +355,16 @@ INSTANTIATE_TEST_SUITE_P(
                  "second_moment = [[1, 0, 0]",
                  "second_moment = [[-1, 0, 0]",
                  "[[rigid_body]]\nname = \"stone\"",
+                 {"'stone'", "no body has this 'second_moment'"}},
+        Unusable{"SecondMomentOfNoBody",
+                 "[\"1/5\", \"-1/3\", 4]]",
+                 "[\"1/5\", \"-1/3\", 3]]",
+                 "[[rigid_body]]\nname = \"top\"",
+                 {"'top'", "S = tr(J)/2 I - J + m c c^T"}},
+        Unusable{"SecondMomentSingular",
+                 "[[1, 0, 0], [0, 2, 0.5], [0, 0.5, 3]]",
+                 "[[1, 0, 0], [0, \"1/16\", 0], [0, 0, 3]]",
+                 "[[rigid_body]]\nname = \"stone\"",
                  {"'stone'", "positive definite"}},
         Unusable{"QuadricUnsymmetric",
                  "[\"1/4\", 2, 0], [0, 0, 1]]",
@@ -444,7 +454,8 @@ std::string pendulum(const std::string& position, const std::string& velocity) {
 }
 
 TEST(Consistency, IsJudgedInTheWorkingPrecision) {
-  const std::string rounded = pendulum("[0.70710678118654752, -0.70710678118654752]", "[1, 1]");
+  // No decimals, which would be taken for a rounded start and settled.
+  const std::string rounded = pendulum("[\"0.70710678118654752 + 0\", \"-0.70710678118654752 - 0\"]", "[1, 1]");
   EXPECT_EQ(inconsistency<double>(rounded), "");
   expect_words(inconsistency<Quad>(rounded), {"position", "constraint 1", "residual"});
   const PrecisionScope digits(50);
@@ -452,7 +463,7 @@ TEST(Consistency, IsJudgedInTheWorkingPrecision) {
 }
 
 TEST(Consistency, OfVelocitiesIsJudgedInTheWorkingPrecision) {
-  const std::string rounded = pendulum("[\"sqrt(1/2)\", \"-sqrt(1/2)\"]", "[0.33333333333333333, \"1/3\"]");
+  const std::string rounded = pendulum("[\"sqrt(1/2)\", \"-sqrt(1/2)\"]", "[\"0.33333333333333333 + 0\", \"1/3\"]");
   EXPECT_EQ(inconsistency<double>(rounded), "");
   const PrecisionScope digits(50);
   expect_words(inconsistency<Mpfr>(rounded), {"velocity", "constraint 1", "residual"});
@@ -590,6 +601,93 @@ TEST(Assemble, RefusesContradictoryConstraints) {
   for (const std::string& message : {inconsistency<double>(sideways), inconsistency<Quad>(sideways)})
     expect_words(message, {"constraint 3 (rod 'a'-'c')", "contradictory", "constraint 1", "constraint 2",
                            "second derivative", "tolerance"});
+}
+
+/// The pendulum on a circle of radius 1, its start rounded to the digits of a double, or of fewer.
+std::string pendulum_from(const std::string& position, const std::string& velocity) {
+  return "dimension = 2\n[[point]]\nname = \"o\"\nposition = [0, 0]\n[[body]]\nname = \"a\"\nmass = 1\nposition = " +
+         position + "\nvelocity = " + velocity + "\n" + rod("o", "a", "1");
+}
+
+TEST(Assemble, SettlesAStartThatIsConsistentToItsOwnDigits) {
+  const PrecisionScope digits(50);
+  const std::string rounded =
+      pendulum_from("[0.5403023058681398, 0.8414709848078965]", "[-0.8414709848078965, 0.5403023058681398]");
+  EXPECT_EQ(assembled<double>(rounded).settled, "");
+  const auto scene = assembled<Mpfr>(rounded);
+  expect_words(scene.settled, {"its own 16 digits", "moved by up to", "e-17"});
+  const Vector<Mpfr>&q = scene.q0, &p = scene.p0;
+  EXPECT_LE(magnitude(Mpfr(q[0] * q[0] + q[1] * q[1] - 1)), 4 * epsilon<Mpfr>());
+  EXPECT_LE(magnitude(Mpfr(q[0] * p[0] + q[1] * p[1])), 4 * epsilon<Mpfr>());
+  // The nearest point is on the ray.
+  const Mpfr x = literal<Mpfr>("0.5403023058681398"), y = literal<Mpfr>("0.8414709848078965");
+  EXPECT_LE(magnitude(Mpfr(q[0] * y - q[1] * x)), 4 * epsilon<Mpfr>());
+  // Few digits are meant as they stand, and so is a difference that rounding does not explain.
+  expect_words(inconsistency<Mpfr>(pendulum_from("[0.5403, 0.84147]", "[0, 0]")),
+               {"position", "tolerance", "hbvm scene project --precision mpfr:50"});
+  expect_words(inconsistency<Mpfr>(pendulum_from("[0.5403023058681398, 0.8414709849078965]", "[0, 0]")),
+               {"position", "hbvm scene project --precision mpfr:50"});
+  expect_words(inconsistency<Mpfr>(pendulum_from("[0.5403023058681398, 0.8414709848078965]", "[1, 0]")), {"velocity"});
+  EXPECT_EQ(assembled<Mpfr>(pendulum_from("[\"cos(1)\", \"sin(1)\"]", "[0, 0]")).settled, "");
+}
+
+/// Redundant constraints are found before their rounding makes them look apart.
+TEST(Assemble, SettlesAStartWithRedundantConstraints) {
+  const PrecisionScope digits(50);
+  // A square with both diagonals is one rod stiffer than it need be.
+  const std::string text = R"(dimension = 2
+body = [{ name = "a", mass = 1, position = [0, 0], velocity = [0, 0] },
+        { name = "b", mass = 2, position = [0.5403023058681398, 0.8414709848078965], velocity = [0, 0] },
+        { name = "c", mass = 3, position = [-0.3011686789397567, 1.3817732906760363], velocity = [0, 0] },
+        { name = "d", mass = 4, position = [-0.8414709848078965, 0.5403023058681398], velocity = [0, 0] }]
+)" + rod("a", "b", "1") + rod("b", "c", "1") +
+                           rod("c", "d", "1") + rod("d", "a", "1") + rod("a", "c", "\"sqrt(2)\"") +
+                           rod("b", "d", "\"sqrt(2)\"");
+  const auto scene = assembled<Mpfr>(text);
+  EXPECT_EQ(scene.problem.nu(), 5);
+  EXPECT_EQ(scene.problem.redundant.size(), 1u);
+  EXPECT_NE(scene.settled, "");
+}
+
+/// What is dense in the constraints that share a body only would not end.
+TEST(Assemble, StartsThousandsOfRods) {
+  std::string text = "dimension = 2\n[[point]]\nname = \"0\"\nposition = [0, 0]\n", rods;
+  constexpr int n = 3'000;
+  for (int i = 1; i <= n; ++i) {
+    const std::string name = std::to_string(i);
+    text += "[[body]]\nname = \"" + name + "\"\nmass = 1\nposition = [\"" + name + "*3/5\", \"" + name +
+            "*4/5\"]\nvelocity = [0, 0]\n";
+    rods += rod(std::to_string(i - 1), name, "1");
+  }
+  const auto scene = assembled<double>(text + rods);
+  EXPECT_EQ(scene.problem.nu(), n);
+  Point<double> point(scene.problem);
+  EXPECT_EQ(max_norm(point.hidden_constraints(scene.q0, scene.p0)), 0);
+  EXPECT_EQ(max_norm(point.multiplier(scene.q0, scene.p0)), 0);
+}
+
+/// The parts of a joint are named together.
+TEST(Assemble, NamesRedundantConstraintsByJoint) {
+  const std::string text = joined_bodies.substr(0, joined_bodies.find("[[effect]]")) +
+                           "[[constraint]]\nkind = \"hinge\"\nbetween = [{ of = \"base\", at = [1, 0, 0] }, { of = "
+                           "\"arm\", at = [0, \"-1/2\", 0] }]\naxis = [0, 0, 2]\nsecond_axis = [-3, 0, 0]\n";
+  const auto scene = assembled<double>(text);
+  EXPECT_EQ(scene.problem.redundant.size(), 5u);
+  std::size_t hinges = 0, length = 0;
+  for (const Redundancy& redundancy : scene.redundant) {
+    const std::string line = to_text(redundancy);
+    hinges += line.find("hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]'") != std::string::npos;
+    length = std::max(length, line.size());
+  }
+  EXPECT_LE(scene.redundant.size(), 2u);
+  EXPECT_EQ(hinges, scene.redundant.size());
+  EXPECT_LT(length, 400u);
+}
+
+TEST(Assemble, AsksForWorkingDigits) {
+  EXPECT_THROW(assemble<Mpfr>(load_scene("kepler")), InputError);
+  const PrecisionScope digits(30);
+  EXPECT_NO_THROW(assemble<Mpfr>(load_scene("kepler")));
 }
 
 /// Two walls at an angle of 1e-10: in double no digit of the multipliers is left.
@@ -756,6 +854,72 @@ TEST(Hinge, OfABodyWithAFixedPointIsItsAxis) {
   const auto above = assembled<Mpfr>(top("[\"1/3\", \"1/7\", \"sqrt(2) + 2\"]", "[0, 0, 2]"));
   EXPECT_EQ(above.problem.nu(), 8);
   EXPECT_EQ(above.problem.redundant.size(), 3u);
+}
+
+/// Planes and quadrics of points of rigid bodies, by name and in place, against the same as formulas.
+TEST(PointsOfRigidBodies, LieOnPlanesAndQuadrics) {
+  const PrecisionScope digits(50);
+  const auto unchecked = [](const std::string& constraints) {
+    return assemble<Mpfr>(read_scene(joined_bodies + constraints, "test.toml"), Consistency::unchecked);
+  };
+  const auto built_in = unchecked(
+      "[[constraint]]\nkind = \"plane\"\nbody = \"left\"\nnormal = [1, \"1/3\", -2]\noffset = \"1/7\"\n"
+      "[[constraint]]\nkind = \"quadric\"\nbody = { of = \"bob\", at = [1, 0, -2] }\n"
+      "A = [[1, 2, 0], [2, \"1/3\", 0], [0, 0, -1]]\nb = [1, 0, 5]\nc = -4\n"
+      "[[constraint]]\nkind = \"quadric\"\nbody = \"right\"\nA = [[0, 0, 0], [0, 0, 0], [0, 0, 0]]\nb = [1, 2, 3]\n"
+      "c = 5\n");
+  const auto formulas = unchecked(
+      "[[constraint]]\nkind = \"formula\"\non = \"left\"\ng = \"x + y/3 - 2*z - 1/7\"\n"
+      "[[constraint]]\nkind = \"formula\"\non = { of = \"bob\", at = [1, 0, -2] }\n"
+      "g = \"x^2 + 4*x*y + y^2/3 - z^2 + x + 5*z - 4\"\n"
+      "[[constraint]]\nkind = \"formula\"\non = \"right\"\ng = \"x + 2*y + 3*z + 5\"\n");
+  const Vector<Mpfr> q = generic(built_in.problem.m(), 3), p = generic(built_in.problem.m(), 4);
+  Point<Mpfr> one(built_in.problem), other(formulas.problem);
+  const Vector<Mpfr> g = one.constraints(q), hidden = one.hidden_constraints(q, p), lambda = one.multiplier(q, p);
+  const Vector<Mpfr> g2 = other.constraints(q), hidden2 = other.hidden_constraints(q, p),
+                     lambda2 = other.multiplier(q, p);
+  ASSERT_EQ(g.size(), 31);
+  for (Index i = 28; i < 31; ++i) {
+    expect_near(g[i], g2[i], 1'000, "g");
+    expect_near(hidden[i], hidden2[i], 1'000, "hidden");
+    expect_near(lambda[i], lambda2[i], 1'000'000, "multiplier");
+  }
+  EXPECT_TRUE(std::holds_alternative<Plane<Mpfr>>(built_in.problem.constraints[28].form));
+  EXPECT_TRUE(std::holds_alternative<Plane<Mpfr>>(built_in.problem.constraints[30].form));
+  EXPECT_EQ(built_in.problem.constraints[28].name, "plane of 'left'");
+}
+
+/// A point of a fixed body is fixed in part: the quadric has the fixed point's share in its coefficients.
+TEST(PointsOfRigidBodies, OfAFixedBodyLieOnAQuadric) {
+  const PrecisionScope digits(50);
+  const std::string scene = R"(dimension = 2
+[[rigid_body]]
+name = "plate"
+fixed_at = ["1/3", 2]
+mass = 1
+center = [0, 1]
+second_moment = [[1, 0], [0, 2]]
+directors = [[1, 0], [0, 1]]
+angular_velocity = 0
+[[constraint]]
+kind = "quadric"
+body = { of = "plate", at = [2, "1/2"] }
+)";
+  const std::string curve = "A = [[1, \"1/2\"], [\"1/2\", 3]]\nb = [1, -2]\nc = ";
+  // At (7/3, 5/2): 49/9 + 35/6 + 75/4 + 7/3 - 5 = 985/36.
+  const auto there = assembled<Mpfr>(scene + curve + "\"-985/36\"\n");
+  EXPECT_EQ(there.problem.nu(), 4);
+  expect_words(inconsistency<Mpfr>(scene + curve + "-27\n"), {"quadric of 'plate[2, 1/2]'", "3.61e-01"});
+  expect_words(inconsistency<Mpfr>(changed(scene + curve + "0\n", "at = [2, \"1/2\"]", "at = [0, 0]")),
+               {"quadric", "fixed in space"});
+}
+
+/// What slides on a plane keeps the momenta along it.
+TEST(PointsOfRigidBodies, OnAPlaneKeepItsSymmetry) {
+  std::string text = free_chain() +
+                     "[[constraint]]\nkind = \"plane\"\nbody = { of = \"base\", at = [\"1/3\", 0, 0] }\n"
+                     "normal = [0, 0, 2]\noffset = 0\n";
+  EXPECT_EQ(conserved(text), "P_x, P_y, L_z");
 }
 
 TEST(Hinge, OfAMassPointIsRefused) {

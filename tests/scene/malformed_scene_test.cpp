@@ -371,11 +371,6 @@ INSTANTIATE_TEST_SUITE_P(
                   "on = [\"arm\", \"left\"]",
                   "[[effect]]\nkind = \"uniform_gravity\"",
                   {"uniform_gravity", "'left' is a point of a rigid body", "'bob'"}},
-        Malformed{"TrapOnARigidBody",
-                  "on = [\"bead\", {",
-                  "on = [\"bob\", {",
-                  "[[effect]]\nkind = \"trap\"",
-                  {"trap", "'bob' is a rigid body", "name a point of it"}},
         Malformed{"TwoCharges",
                   "on = [\"bead\", { of = \"arm\", at = [\"1/3\", 0, 1] }]",
                   "on = [{ of = \"arm\", at = [1, 0, 0], charge = 1 }, { of = \"arm\", at = [1, 0, 0], charge = 2 }]",
@@ -390,10 +385,39 @@ INSTANTIATE_TEST_SUITE_P(
                   {"'between'", "must be a string"}}),
     name_of_malformed);
 
-TEST(MalformedScenes, PlaneOfAnAttachment) {
+TEST(MalformedScenes, PlaneOfARigidBody) {
   const std::string text =
-      joined_bodies + "[[constraint]]\nkind = \"plane\"\nbody = \"left\"\nnormal = [0, 0, 1]\noffset = 0\n";
-  expect_message(refusal(text), "test.toml:", {"plane", "'left' is a point of a rigid body"});
+      joined_bodies + "[[constraint]]\nkind = \"plane\"\nbody = \"bob\"\nnormal = [0, 0, 1]\noffset = 0\n";
+  expect_message(refusal(text), "test.toml:", {"plane", "'bob' is a rigid body; name a point of it"});
+}
+
+TEST(MalformedScenes, UnknownKindsListThoseThereAre) {
+  const std::string effect = refusal(changed(every_key, "kind = \"coulomb\"", "kind = \"friction\""));
+  expect_message(effect, "test.toml:",
+                 {"unknown kind of effect", "there are uniform_gravity, central_gravity", "formula",
+                  "friction, damping, motors and magnetic fields are beyond"});
+  const std::string constraint = refusal(changed(every_key, "kind = \"plane\"", "kind = \"rolling\""));
+  expect_message(constraint, "test.toml:",
+                 {"unknown kind of constraint", "there are rod, quadric, plane", "hinge, formula",
+                  "rolling, contact and slack ropes are beyond"});
+  expect_message(refusal(changed(every_key, "charge = -1", "colour = -1")),
+                 "test.toml:", {"point 'charge'", "unknown key 'colour'; those there are: charge, name, position"});
+}
+
+/// What follows the header of a table stands inside it.
+TEST(MalformedScenes, KeysOfTheFileInsideATable) {
+  const std::string body = "body = [{ name = \"a\", mass = 1, position = [0, 0], velocity = [0, 0] }]\n";
+  expect_message(refusal("dimension = 2\n[constants]\nL = 1\n" + body),
+                 "test.toml:4: ", {"constants", "'body' stands inside this table", "or as [[body]] tables"});
+  expect_message(refusal("dimension = 2\n[[point]]\nname = \"o\"\nposition = [0, 0]\n" + body),
+                 "test.toml:5: ", {"point 'o'", "'body' stands inside this table", "above the first header"});
+  expect_message(refusal("[constants]\nL = 1\ndimension = 2\n"),
+                 "test.toml:3: ", {"constants", "'dimension' stands inside this table"});
+  expect_message(refusal("[[body]]\nname = \"a\"\ndimension = 2\n"),
+                 "test.toml:3: ", {"body", "'dimension' stands inside this table"});
+  expect_message(refusal("dimension = 2\n" + body + "[constants]\ntitle = \"A scene\"\n"),
+                 "test.toml:4: ", {"constants", "'title' stands inside this table"});
+  EXPECT_EQ(refusal("dimension = 2\n" + body + "[constants]\nbody = 1\n"), "") << "a number may be called so";
 }
 
 TEST(MalformedScenes, HingeInThePlane) {

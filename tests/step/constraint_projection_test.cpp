@@ -91,7 +91,7 @@ TYPED_TEST(ConstraintProjectionTest, DependentGradientsAreATypedFailure) {
   Problem<S> problem;
   problem.dimension = problem.potential.dimension = problem.potential.m = 2;
   problem.mass.add_scalar(2, S(1));
-  for (int n = 0; n < 2; ++n) problem.constraints.push_back({"plane", Plane<S>{0, Vector<S>::Unit(2, 0), S(1)}});
+  for (int n = 0; n < 2; ++n) problem.constraints.push_back({"plane", Plane<S>{{0}, Vector<S>::Unit(2, 0), S(1)}});
   ConstraintProjection<S> projection(problem);
   Vector<S> q = Vector<S>::Constant(2, S(2)), p = q;
   projection.set_position(q);

@@ -107,8 +107,13 @@ TEST(Registry, RefusesWhatThereIsNot) {
                                  "tableau:+project",
                                  "tableau:no such file.toml"})
     EXPECT_NE(refusal(text), "") << text;
-  const std::string unknown = refusal("gauss:2");
-  for (const MethodFamily& family : method_families()) EXPECT_NE(unknown.find(family.usage), std::string::npos);
+  // In short: the names there are, or what it is called here.
+  const std::string unknown = refusal("adams:2");
+  for (const MethodFamily& family : method_families()) EXPECT_NE(unknown.find(family.name), std::string::npos);
+  EXPECT_LT(unknown.size(), 250u);
+  EXPECT_EQ(refusal("gauss:2"),
+            "unknown method 'gauss:2': take hbvm:S,S, which is Gauss with S stages where there are no constraints");
+  EXPECT_NE(refusal("rattel").find("did you mean 'rattle'?"), std::string::npos);
 }
 
 /// Each makes steppers for every number type, one after the other, that know nothing of each other.

@@ -11,7 +11,7 @@ namespace hbvm {
 
 inline const std::filesystem::path project = HBVM_SOURCE_DIR;
 
-/// A C++ file of include/hbvm or src. `folder` is the one below: "problem" for src/problem/effect/trace.cpp.
+/// A C++ file of include/hbvm, src or tests. `folder` is the one below: "problem" for src/problem/effect/trace.cpp.
 struct Source {
   std::filesystem::path path;
   std::string folder, text;
@@ -19,23 +19,29 @@ struct Source {
   std::string place(std::size_t line) const { return path.string() + ":" + std::to_string(line); }
 };
 
-inline std::vector<Source> sources() {
+/// All below a folder of the project.
+inline std::vector<Source> sources_in(const char* root) {
   namespace fs = std::filesystem;
   std::vector<Source> result;
-  for (const char* root : {"include/hbvm", "src"}) {
-    const fs::path base = project / root;
-    for (const auto& entry : fs::recursive_directory_iterator(base)) {
-      const std::string name = entry.path().filename().string();
-      if (!name.ends_with(".hpp") && !name.ends_with(".cpp") && !name.ends_with(".cpp.in")) continue;
-      const fs::path relative = fs::relative(entry.path(), base);
-      std::ifstream file(entry.path());
-      std::ostringstream text;
-      text << file.rdbuf();
-      const bool in_folder = std::distance(relative.begin(), relative.end()) > 1;
-      result.push_back({entry.path(), in_folder ? relative.begin()->string() : std::string(), text.str()});
-    }
+  const fs::path base = project / root;
+  for (const auto& entry : fs::recursive_directory_iterator(base)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.ends_with(".hpp") && !name.ends_with(".cpp") && !name.ends_with(".cpp.in")) continue;
+    const fs::path relative = fs::relative(entry.path(), base);
+    std::ifstream file(entry.path());
+    std::ostringstream text;
+    text << file.rdbuf();
+    const bool in_folder = std::distance(relative.begin(), relative.end()) > 1;
+    result.push_back({entry.path(), in_folder ? relative.begin()->string() : std::string(), text.str()});
   }
   std::sort(result.begin(), result.end(), [](const Source& a, const Source& b) { return a.path < b.path; });
+  return result;
+}
+
+/// Of the library and the program.
+inline std::vector<Source> sources() {
+  std::vector<Source> result = sources_in("include/hbvm");
+  for (Source& source : sources_in("src")) result.push_back(std::move(source));
   return result;
 }
 

@@ -46,7 +46,8 @@ Account account_of(const Problem<S>& problem, const SolverCounts& counts) {
   return account;
 }
 
-/// Brings elapsed times to processor time, in proportion to the whole, and adds what of it is in no line.
+/// Brings elapsed times to processor time, in proportion to the whole, and adds what of it is in no line. What was
+/// measured of the lines is never more than the whole, whatever a busy machine did to either clock.
 /// \param cpu_seconds, elapsed_seconds of all steps
 void balance(Account& account, double cpu_seconds, double elapsed_seconds);
 

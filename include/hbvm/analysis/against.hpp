@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +14,13 @@ namespace hbvm {
 /// A file of results of any program: names of columns, then a line a time.
 struct ResultsFile {
   std::string name, csv;
+  /// The step it was made with, an expression; empty if it is not known. step_stored() finds it in what files store.
+  std::string step = {};
 };
+
+/// The step that a file of results says it was made with: "hbvm:step" of what describes it (JSON, as hbvm run writes it
+/// beside its CSV), or else a comment "# step = 1/64" of its own; empty if there is none.
+std::string step_stored(const std::string& csv, const std::string& metadata);
 
 struct AgainstRequest {
   Scene scene;
@@ -25,10 +32,19 @@ struct AgainstRequest {
   std::function<void(double)> progress = {};
 };
 
-/// One component of one file: right digits at each time.
+/// One component of one file: right digits at each time. Of a vector that is exactly 0 they are counted by the greatest
+/// one of its kind, q, p or v, at any of the times; where all are 0 there are none to count: NaN.
 struct ComponentDigits {
   std::string name;
   std::vector<double> digits;
+  double off_zero = 0;  ///< the greatest error where there are no digits to count
+};
+
+/// A component of a file's row at t = 0 that is not what the scene starts with.
+struct StartDifference {
+  std::string name, theirs, ours;
+  double digits = 0;      ///< that are right
+  bool opposite = false;  ///< only the sign is another
 };
 
 struct FileAgainst {
@@ -40,8 +56,18 @@ struct FileAgainst {
   /// log10 of what H and the constraints g are off by, over the size of their terms, at each time, where the state is
   /// complete; else empty.
   std::vector<double> H_drift, g_drift;
-  double step = 0;   ///< between the first two times
+  bool has_start = false;              ///< a row at t = 0
+  std::vector<StartDifference> start;  ///< what is another there, to more than the digits of the file explain
+  double step = 0;                     ///< as the file has it, or between its first two times; NaN if there is one time
+  std::string step_text;               ///< the same as a text; empty if it is from the times
   double error = 0;  ///< log10 of the greatest error of a component at the last time, over its vector's size
+};
+
+/// Between two files, as log of the errors' ratio over that of the steps; NaN where the steps are equal or unknown, or
+/// the last times are not the same.
+struct Convergence {
+  std::size_t coarse = 0, fine = 0;
+  double order = 0;
 };
 
 struct Against {
@@ -50,9 +76,14 @@ struct Against {
   /// Digits that an error of the size of the first file's first would have left at its times by the growth of errors
   /// alone.
   std::vector<double> by_growth;
-  /// Between one file and the next, as log of the errors' ratio over that of the steps; NaN where the steps are equal,
-  /// or the last times are not.
-  std::vector<double> orders;
+  /// Between each file and that of the next smaller step, whatever their names.
+  std::vector<Convergence> orders;
+
+  /// The least right digits of all files, components and times that were compared. A component without digits to count
+  /// has the place of its error after the point.
+  double least_digits() const;
+  /// Of the two smallest steps; NaN if there is none.
+  double order() const { return orders.empty() ? std::numeric_limits<double>::quiet_NaN() : orders.back().order; }
 };
 
 /// Right digits of results beside the reference, which is found in the store or computed at their times. At most
@@ -61,7 +92,8 @@ struct Against {
 Against compare_with_reference(const AgainstRequest& request);
 inline constexpr std::size_t most_times = 50;
 
-/// Digits against time, a curve a component of the first file, and what the growth of errors alone would leave.
+/// Digits against time: a panel a file, a curve a component; of the first also what the growth of errors alone would
+/// leave.
 Figure against_figure(const AgainstRequest& request, const Against& against, const std::string& name);
 
 }  // namespace hbvm

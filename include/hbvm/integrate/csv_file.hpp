@@ -17,7 +17,7 @@ class CsvFile final : public std::ostream {
     to_go_on  ///< as it is, until remember() cuts it to what it was
   };
 
-  /// \throws InputError if the file cannot be opened; to_go_on: if it is not there
+  /// \throws InputError if the file cannot be opened, or another run is writing it; to_go_on: if it is not there
   CsvFile(const std::string& path, Opening opening);
   /// Complete lines are still written, if they can be.
   ~CsvFile() override;

@@ -20,13 +20,26 @@ class RedundancyLost final : public IntegrationError {
   std::string constraint_, time_;
 };
 
+/// The energy or a constraint has become infinite, or no number.
+class NotFinite final : public IntegrationError {
+ public:
+  explicit NotFinite(const std::string& place,
+                     const std::string& advice = "the step is far too large, or an effect has a singularity there")
+      : IntegrationError(place + ": the energy or a constraint is not finite; " + advice), place_(place) {}
+  const std::string& place() const { return place_; }
+
+ private:
+  std::string place_;
+};
+
 /// The paper's errors e_H, e_g and e_hid: maxima over the mesh, t = 0 included, of |H_n - H_0|, |g|_max and
 /// |grad g^T M^-1 p|_max, redundant constraints included.
 template <Scalar S>
 class Drift final : public Observer<S> {
  public:
   explicit Drift(const Problem<S>& problem) : point_(problem), redundant_(problem) {}
-  /// \throws RedundancyLost if a redundant constraint is violated by more than the root of epsilon of its terms
+  /// \throws RedundancyLost if a redundant constraint is violated by more than the root of epsilon of its terms;
+  /// NotFinite
   void observe(const Snapshot<S>& snapshot) override;
   void remember(Archive& archive) override { archive(H0_, e_H_, e_g_, e_hid_, redundancy_); }
 

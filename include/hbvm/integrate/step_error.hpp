@@ -10,6 +10,8 @@ namespace hbvm {
 class StepError : public IntegrationError {
  public:
   StepError(long step, std::string time, const StageFailure& failure);
+  /// The same with other advice.
+  StepError(const StepError& error, const std::string& advice);
   FailureCause cause() const { return cause_; }
   long step() const { return step_; }
   const std::string& time() const { return time_; }
@@ -19,6 +21,7 @@ class StepError : public IntegrationError {
   FailureCause cause_;
   long step_;
   std::string time_, increment_;
+  std::string seen_;  ///< without the advice
 };
 
 }  // namespace hbvm

@@ -31,8 +31,10 @@ struct Independence {
 /// The constraints that are independent at q, judged by Cholesky's method on the Gram matrix grad g^T M^-1 grad g in
 /// more than twice the working digits: what is dependent but for the rounding of the coordinates counts as dependent.
 /// Of dependent ones those are kept that stand best apart from one another.
+/// \param rounding the relative one of the coordinates
 template <Scalar S>
-Independence<S> find_independent(const Problem<S>& problem, const Vector<S>& q, const Vector<S>& v);
+Independence<S> find_independent(const Problem<S>& problem, const Vector<S>& q, const Vector<S>& v,
+                                 const S& rounding = epsilon<S>());
 
 /// Moves the redundant constraints of a problem without any aside.
 template <Scalar S>
@@ -46,10 +48,11 @@ double gram_condition(const Problem<S>& problem, const Vector<S>& q);
 template <Scalar S>
 double angle_condition(const Problem<S>& problem, const Vector<S>& q);
 
-#define HBVM_DECLARE(S)                                                                                       \
-  extern template Independence<S> find_independent<S>(const Problem<S>&, const Vector<S>&, const Vector<S>&); \
-  extern template void set_aside<S>(Problem<S>&, const Independence<S>&);                                     \
-  extern template double gram_condition<S>(const Problem<S>&, const Vector<S>&);                              \
+#define HBVM_DECLARE(S)                                                                                      \
+  extern template Independence<S> find_independent<S>(const Problem<S>&, const Vector<S>&, const Vector<S>&, \
+                                                      const S&);                                             \
+  extern template void set_aside<S>(Problem<S>&, const Independence<S>&);                                    \
+  extern template double gram_condition<S>(const Problem<S>&, const Vector<S>&);                             \
   extern template double angle_condition<S>(const Problem<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

@@ -26,6 +26,7 @@ class ProgramSeries {
 
   /// Coefficient n of an input, to be set before advance(n).
   Mpfr& input(Index i, Index n) { return series(i)[n]; }
+  const Mpfr& input(Index i, Index n) const { return series(i)[n]; }
   /// Computes coefficient n of everything; those below are known.
   /// \throws IntegrationError where an operation has no series: a division by 0, a root or logarithm of what is not
   /// positive, a magnitude at 0

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hbvm/reference/route_legs.hpp"
+#include "hbvm/reference/effort.hpp"
+#include "hbvm/reference/route_run.hpp"
 #include "hbvm/scene/scene.hpp"
 
 namespace hbvm {
@@ -27,6 +28,9 @@ struct ReferenceRequest {
   /// Called now and then with the part that is done, from any thread; it may throw to end the work.
   std::function<void(double)> progress = {};
   LegKeeper keeper = {};  ///< where legs of the routes are found and kept
+  /// Called with what each route will take, before it begins.
+  std::function<void(const Effort&)> estimate = {};
+  bool force = false;  ///< do also what will take more than a day, or more memory than most machines have
 };
 
 /// A decimal text for each number, to `digits` digits after the leading one of its vector's greatest component.
@@ -37,6 +41,12 @@ struct ReferenceState {
   std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
   long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors
 };
+
+/// What a route finds in the digits of the scope, of which so many are to be right; nothing if it does not serve a
+/// scene.
+using RouteFunction = std::function<std::optional<RouteRun>(const RouteWork&, double digits)>;
+/// The route of that name.
+RouteFunction function_of(Route route);
 
 struct RouteReport {
   std::string name, settings;
@@ -55,10 +65,11 @@ struct Reference {
 /// The state at the times, each digit found by two routes, and by the closed form, too, of a motion that has one;
 /// order, step, precision and guard digits are chosen here: from the growth of a small change of the start and the
 /// radius of convergence of the series, at low precision. Where the routes agree in fewer digits, both are made again
-/// with more. \throws InputError for digits or times out of range, or if `only` is a closed form and none is known;
-/// IntegrationError where the motion ends, or the routes never
-/// agree, with both values
-Reference compute_reference(const ReferenceRequest& request);
+/// with more. \throws InputError for digits or times out of range, for what would take too long, or if `only` is a
+/// closed form and none is known; IntegrationError where the motion ends, or the routes never agree, with both values
+/// \param function what makes each route
+Reference compute_reference(const ReferenceRequest& request,
+                            const std::function<RouteFunction(Route)>& function = function_of);
 
 /// Of what a scene says, its name and comments apart.
 std::string scene_hash(const Scene& scene);

@@ -32,13 +32,6 @@ struct RouteWork {
 /// \throws IntegrationError
 RouteRun taylor_route(const RouteWork& work);
 
-/// A part of the time, from the one before, and how many doublings its least radius of convergence is above the least
-/// of all.
-struct Calm {
-  double until = 0;
-  int doublings = 0;
-};
-
 /// The states by the scene's closed form, or nothing if none is known.
 /// \throws IntegrationError
 std::optional<RouteRun> closed_form_route(const RouteWork& work);
@@ -47,21 +40,23 @@ std::optional<RouteRun> closed_form_route(const RouteWork& work);
 struct MotionNature {
   double digits_lost = 0;  ///< log10 of the factor by which a change of the start grows until the last time, at least 0
   double log2_radius = 0;  ///< least radius of convergence of the Taylor series
-  std::vector<Calm> calm = {};  ///< parts of the time from 0 on; after the last it is the least
-  long legs = 1;                ///< parts of the time that take some hundred steps of a Taylor series each
+  double steps = 1;        ///< of a Taylor series until the last time
+  /// Parts of the time that take some hundred steps of a Taylor series each.
+  long legs() const;
 };
 
-/// With so many digits HBVM has not the stages that it would need.
+/// The stages s of HBVM(s,s) for so many digits, at most max_s.
+int stages_of_route(double digits);
+/// With more digits HBVM has not the stages that it would need.
 inline constexpr int most_digits_of_hbvm = 20 * max_s / 9;
 
-/// The states by HBVM(s,s) with so many digits right, if the motion is analytic within 2^log2_radius of the time axis,
-/// and farther where it is calm: steps are longer there.
+/// The states by HBVM(s,s) with so many digits right, by steps that it chooses itself: see HbvmWalk.
 /// \throws IntegrationError
-RouteRun hbvm_route(const RouteWork& work, double digits, const MotionNature& nature);
+RouteRun hbvm_route(const RouteWork& work, double digits);
 
 /// From two motions at low precision, the start of one changed a little. Where the change has grown so far that it
 /// tells no more, its rate until then is taken for that of all the time, and the radius for the least. \param progress
-/// is called with 0 now and then, and may throw to end the work \throws IntegrationError
+/// is called with the part of the time that is done, and may throw to end the work \throws IntegrationError
 MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times, const RouteProgress& progress);
 
 }  // namespace hbvm

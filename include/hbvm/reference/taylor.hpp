@@ -2,12 +2,15 @@
 
 #include <deque>
 #include <functional>
+#include <memory>
 
 #include "hbvm/linear/lu.hpp"
 #include "hbvm/problem/problem.hpp"
 #include "hbvm/reference/program_series.hpp"
 
 namespace hbvm {
+
+class ForceBounds;
 
 /// The motion by its Taylor series, in the digits of the scope: no quadrature, no stage equations, no basis, no
 /// iteration. In a unit of time h, about as long as the step, q' = h M^-1 p, p' = h (grad U(q) - grad g(q) lambda) and
@@ -27,11 +30,21 @@ namespace hbvm {
 /// position and momentum. As h is that long, coefficients fall to round-off, and so do the numbers of which
 /// convolutions consist, AlignedSeries. After each step the state is moved to the constraints and their tangent space,
 /// by round-off.
+///
+/// The coefficients tell only what is near the start of a step. So it is no longer than ForceBounds allow, which look
+/// at the forces on a circle of radius R about its start in complex time: with |F| <= M there, and F analytic inside,
+/// the terms of F from order N on add up to at most M (h/R)^N / (1 - h/R).
 class TaylorMotion {
  public:
   /// From (q0, p0), consistent, at t = 0. The problem must outlive it.
   /// \throws IntegrationError if there is no series there
-  TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0);
+  /// \param while_working is called after every coefficient, and may throw to end the work
+  TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,
+               std::function<void()> while_working = {});
+  ~TaylorMotion();
+
+  /// Of the series with so many bits.
+  static Index order_for(int bits);
 
   /// The state at t, not before the last.
   /// \throws IntegrationError at a singularity of the forces or of the constraints, with its time
@@ -104,6 +117,9 @@ class TaylorMotion {
     double step, radius, growth;
   };
   Extent extent(Index order);
+  /// log2 of the length of the step, at most `most`, for which the forces are bounded. \throws IntegrationError if none
+  /// is
+  double bounded_length(double most);
   /// (G^T v)_{n+1} less G_0^T v_{n+1}, of one form.
   void set_hidden(Mpfr& r, std::size_t l, Index n);
   /// The series at the time tau after the step's start.
@@ -112,6 +128,7 @@ class TaylorMotion {
   void finish();
 
   const Problem<Mpfr>& problem_;
+  std::function<void()> while_working_;
   Index order_;
   std::vector<Form> forms_;
   std::deque<Slope> forces_, constraint_slopes_;
@@ -123,6 +140,8 @@ class TaylorMotion {
   /// The unit of time h, log2 of it, and 1/h^2.
   Mpfr unit_ = 1, per_square_ = 1;
   double log2_unit_ = 0, first_log2_unit_ = 0, next_log2_unit_ = 0;
+  std::unique_ptr<ForceBounds> bounds_;
+  double next_log2_length_;  ///< what to try first
   Mpfr start_ = 0, length_ = 0, t_ = 0, x_ = 0;
   long steps_ = 0;
   double least_radius_ = 0;

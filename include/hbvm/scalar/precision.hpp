@@ -5,14 +5,14 @@
 
 namespace hbvm {
 
-/// A working precision as a user names it: "double", "quad" or "mpfr:N" with N decimal digits.
+/// A working precision as a user names it: "double", "quad" or "mpfr:N", or "N" alone, with N decimal digits.
 class Precision {
  public:
   enum class Kind { binary64, binary128, mpfr };
   static constexpr unsigned min_digits = 20;
   static constexpr unsigned max_digits = 10'000;
 
-  /// \throws InputError unless `name` is one of the three forms and min_digits <= N <= max_digits
+  /// \throws InputError unless `name` is one of these forms and min_digits <= N <= max_digits
   static Precision parse(std::string_view name);
 
   Kind kind() const { return kind_; }

@@ -61,6 +61,17 @@ std::string wrong_rows(const Tableau& tableau, const Met& met) {
   return text;
 }
 
+/// The first of them that holds the numbers of a scene: 1e-420 is none of double.
+std::size_t first_level(const std::string& problem) {
+  const Scene scene = load_scene(problem);
+  for (std::size_t level = 0; level < std::size(precisions); ++level) try {
+      with_scalar(Precision::parse(precisions[level]), [&]<Scalar S>() { assemble<S>(scene, Consistency::unchecked); });
+      return level;
+    } catch (const InputError&) {  // told of the first one if none does
+    }
+  return 0;
+}
+
 bool is_rate(const Claim& claim) { return claim.form == Form::at_least || claim.form == Form::exactly; }
 
 }  // namespace
@@ -207,7 +218,8 @@ std::vector<Precision> Auditor::levels() const {
     // One that has all their digits, and six more.
     constexpr unsigned more = 6;
     if (coefficients_ && coefficients_->decimals() &&
-        result.back().digits() >= static_cast<unsigned>(coefficients_->decimals()->digits) + more)
+        result.back().digits() >= static_cast<unsigned>(coefficients_->decimals()->digits) + more &&
+        result.size() > first_level(cell_.subject().problem))
       break;
   }
   return result;
@@ -230,7 +242,7 @@ template <class Measure>
 void Auditor::climb(const std::vector<std::size_t>& members, std::size_t at_least, const Measure& measure) {
   const std::vector<Precision> all = levels();
   at_least = std::min(at_least, all.size());
-  for (std::size_t level = 0; level < all.size(); ++level) {
+  for (std::size_t level = first_level(cell_.subject().problem); level < all.size(); ++level) {
     const Precision& precision = all[level];
     const Ladders ladders = with_scalar(precision, measure);
     if (level + 1 == std::min(deep, all.size()) && !steps_.empty() && &members == &steps_) deep_ = ladders;
@@ -359,7 +371,7 @@ void Auditor::conserve_in(const Precision& precision, int log2_step, long steps)
 
 void Auditor::conserve() {
   const std::vector<Precision> all = levels();
-  for (std::size_t level = 0; level < std::min(deep, all.size()); ++level)
+  for (std::size_t level = first_level(cell_.subject().problem); level < std::min(deep, all.size()); ++level)
     conserve_in(all[level], short_steps.log2_step, short_steps.steps * cell_.windows);
   int digits = 0;
   std::vector<std::size_t> unproved;

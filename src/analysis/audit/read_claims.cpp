@@ -178,7 +178,8 @@ class ClaimReader {
 
   /// Whether some constraint is not quadratic.
   static bool is_general(const std::string& problem) {
-    return degree(assemble<double>(load_scene(problem)).problem.constraints) != 2;
+    const PrecisionScope digits(30);  // whose range holds whatever a scene may
+    return degree(assemble<Mpfr>(load_scene(problem)).problem.constraints) != 2;
   }
 
   TomlTable reader_;

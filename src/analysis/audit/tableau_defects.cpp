@@ -23,6 +23,12 @@ Eigen::Matrix<Mpfr, Eigen::Dynamic, columns> exact(const Eigen::Matrix<S, Eigen:
 
 Matrix<Mpfr> times(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b) { return a.lazyProduct(b); }
 
+/// Of a method on a scene.
+int constraint_nodes(const HbvmMethod& method, const std::string& problem) {
+  const PrecisionScope digits(30);  // whose range holds whatever a scene may
+  return method.constraint_nodes(assemble<Mpfr>(load_scene(problem)).problem);
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -30,9 +36,7 @@ std::map<Quantity, double> tableau_defects(const Claim& subject) {
   const HbvmMethod& audited = *as_hbvm(*subject.method);
   const bool of_problem = !subject.problem.empty() && subject.problem != "tableau" && audited.name().r == 0;
   const Hbvm<S> method =
-      of_problem
-          ? audited.coefficients<S>(audited.constraint_nodes(assemble<double>(load_scene(subject.problem)).problem))
-          : audited.coefficients<S>();
+      of_problem ? audited.coefficients<S>(constraint_nodes(audited, subject.problem)) : audited.coefficients<S>();
   // Twice the digits show the rounding of each entry, and nothing of the sums.
   const PrecisionScope scope(2 * static_cast<unsigned>(digits10<S>()) + guard_digits);
   const int k = method.k, s = method.s, r = method.r;

@@ -63,21 +63,20 @@ CostJudge::Component CostJudge::component(const std::vector<std::string>& texts,
   for (Index i = 0; i < size; ++i) result.exact[i] = Mpfr(texts[static_cast<std::size_t>(i)]);
   resolution = std::numeric_limits<double>::quiet_NaN();
   if (size == 0) return result;
-  const Mpfr greatest = std::max(max_norm(result.exact), max_norm(start));
+  const Mpfr leading = max_norm(result.exact);
+  // Of what is at rest at the origin in the end, what it was at the start.
+  Mpfr greatest = leading == 0 ? max_norm(start) : leading;
+  if (greatest == 0) greatest = 1;
   Mpfr least = greatest;
   for (Index first = 0; first < size; first += group) {
     Mpfr scale = 0;
     const Index end = std::min(first + group, size);
-    for (Index i = first; i < end; ++i) {
-      raise_to(scale, magnitude(result.exact[i]));
-      raise_to(scale, magnitude(start[i]));
-    }
-    if (scale == 0) scale = greatest == 0 ? Mpfr(1) : greatest;
+    for (Index i = first; i < end; ++i) raise_to(scale, magnitude(result.exact[i]));
+    if (scale == 0) scale = greatest;
     least = std::min(least, scale);
     for (Index i = first; i < end; ++i) result.scale[i] = scale;
   }
-  const Mpfr leading = max_norm(result.exact);
-  resolution = (leading == 0 || least == 0 ? double{0} : std::ceil(log10_of(leading)) - log10_of(least)) - digits_;
+  resolution = (leading == 0 ? double{0} : std::ceil(log10_of(leading)) - log10_of(least)) - digits_;
   return result;
 }
 

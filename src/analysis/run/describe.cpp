@@ -3,23 +3,83 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "hbvm/analysis/choose_k.hpp"
+#include "hbvm/problem/effect/execution.hpp"
 #include "hbvm/problem/effect/trace.hpp"
 #include "hbvm/problem/momenta.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/problem/regularity.hpp"
+#include "hbvm/scalar/literal.hpp"
 #include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/scene/coordinate_names.hpp"
+#include "hbvm/scene/second_moment.hpp"
 
 namespace hbvm {
 namespace {
+
+/// Lines on whom an effect acts and on whom it does not, and how on rigid bodies.
+std::vector<std::pair<std::string, std::string>> whom_it_acts_on(const Scene& scene, const SceneEffect& effect,
+                                                                 const EffectReach& reach) {
+  std::vector<std::pair<std::string, std::string>> lines{{"  on", to_text(reach)}};
+  std::set<std::string> rigid;
+  for (const SceneRigidBody& body : scene.rigid_bodies) rigid.insert(body.name);
+  const bool at_centers = std::any_of(reach.on.begin(), reach.on.end(), [&](const std::vector<std::string>& names) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return rigid.contains(name); });
+  });
+  if (at_centers)
+    lines.emplace_back("", effect.kind == "uniform_gravity" || effect.kind == "spring"
+                               ? "rigid bodies at the centre of mass"
+                               : "rigid bodies at the centre of mass, the change of the field across them neglected");
+  constexpr std::size_t most = 20;
+  const auto without = left_out(scene, effect, reach);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, without.size()); ++i)
+    text += fmt::format("{}'{}' ({})", i > 0 ? ", " : "", without[i].first, without[i].second);
+  if (without.size() > most) text += fmt::format(", and {} more", without.size() - most);
+  if (!text.empty()) lines.emplace_back("  not on", text);
+  return lines;
+}
+
+/// The moments of inertia of a rigid body, in double.
+std::string inertia_of(const SceneRigidBody& body, const Scene& scene) {
+  const auto number = [&](const Expression& e) { return evaluate<double>(e, scene.constants); };
+  const Index d = scene.dimension;
+  MassDistribution<double> of{number(body.mass), Vector<double>(d), Matrix<double>(d, d)};
+  for (Index i = 0; i < d; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    of.center[i] = number(body.center[row]);
+    for (Index j = 0; j < d; ++j) of.second_moment(i, j) = number(body.second_moment[row][static_cast<std::size_t>(j)]);
+  }
+  std::string text;
+  for (const double moment : moments_of_inertia(of)) text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", moment);
+  return text + " about the centre of mass";
+}
+
+/// Refuses an effect that has no value at the start, as the attraction of two bodies in one place.
+template <Scalar S>
+void refuse_singular(const Scene& scene, const Assembled<S>& assembled) {
+  for (std::size_t i = 0; i < assembled.reach.size(); ++i) {
+    const EffectTerm<S>& term = assembled.problem.potential.terms[i];
+    Matrix<S> x(term.instances(), term.arguments * scene.dimension);
+    displace(term, scene.dimension, lanes(assembled.q0), x.data(), x.rows());
+    Execution<S> U(term.value, term.value_coefficients, x, 1);
+    U.run();
+    for (Index n = 0; n < term.instances(); ++n)
+      if (!is_finite(U.output(0, n)))
+        throw InputError(fmt::format("{}:{}: effect {} ({}) has no value at the start on {}", scene.name,
+                                     scene.effects[i].line, i + 1, term.kind,
+                                     to_text(EffectReach{{assembled.reach[i].on[static_cast<std::size_t>(n)]}})));
+  }
+}
 
 template <Scalar S>
 std::string describe_in(const Scene& scene) {
   const Assembled<S> assembled = assemble<S>(scene);
   const Problem<S>& problem = assembled.problem;
+  refuse_singular(scene, assembled);
   const auto& q = assembled.q0;
   const auto& p = assembled.p0;
   std::string text = fmt::format("{}: {}\n", scene.name, scene.title);
@@ -29,6 +89,8 @@ std::string describe_in(const Scene& scene) {
   if (!scene.source.empty()) line("source", scene.source);
   line("space", fmt::format("{} dimensions", scene.dimension));
   line("bodies", fmt::format("{}, and {} rigid", scene.bodies.size(), scene.rigid_bodies.size()));
+  for (const SceneRigidBody& body : scene.rigid_bodies)
+    line("  '" + body.name + "'", "inertia " + inertia_of(body, scene));
   if (!scene.attachments.empty()) line("attachments", std::to_string(scene.attachments.size()));
   line("coordinates m", std::to_string(problem.m()));
   const std::vector<std::string> names = coordinate_names(scene);
@@ -53,12 +115,15 @@ std::string describe_in(const Scene& scene) {
   else if (of_g > 2)
     line("g", fmt::format("polynomial of degree {}: r >= {}/2 s nodes keep it exactly", of_g, of_g));
   for (const Redundancy& redundancy : assembled.redundant) line("  redundant", to_text(redundancy));
+  if (!assembled.settled.empty()) line("start", assembled.settled);
   if (problem.nu() > 0) line("Gram matrix", fmt::format("condition {:.3g} at the start", gram_condition(problem, q)));
   if (problem.potential.terms.empty()) line("effects", "none");
-  for (const EffectTerm<S>& term : problem.potential.terms) {
+  for (std::size_t i = 0; i < problem.potential.terms.size(); ++i) {
+    const EffectTerm<S>& term = problem.potential.terms[i];
     const std::string degree = term.degree < 0 ? "not a polynomial" : fmt::format("degree {}", term.degree);
     line("effect", fmt::format("{}, {} in all, {}{}", term.kind, term.instances(), degree,
                                term.constant_force ? ", constant force: evaluated once" : ""));
+    for (const auto& [what, whom] : whom_it_acts_on(scene, scene.effects[i], assembled.reach[i])) line(what, whom);
   }
   if (const auto degree = degree_of_U(problem))
     line("U", *degree <= 2

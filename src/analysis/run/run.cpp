@@ -88,6 +88,26 @@ Assembled<S> seen_by_stepper(const Assembled<S>& scene, Direction direction) {
   return seen;
 }
 
+/// What `integrate` returns. Where it fails after the motion had been lost, that is the cause, and it says so.
+template <Scalar S, class Integrate>
+Simulated<S> explained(HealthWatch<S>& health, Integrate&& integrate) {
+  try {
+    return integrate();
+  } catch (const StepError& error) {
+    const std::string lost = health.lost();
+    if (lost.empty()) throw;
+    throw StepError(error, lost);
+  } catch (const RedundancyLost& error) {
+    const std::string lost = health.lost();
+    if (lost.empty()) throw;
+    throw RedundancyLost(error.what() + ("; before, " + lost), error.constraint(), error.time());
+  } catch (const NotFinite& error) {
+    const std::string lost = health.lost();
+    if (lost.empty()) throw;
+    throw NotFinite(error.place(), lost);
+  }
+}
+
 template <Scalar S>
 RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants, request.direction);
@@ -126,14 +146,17 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.m(), grid.steps()));
   std::optional<EnergyScale<S>> scale;
   if (stepper.chosen()) observers.push_back(&scale.emplace(scene.problem));
-  const Simulated<S> simulated = simulate<S>(scene, stepper, grid, observers,
-                                             request.account ? &result.account : nullptr, &health.decay(), course);
+  const Simulated<S> simulated = explained(health, [&] {
+    return simulate<S>(scene, stepper, grid, observers, request.account ? &result.account : nullptr, &health.decay(),
+                       course);
+  });
 
   if (csv) csv->flush();
 
   const Snapshot<S>& end = simulated.integration.end;
   if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_H);
   if (stepper.halving()) result.halving = report_halving(*stepper.halving(), grid);
+  result.settled = scene.settled;
   result.step = to_text(grid.step());
   result.until = to_text(grid.until());
   result.t = to_text(end.t);
@@ -155,7 +178,7 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   result.e_hid = to_text(simulated.e_hid);
   result.iterations_per_step =
       static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
-  result.health = health.report(*result.method);
+  result.health = health.report(*request.method, *result.method, stepper.halving());
   for (const Redundancy& redundancy : scene.redundant)
     result.health.warnings.push_back(
         {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +

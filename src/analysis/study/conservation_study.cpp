@@ -58,8 +58,8 @@ std::vector<std::string> cells(const Conservation& found, Row& row, Digits digit
   return result;
 }
 
-Agreement check(const Experiment& experiment, const std::vector<Row>& rows) {
-  Agreement agreement;
+StudyAgreement check(const Experiment& experiment, const std::vector<Row>& rows) {
+  StudyAgreement agreement;
   agreement.what = "stated verdicts";
   const ExpectedCsv expected(experiment.folder / "expected.csv");
   const bool in_double = experiment.precision.kind() == Precision::Kind::binary64;

@@ -39,7 +39,7 @@ struct Part {
 struct Findings {
   Table table;
   Table full;  ///< the same with all digits, and empty cells where there is no number
-  Agreement agreement;
+  StudyAgreement agreement;
 };
 
 /// Files that a part of a study made, and what it could not make.

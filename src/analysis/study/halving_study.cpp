@@ -29,9 +29,9 @@ struct HalvingTable {
 
 /// Every printed figure above round-off, to all printed digits; beyond double also that what was round-off in double
 /// is round-off here, and that the rates double could not show (***) are there.
-Agreement check(const Experiment& experiment, const std::vector<Block>& blocks, double above_round_off,
-                const std::vector<std::string>& round_off, const std::map<std::string, Expression>& orders) {
-  Agreement agreement;
+StudyAgreement check(const Experiment& experiment, const std::vector<Block>& blocks, double above_round_off,
+                     const std::vector<std::string>& round_off, const std::map<std::string, Expression>& orders) {
+  StudyAgreement agreement;
   const ExpectedCsv expected(experiment.folder / "expected.csv");
   agreement.what = "printed figures";
   for (const auto& printed : expected.rows) {

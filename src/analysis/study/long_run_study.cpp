@@ -33,8 +33,8 @@ LongRun read_long_run(const std::string& text) {
   });
 }
 
-Agreement check(const Experiment& experiment, const Table& table, const std::vector<LongRun>& results) {
-  Agreement agreement;
+StudyAgreement check(const Experiment& experiment, const Table& table, const std::vector<LongRun>& results) {
+  StudyAgreement agreement;
   const ExpectedCsv expected(experiment.folder / "expected.csv");
   agreement.what = "stated bounds";
   for (const auto& row : expected.rows) {

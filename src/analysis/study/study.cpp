@@ -93,17 +93,18 @@ class Study {
     StudyOutcome outcome;
     outcome.title = title_;
     Findings findings = table_.conclude(results_of(table_.cells));
-    static_cast<Agreement&>(outcome) = std::move(findings.agreement);
+    static_cast<StudyAgreement&>(outcome) = std::move(findings.agreement);
     Table& table = findings.table;
     table.caption = title_;
     table.provenance = experiment_.provenance;
-    outcome.table = to_markdown(table);
-    for (const auto& [name, text] : {std::pair("table.csv", to_csv(table)), std::pair("table.md", outcome.table),
+    for (const auto& [name, text] : {std::pair("table.csv", to_csv(table)), std::pair("table.md", to_markdown(table)),
                                      std::pair("table.tex", to_latex(table))}) {
       write_file(experiment_.results / name, text);
       outcome.files.push_back((experiment_.results / name).string());
     }
     write_full(std::move(findings.full), outcome);
+    table.provenance.clear();  // comments of the file, for nobody at a terminal
+    outcome.table = to_markdown(table);
     for (const auto& figure : figures_) {
       const Drawn drawn = figure.conclude(results_of(figure.cells));
       outcome.files.insert(outcome.files.end(), drawn.files.begin(), drawn.files.end());

@@ -184,7 +184,7 @@ std::optional<ConstraintForms<S>> quadratic_form(const FormulaUse<S>& use) {
   const Quadratic& g = found->g;
   const bool linear = std::all_of(g.A.data(), g.A.data() + g.A.size(), [](const Mpfr& a) { return a == 0; });
   if (linear && found->blocks.size() == 1) {
-    Plane<S> plane{found->blocks.front(), rounded<S>(g.b), rounded<S>(g.c)};
+    Plane<S> plane{found->blocks, rounded<S>(g.b), rounded<S>(g.c)};
     plane.offset = -plane.offset;
     return plane;
   }

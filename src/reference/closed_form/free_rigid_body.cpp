@@ -35,7 +35,7 @@ class FreeRigidBody : public ClosedForm {
     if (I[0] == I[2]) steady_ = I[0];
     if (steady_) return;
     if (side < 0 || I[1] == I[2]) {
-      std::swap(shape_.moments[0], shape_.moments[2]);
+      swap(shape_.moments[0], shape_.moments[2]);
       const Vector<Mpfr> first = shape_.axes.col(0);
       shape_.axes.col(0) = shape_.axes.col(2);
       shape_.axes.col(2) = -first;

@@ -105,7 +105,7 @@ class Kepler : public ClosedForm {
     // Halvings of what encloses s, which is at least t over the greatest distance.
     const double bits =
         static_cast<double>(significand_bits<Mpfr>()) + std::max(double{0}, log2_ratio(after, Mpfr(t / farthest(t))));
-    if (before > after) std::swap(before, after);
+    if (before > after) swap(before, after);
     Mpfr last = after - before, change_before = last;
     Anomaly now = at_anomaly(Mpfr((before + after) / 2));
     const Mpfr negligible = 4 * epsilon<Mpfr>();

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "hbvm/step/hbvm_method.hpp"
 
 namespace hbvm {
@@ -29,6 +32,17 @@ Claim with_wrong_weight(Claim claim, const char* relative) {
   claim.method = hbvm_of(as_hbvm(*claim.method)->name(),
                          Perturbation{Perturbation::Part::weight, true, 0, 0, Expression::parse(relative)});
   return claim;
+}
+
+/// A constant beyond the range of double is no reason to refuse what is decided with more.
+TEST(Auditor, BeginsWhereTheNumbersOfTheSceneAreInRange) {
+  const std::string file = (std::filesystem::temp_directory_path() / "hbvm_auditor_test.toml").string();
+  std::ofstream(file) << "dimension = 2\n[constants]\ne = \"1e-420\"\n[[body]]\nname = \"a\"\nmass = 1\nposition = [1, "
+                         "0]\nvelocity = [0, \"1/2\"]\n[[effect]]\nkind = \"formula\"\nU = \"-x^2/2 - y^2 - e*x\"\n";
+  const Finding energy = found(conserved(Quantity::H, file, {2, 2}));
+  EXPECT_EQ(energy.verdict, Verdict::holds) << energy.reason;
+  EXPECT_EQ(energy.evidence.front().precision, "quad");
+  std::filesystem::remove(file);
 }
 
 /// A weight wrong by 1e-93 shows with 100 digits alone, as an energy error of some ten thousand times what is allowed,

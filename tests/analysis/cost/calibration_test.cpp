@@ -7,14 +7,10 @@
 namespace hbvm {
 namespace {
 
-TEST(Calibration, TakesAboutAsLongInEveryPrecision) {
+TEST(Calibration, MeasuresInEveryPrecision) {
   for (const char* const name : {"double", "quad", "mpfr:20", "mpfr:100", "mpfr:1000"}) {
     const Precision precision = Precision::parse(name);
-    with_scalar(precision, [&]<Scalar S>() {
-      const double seconds = Calibration<S>(precision).seconds();
-      EXPECT_GT(seconds, 1e-4) << name;
-      EXPECT_LT(seconds, 0.1) << name;
-    });
+    with_scalar(precision, [&]<Scalar S>() { EXPECT_GT(Calibration<S>(precision).seconds(), 0) << name; });
   }
 }
 

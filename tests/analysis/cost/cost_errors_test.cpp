@@ -50,6 +50,36 @@ TEST(CostJudge, ComparesEachBodyWithItsOwn) {
   EXPECT_NEAR(judge.errors<Mpfr>(start.q0, p, none).of(CostQuantity::p), 0, 1e-9);
 }
 
+/// With the state at the end, however much greater it was at the start; what is 0 then with the greatest of its kind.
+TEST(CostJudge, ComparesWithTheEnd) {
+  const Scene scene = uneven_scene();
+  const PrecisionScope scope(40);
+  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
+  Assembled<Mpfr> end = start;
+  end.q0[0] = start.q0[0] / 1'000;
+  end.p0.setZero();
+  end.p0[3] = 2;
+  const CostJudge judge(scene, state_of(end), 60);
+  const Vector<Mpfr> none(0);
+  Vector<Mpfr> q = end.q0, p = end.p0;
+  q[0] *= Mpfr(1) + Mpfr(1) / 100;
+  EXPECT_NEAR(judge.errors<Mpfr>(q, p, none).q, -2, 1e-9);
+  p[0] = Mpfr(1) / 50;
+  EXPECT_NEAR(judge.errors<Mpfr>(end.q0, p, none).p, -2, 1e-9);
+}
+
+/// Of a multiplier that falls from 1 to 1e-3, fifteen digits are fifteen of what it is.
+TEST(CostJudge, ComparesAMultiplierWithItself) {
+  const Scene scene = load_scene("simple_pendulum");
+  const PrecisionScope scope(40);
+  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
+  ReferenceState state = state_of(start);
+  state.lambda.push_back("1e-3");
+  const CostJudge judge(scene, state, 30);
+  const Vector<Mpfr> lambda = Vector<Mpfr>::Constant(1, Mpfr("1e-3") + Mpfr("1e-12"));
+  EXPECT_NEAR(judge.errors<Mpfr>(start.q0, start.p0, lambda).lambda, -9, 1e-9);
+}
+
 TEST(CostJudge, SeesNoFurtherThanTheReference) {
   const Scene scene = load_scene("simple_pendulum");
   const PrecisionScope scope(40);

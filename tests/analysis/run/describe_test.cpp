@@ -157,6 +157,52 @@ TEST(Describe, HasAllDigitsOfThePrecision) {
   }
 }
 
+TEST(Describe, SaysOnWhomEffectsAct) {
+  const std::string springs = dumb_bell + R"(
+[[effect]]
+kind = "uniform_gravity"
+acceleration = [0, -1]
+on = ["b"]
+[[effect]]
+kind = "spring"
+stiffness = 1
+)";
+  const Description d(springs);
+  EXPECT_EQ(d.all("on"), (std::vector<std::string>{"'b'", "'a'-'b'"}));
+  EXPECT_EQ(d["not on"], "'a' (not named)");
+}
+
+TEST(Describe, RefusesAnEffectWithoutAValue) {
+  std::string text = dumb_bell + "effect = [{ kind = \"mutual_gravity\", strength = 1 }]\n";
+  text.replace(text.find("constraint ="), text.find("effect =") - text.find("constraint ="), "");
+  text.replace(text.find("[2, 1]"), 6, "[0, 0]");
+  try {
+    describe(read_scene(text, "test.toml"), Precision::parse("double"));
+    ADD_FAILURE() << "two bodies in one place";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()), "test.toml:6: effect 1 (mutual_gravity) has no value at the start on 'a'-'b'");
+  }
+}
+
+TEST(Describe, ShowsMomentsOfInertia) {
+  const Description d(R"(dimension = 2
+[[rigid_body]]
+name = "bar"
+fixed_at = [0, 0]
+mass = 3
+center = ["1/2", 0]
+second_moment = [[1, 0], [0, "1/4"]]
+directors = [[1, 0], [0, 1]]
+angular_velocity = 1
+[[effect]]
+kind = "uniform_gravity"
+acceleration = [0, -1]
+)");
+  EXPECT_EQ(d["'bar'"], "inertia 0.5 about the centre of mass");
+  EXPECT_EQ(d["on"], "'bar'");
+  EXPECT_EQ(d.all("").back(), "rigid bodies at the centre of mass");
+}
+
 TEST(Describe, RefusesAnInconsistentStart) {
   std::string text = dumb_bell;
   text.replace(text.find("sqrt(5)"), 7, "sqrt(6)");

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <set>
 
 #include "hbvm/analysis/run/run.hpp"
 #include "hbvm/step/registry.hpp"
+#include "hbvm/step/tableau_method.hpp"
+#include "method/tableaux.hpp"
 
 namespace hbvm {
 namespace {
@@ -165,6 +168,176 @@ TEST(Health, OfALightEndIsThatOfTheLightEnd) {
       EXPECT_NE(warning.text.find("q_3..q_4"), std::string::npos) << warning.text;
     }
   EXPECT_EQ(warnings(result_of(in_units("1", "1", "1"), "hbvm:3,3", "1/64", "8").health), "");
+}
+
+MethodPtr explicit_euler() { return std::make_shared<TableauMethod>(tableau({{"0"}}, {"1"}, {"0"}), "euler.toml"); }
+MethodPtr classical() { return std::make_shared<TableauMethod>(rk4(), "rk4.toml"); }
+
+RunResult result_of(const Scene& scene, MethodPtr method, const char* step, const char* until,
+                    OnFailure on_failure = OnFailure::stop) {
+  RunRequest request{scene,
+                     std::move(method),
+                     SolverKind::automatic,
+                     Expression::parse(step),
+                     Expression::parse(until),
+                     Precision::parse("double")};
+  request.on_failure = on_failure;
+  return run(request, {});
+}
+
+std::string text_of(const Health& health, const std::string& name) {
+  for (const Warning& warning : health.warnings)
+    if (warning.name == name) return warning.text;
+  return {};
+}
+
+void expect_parts(const std::string& text, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+}
+
+/// What is lost is seen of every method by what it did.
+TEST(Health, OfAMethodThatLosesItsMotionWarns) {
+  const Health health = result_of(load_scene("double_pendulum"), classical(), "1/16", "600").health;
+  EXPECT_EQ(warnings(health), "constraint_drift energy_changed");
+  // The rods are 2.4 and 0.6 of their length long by then.
+  expect_parts(text_of(health, "constraint_drift"), {"rod 'a'-'b'", "at t = 6.000e+02", "more than 1/100 at t = 1.06"});
+  expect_parts(text_of(health, "energy_changed"), {"more than 1/20 of it at t = 1.55", "hbvm:auto,3"});
+}
+
+TEST(Health, OfMethodsThatDoNotConserveButResolveTheMotionIsNoAlarm) {
+  const Scene pendulum = load_scene("double_pendulum"), kepler = load_scene("kepler"), top = load_scene("heavy_top");
+  EXPECT_EQ(warnings(result_of(pendulum, classical(), "1/64", "20").health), "");
+  EXPECT_EQ(warnings(result_of(top, classical(), "1/64", "10").health), "");
+  EXPECT_EQ(warnings(result_of(kepler, classical(), "2*pi/256", "20*pi").health), "");
+  for (const char* method : {"rattle", "compose:rattle,4", "lobatto:3", "energy_momentum", "rkf78"}) {
+    EXPECT_EQ(warnings(result_of(pendulum, parse_method(method), "1/32", "20").health), "") << method;
+    EXPECT_EQ(warnings(result_of(kepler, parse_method(method), "2*pi/128", "20*pi").health), "") << method;
+  }
+}
+
+/// An orbit of eccentricity 0.99999, whose kinetic energy at the pericentre is 10^5 times what it usually is.
+Scene comet(const char* x, const char* vy, const std::string& e = "0.99999") {
+  return read_scene(std::string("dimension = 2\n[constants]\ne = \"" + e +
+                                "\"\n[[point]]\nname = \"sun\"\nposition = [0, 0]\n"
+                                "[[body]]\nname = \"comet\"\nmass = 1\nposition = [\"") +
+                        x + "\", 0]\nvelocity = [0, \"" + vy +
+                        "\"]\n[[effect]]\nkind = \"central_gravity\"\ncenter = \"sun\"\nstrength = 1\n",
+                    "comet");
+}
+
+TEST(Health, OfANarrowOrbitComparesWithWhatTheEnergyUsuallyIs) {
+  const Scene near = comet("1-e", "sqrt((1+e)/(1-e))"), far = comet("-1-e", "-sqrt((1-e)/(1+e))");
+  for (const Scene* scene : {&near, &far})
+    for (const char* method : {"rkf78", "rattle", "bulirsch_stoer:12"})
+      EXPECT_NE(text_of(result_of(*scene, parse_method(method), "2*pi/64", "20*pi").health, "energy_changed"), "")
+          << method;
+}
+
+TEST(Health, OfDividedStepsWarnsWhereTheyDecide) {
+  const Health narrow =
+      result_of(comet("-1-e", "-sqrt((1-e)/(1+e))"), parse_method("hbvm:auto,5"), "2*pi/1000", "2*pi", OnFailure::halve)
+          .health;
+  expect_parts(text_of(narrow, "steps_divided"),
+               {"of 1000 steps failed", "down to h/32768", "first at t = 3.135", "--error"});
+  // Ten steps of a spring that the fixed-point iteration makes only with omega h below some 1.
+  RunRequest spring{read_scene("dimension = 2\npoint = [{name = \"o\", position = [0, 0]}]\n"
+                               "body = [{name = \"a\", mass = 1, position = [1, 0], velocity = [0, 1]}]\n"
+                               "effect = [{kind = \"spring\", between = [\"o\", \"a\"], stiffness = 1}]\n",
+                               "spring"),
+                    parse_method("hbvm:2,2"),
+                    SolverKind::fixed_point,
+                    Expression::parse("16"),
+                    Expression::parse("160"),
+                    Precision::parse("double")};
+  spring.on_failure = OnFailure::halve;
+  expect_parts(text_of(run(spring, {}).health, "steps_divided"), {"10 of 10 steps failed"});
+  spring.step = Expression::parse("1/4");
+  EXPECT_EQ(text_of(run(spring, {}).health, "steps_divided"), "");
+}
+
+/// Mechanisms of which some point, joint or body is at rest: what the constraints there show is rounding, or small
+/// beside the speed of what moves.
+const std::string in_gravity = "dimension = 2\n[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, \"-9.81\"]\n";
+const std::string crank =
+    "[[point]]\nname = \"bearing\"\nposition = [0, 0]\n"
+    "[[rigid_body]]\nname = \"crank\"\nposition = [0, 0]\nvelocity = [0, 0]\nmass = 1\ncenter = [\"1/2\", 0]\n"
+    "second_moment = [[\"1/3\", 0], [0, \"1/300\"]]\ndirectors = [[1, 0], [0, 1]]\nangular_velocity = 2\n"
+    "[[constraint]]\nkind = \"ball_joint\"\nbetween = [\"bearing\", { of = \"crank\", at = [0, 0] }]\n";
+/// The crank drives a slider on the axis, which at the start is farthest out and at rest.
+const std::string slider =
+    "[[body]]\nname = \"slider\"\nmass = 2\nposition = [4, 0]\nvelocity = [0, 0]\n"
+    "[[constraint]]\nkind = \"plane\"\nbody = \"slider\"\nnormal = [0, 1]\noffset = 0\n"
+    "[[constraint]]\nkind = \"rod\"\nbetween = [{ of = \"crank\", at = [1, 0] }, \"slider\"]\nlength = 3\n";
+/// A heavy frame on three rods, at rest, on which a linkage turns.
+const std::string frame =
+    "[[point]]\nname = \"p\"\nposition = [0, -1]\n[[point]]\nname = \"q\"\nposition = [4, -1]\n"
+    "[[point]]\nname = \"r\"\nposition = [-1, 0]\n"
+    "[[rigid_body]]\nname = \"frame\"\nposition = [0, 0]\nvelocity = [0, 0]\nmass = 50\ncenter = [2, 0]\n"
+    "second_moment = [[300, 0], [0, 1]]\ndirectors = [[1, 0], [0, 1]]\nangular_velocity = 0\n"
+    "[[body]]\nname = \"a\"\nmass = 1\nposition = [\"-3/5\", \"4/5\"]\nvelocity = [\"4/5\", \"3/5\"]\n"
+    "[[constraint]]\nkind = \"rod\"\nbetween = [\"p\", { of = \"frame\", at = [0, 0] }]\nlength = 1\n"
+    "[[constraint]]\nkind = \"rod\"\nbetween = [\"q\", { of = \"frame\", at = [4, 0] }]\nlength = 1\n"
+    "[[constraint]]\nkind = \"rod\"\nbetween = [\"r\", { of = \"frame\", at = [0, 0] }]\nlength = 1\n"
+    "[[constraint]]\nkind = \"rod\"\nbetween = [{ of = \"frame\", at = [0, 0] }, \"a\"]\nlength = 1\n";
+/// A disc that turns about its own centre, which is held, with a weight at its rim.
+const std::string wheel =
+    "[[point]]\nname = \"axle\"\nposition = [1, 1]\n"
+    "[[rigid_body]]\nname = \"wheel\"\nposition = [1, 1]\nvelocity = [0, 0]\nmass = 3\ncenter = [0, 0]\n"
+    "second_moment = [[\"3/4\", 0], [0, \"3/4\"]]\ndirectors = [[1, 0], [0, 1]]\nangular_velocity = 7\n"
+    "[[constraint]]\nkind = \"ball_joint\"\nbetween = [\"axle\", { of = \"wheel\", at = [0, 0] }]\n";
+/// A bar that hangs at rest from its bearing.
+const std::string hanging =
+    "[[point]]\nname = \"bearing\"\nposition = [0, 0]\n"
+    "[[rigid_body]]\nname = \"bar\"\nposition = [0, 0]\nvelocity = [0, 0]\nmass = 1\ncenter = [\"1/2\", 0]\n"
+    "second_moment = [[\"1/3\", 0], [0, \"1/300\"]]\ndirectors = [[0, -1], [1, 0]]\nangular_velocity = 0\n"
+    "[[constraint]]\nkind = \"ball_joint\"\nbetween = [\"bearing\", { of = \"bar\", at = [0, 0] }]\n";
+
+TEST(Health, OfMechanismsWithPartsAtRestIsNoAlarm) {
+  for (const std::string& text :
+       {in_gravity + crank, in_gravity + crank + slider, in_gravity + frame, in_gravity + wheel, in_gravity + hanging})
+    for (const char* step : {"1/500", "1/50"})
+      for (const char* method : {"hbvm:3,3", "hbvm:auto,3", "rattle"}) {
+        const Health health = result_of(read_scene(text, "mechanism"), method, step, "2").health;
+        EXPECT_EQ(warnings(health), "") << step << method << to_text(health) << text;
+      }
+}
+
+TEST(Health, OfAMechanismThatTheStepDoesNotResolveWarns) {
+  for (const std::string& text : {in_gravity + crank, in_gravity + crank + slider})
+    EXPECT_NE(
+        text_of(result_of(read_scene(text, "mechanism"), "hbvm:1,1", "1/4", "4").health, "hidden_constraint_large"),
+        "");
+}
+
+/// Advice is something else than what is being done.
+TEST(Health, DoesNotAdviseWhatIsDone) {
+  for (const char* method : {"hbvm:auto,3", "hbvm:auto,2", "hbvm:2,2"}) {
+    const Health health =
+        result_of(comet("-1-e", "-sqrt((1-e)/(1+e))", "0.9"), parse_method(method), "2*pi/16", "2*pi", OnFailure::halve)
+            .health;
+    EXPECT_NE(health.warnings.size(), 0u) << method;
+    for (const Warning& warning : health.warnings)
+      EXPECT_EQ(warning.text.find(method), std::string::npos) << warning.text;
+  }
+}
+
+/// A run that ends long after its motion was lost says so, and not what else may end one.
+TEST(Health, OfARunThatFailsSaysWhatWasLostBefore) {
+  const auto message = [](const char* scene, MethodPtr method, const char* step, const char* until) -> std::string {
+    try {
+      result_of(load_scene(scene), std::move(method), step, until);
+    } catch (const IntegrationError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string overflow = message("quartic_oscillator", explicit_euler(), "1/4", "100");
+  expect_parts(overflow, {"is not finite", "H had changed by more than 1/20", "from t = ", "take a smaller step"});
+  EXPECT_EQ(overflow.find("singularity"), std::string::npos) << overflow;
+  const std::string singular = message("double_pendulum", classical(), "1/16", "700");
+  expect_parts(singular, {"near_singular_constraints", "H had changed by more than 1/20", "from t = 1.55",
+                          "rod 'a'-'b' had drifted by more than 1/100 from t = 1.06"});
+  EXPECT_EQ(singular.find("more digits"), std::string::npos) << singular;
 }
 
 TEST(HealthText, HasALineForEach) {

@@ -32,5 +32,19 @@ TYPED_TEST(QuadricTest, OfSeveralBodies) {
   EXPECT_EQ(coordinates(quadric, 2), (std::vector<Index>{0, 1, 4, 5}));
 }
 
+/// Of the point 2 a - b + (1, 5): x = 2 a_x - b_x + 1, y = 2 a_y - b_y + 5.
+TYPED_TEST(QuadricTest, OfASumOfBlocks) {
+  Matrix<TypeParam> A(2, 2);
+  A << TypeParam(2), TypeParam(-1), TypeParam(-1), TypeParam(3);
+  const Displacement<TypeParam> sum{{{2, TypeParam(2)}, {6, TypeParam(-1)}}, this->vector({1, 5})};
+  const Constraint<TypeParam> quadric{"quadric", Quadric<TypeParam>::of(sum, A, this->vector({4, -5}), TypeParam(6))};
+  const auto q = this->vector({9, 9, 3, 5, 9, 9, -2, 1});
+  const int x = 6 + 2 + 1, y = 10 - 1 + 5;
+  EXPECT_EQ(value(quadric, 2, q).g, 2 * x * x - 2 * x * y + 3 * y * y + 4 * x - 5 * y + 6);
+  // Of velocities (2 3 + 2, 2 5 - 1) of the point.
+  EXPECT_EQ(curvature(quadric, 2, q, q), 2 * (2 * 8 * 8 - 2 * 8 * 9 + 3 * 9 * 9));
+  EXPECT_EQ(coordinates(quadric, 2), (std::vector<Index>{2, 3, 6, 7}));
+}
+
 }  // namespace
 }  // namespace hbvm

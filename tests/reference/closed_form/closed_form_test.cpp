@@ -11,8 +11,9 @@ namespace {
 /// Every number of the shipped references that a closed form knows, which two other routes found, to its last digit.
 TEST(ClosedForms, AgreeWithShippedReferences) {
   std::set<std::string> scenes;
-  for (const auto& [name, text] : shipped_references()) {
-    const StoredReference stored = read_reference(text, name);
+  for (const auto& shipped : shipped_references()) {
+    const std::string& name = shipped.first;
+    const StoredReference stored = read_reference(shipped.second, name);
     const Reference& reference = stored.reference;
     const PrecisionScope scope(static_cast<unsigned>(reference.digits) + 20);
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(reference.scene));

@@ -5,10 +5,12 @@
 
 #include "hbvm/integrate/coefficient_decay.hpp"
 #include "hbvm/integrate/constraint_angles.hpp"
+#include "hbvm/integrate/constraint_drift.hpp"
 #include "hbvm/integrate/energy_balance.hpp"
 #include "hbvm/integrate/hidden_cosines.hpp"
 #include "hbvm/integrate/time_grid.hpp"
 #include "hbvm/problem/general_drift.hpp"
+#include "hbvm/step/halving_stepper.hpp"
 #include "hbvm/step/method.hpp"
 
 namespace hbvm {
@@ -27,14 +29,16 @@ struct Health {
 };
 
 /// Watches a run and says in the end what it is worth. It looks at every mesh point, and at the solution of every step
-/// through decay(). The warnings, all of them invariant under powers of two of the units:
+/// through decay(). The warnings, all of them invariant under powers of two of the units. Of every method, by what was
+/// seen:
 ///
-/// energy_lost: the error of H exceeds 64 sqrt(N) epsilon R for N steps, where R is the greatest term of H, or what
-/// rounding q changes H by, plus what the constraint forces could do in a step. A few roundings a step, of either sign,
-/// add up by the square root (Brouwer's law); 64 leaves room for the sums within a step.
+/// energy_changed: H is off by more than 1/20 of the kinetic energy, as EnergyChange has it.
 ///
-/// constraints_lost: a constraint that is not quadratic moved by more than 64 sqrt(N) units of its round-off: with that
-/// many nodes the method does not keep it.
+/// constraint_drift: a constraint is off by more than 1/100, as ConstraintDrift has it; a rod by more than that of its
+/// length.
+///
+/// steps_divided: of the steps that were made more than half were parts of steps that failed, or some were less than a
+/// thousandth of the step. A part is as long as the stage equations can just be solved: of its error that says nothing.
 ///
 /// hidden_constraint_large: worst_hidden exceeds 1/100, and the output state is no small correction of the propagated
 /// one.
@@ -42,10 +46,19 @@ struct Health {
 /// near_singular_constraints: ConstraintAngles saw a passage that the steps do not resolve, or the condition exceeds
 /// 1/sqrt(epsilon), which leaves fewer than half of the digits of lambda.
 ///
+/// step_too_large: CoefficientDecay exceeds its limit.
+///
+/// Of methods that conserve H or constraints:
+///
+/// energy_lost: the error of H exceeds 64 sqrt(N) epsilon R for N steps and terms of H, where R is the greatest term of
+/// H, or what rounding q changes H by, plus what the constraint forces could do in a step. A few roundings a step, of
+/// either sign, add up by the square root (Brouwer's law); 64 leaves room for the sums within a step.
+///
+/// constraints_lost: a constraint that is not quadratic moved by more than 64 sqrt(N) units of its round-off: with that
+/// many nodes the method does not keep it.
+///
 /// even_s_drift: s is even, and some hidden constraint grew over the quarters of the run, twofold from the first to the
 /// last or more, above 64 sqrt(N) epsilon times the condition.
-///
-/// step_too_large: CoefficientDecay exceeds its limit.
 template <Scalar S>
 class HealthWatch final : public Observer<S> {
  public:
@@ -55,16 +68,26 @@ class HealthWatch final : public Observer<S> {
   void observe(const Snapshot<S>& snapshot) override;
   /// What decay() has seen is the stepper's to remember, which shows it.
   void remember(Archive& archive) override {
-    archive(q_, v_, energy_, drift_, moved_, seen_, angles_, hidden_, condition_);
+    archive(q_, v_, energy_, drift_, moved_, seen_, constraints_, angles_, hidden_, condition_);
   }
   CoefficientDecay<S>& decay() { return decay_; }
 
-  /// With the method of the run in the end: its k decides what is said of a lost energy.
-  Health report(const Method& method);
+  /// Of a run by the method that was asked for, and by that which became of it: its k decides what is said of a lost
+  /// energy. `halving` is what was done to steps that failed, if they might be divided.
+  Health report(const Method& asked, const Method& method, const HalvingLog* halving);
+
+  /// Of what was seen until now, "H had changed by more than 1/20 of the kinetic energy from t = 3 on: ..." and what to
+  /// do; empty if H and the constraints were kept.
+  std::string lost();
 
  private:
-  void report_energy(Health& health, const Method& method);
-  void report_drift(Health& health, const Method& method);
+  /// What there is to say of how H and the constraints were before t; empty if they were kept till then.
+  std::string lost_before(const S& t);
+  bool energy_changed(const typename EnergyChange<S>::Change& change);
+  void report_change(Health& health, const Method& method);
+  void report_halving(Health& health, const HalvingLog& log);
+  void report_energy(Health& health, const Method& asked, const Method& method);
+  void report_drift(Health& health, const Method& asked, const Method& method);
   void report_constraints(Health& health);
   void report_hidden(Health& health);
   void report_steps(Health& health);
@@ -73,15 +96,18 @@ class HealthWatch final : public Observer<S> {
   }
 
   const Problem<S>& problem_;
-  int s_;  ///< of HBVM, 0 of other methods
-  S h_;
+  int s_;       ///< of HBVM, 0 of other methods
+  S step_, h_;  ///< and its magnitude
   long steps_;
+  S rounding_;  ///< what the roundings of all steps may add up to, relative to the terms
   ConstraintGradient<S> gradient_;
+  Matrix<S> g_;
   Vector<S> q_, v_;  ///< of the last mesh point
   EnergyBalance<S> energy_;
   GeneralDrift<S> drift_;
   S moved_ = 0;        ///< the most it showed, in units
   bool seen_ = false;  ///< the start
+  ConstraintDrift<S> constraints_;
   ConstraintAngles<S> angles_;
   HiddenCosines<S> hidden_;
   CoefficientDecay<S> decay_;

@@ -49,6 +49,7 @@ struct RunResult {
   MethodPtr method;                      ///< with k as chosen
   std::optional<NodesReport> nodes;      ///< if k was chosen
   std::optional<HalvingReport> halving;  ///< if steps might be divided
+  std::string settled;                   ///< Assembled::settled
   std::string step, until, t;
   long steps = 0;
   std::vector<std::string> q, p, lambda;             ///< lambda: (lagmul)

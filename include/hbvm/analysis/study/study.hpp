@@ -11,7 +11,7 @@
 namespace hbvm {
 
 /// How a study's results compare with what it states.
-struct Agreement {
+struct StudyAgreement {
   long agreed = 0, stated = 0;           ///< figures of expected.csv that were met, and in all
   std::string what;                      ///< "printed figures", "stated bounds" or "stated verdicts"
   long further_agreed = 0, further = 0;  ///< beyond double: round-off columns and rates that double cannot show
@@ -19,7 +19,7 @@ struct Agreement {
 };
 
 /// What a study found.
-struct StudyOutcome : Agreement {
+struct StudyOutcome : StudyAgreement {
   std::string title;
   std::vector<std::string> files;     ///< tables and pictures written
   std::vector<std::string> warnings;  ///< pictures that could not be drawn, and why

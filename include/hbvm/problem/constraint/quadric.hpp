@@ -6,10 +6,11 @@
 
 namespace hbvm {
 
-/// g = x^T A x + b^T x + c for the coordinates x of one body, or of several, A symmetric.
+/// g = x^T A x + b^T x + c for the coordinates x of one body, or of several, or of the blocks that a point of a rigid
+/// body is a sum of, A symmetric.
 template <Scalar S>
 struct Quadric {
-  std::vector<Index> blocks;  ///< where each body's coordinates begin, ascending
+  std::vector<Index> blocks;  ///< where each body's, or director's, coordinates begin, ascending
   Matrix<S> A;
   Vector<S> b;
   S c;
@@ -22,9 +23,33 @@ struct Quadric {
   /// Without A it is a plane, and treated so.
   static std::variant<Quadric, Plane<S>> from(const ConstraintUse<S>& use) {
     const Matrix<S>& A = use.matrix("A");
-    if (A == Matrix<S>::Zero(A.rows(), A.cols()))
-      return Plane<S>{use.body("body"), use.vector("b"), S(-use.number("c"))};
-    return Quadric{{use.body("body")}, A, use.vector("b"), use.number("c")};
+    const Displacement<S>& x = use.body("body");
+    if (A == Matrix<S>::Zero(A.rows(), A.cols())) return Plane<S>::of(x, use.vector("b"), S(-use.number("c")));
+    return of(x, A, use.vector("b"), use.number("c"));
+  }
+  /// x^T A x + b^T x + c of a sum x of blocks, in the coordinates that it is made of.
+  static Quadric of(const Displacement<S>& x, const Matrix<S>& A, const Vector<S>& b, const S& c) {
+    const Index d = b.size(), size = static_cast<Index>(x.blocks.size()) * d;
+    Quadric g{{}, Matrix<S>(size, size), Vector<S>(size), c};
+    Vector<S> slope = b;  // b + 2 A shift
+    if (x.shift.size() > 0)
+      for (Index i = 0; i < d; ++i) {
+        S of_shift = 0;
+        for (Index j = 0; j < d; ++j) of_shift += A(i, j) * x.shift[j];
+        g.c += x.shift[i] * (b[i] + of_shift);
+        slope[i] += 2 * of_shift;
+      }
+    for (const auto& one : x.blocks) {
+      const auto row = static_cast<Index>(g.blocks.size()) * d;
+      for (Index i = 0; i < d; ++i) {
+        g.b[row + i] = one.weight * slope[i];
+        Index column = 0;
+        for (const auto& other : x.blocks)
+          for (Index j = 0; j < d; ++j, ++column) g.A(row + i, column) = one.weight * other.weight * A(i, j);
+      }
+      g.blocks.push_back(one.offset);
+    }
+    return g;
   }
 
   /// Where coordinate i of x stands in q.

@@ -15,7 +15,7 @@ namespace hbvm {
 struct ConstraintKey {
   enum class Takes {
     pair,  ///< two bodies or points: the displacement of the first from the second
-    body,  ///< one body: where its coordinates begin
+    body,  ///< one body, or a point of a rigid body: its position
     number,
     vector,           ///< d numbers
     symmetric_matrix  ///< d x d numbers
@@ -50,13 +50,13 @@ struct ConstraintUse {
   Index dimension = 0;
   std::map<std::string, Displacement<S>, std::less<>> pairs;
   std::map<std::string, std::array<Frame<S>, 2>, std::less<>> frames = {};  ///< of the ends of the pairs
-  std::map<std::string, Index, std::less<>> bodies;
+  std::map<std::string, Displacement<S>, std::less<>> bodies;               ///< blocks ascending
   std::map<std::string, S, std::less<>> numbers;
   std::map<std::string, Vector<S>, std::less<>> vectors;
   std::map<std::string, Matrix<S>, std::less<>> matrices;
 
   const Displacement<S>& pair(std::string_view key) const { return pairs.find(key)->second; }
-  Index body(std::string_view key) const { return bodies.find(key)->second; }
+  const Displacement<S>& body(std::string_view key) const { return bodies.find(key)->second; }
   const S& number(std::string_view key) const { return numbers.find(key)->second; }
   const Vector<S>& vector(std::string_view key) const { return vectors.find(key)->second; }
   bool has_vector(std::string_view key) const { return vectors.contains(key); }

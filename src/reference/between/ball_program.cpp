@@ -1,0 +1,246 @@
+#include "ball_program.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace hbvm {
+namespace {
+
+constexpr slong bits = Ball::bits;
+
+}  // namespace
+
+std::size_t BallProgram::directions_of(Op op) {
+  switch (op) {
+    case Op::reciprocal:
+    case Op::sqrt:
+    case Op::log:
+    case Op::tanh:
+    case Op::abs:
+    case Op::sign:
+      return 1;
+    case Op::atan:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+BallProgram::BallProgram(const Program<Mpfr>& program, Index inputs, const std::vector<const Mpfr*>& coefficients)
+    : inputs_(inputs) {
+  const auto varying = static_cast<std::size_t>(inputs);
+  const std::size_t constants = varying + coefficients.size();
+  const std::size_t temporaries = constants + program.constants().size();
+  balls_.resize(varying);
+  for (const Mpfr* x : coefficients) balls_.emplace_back(*x);
+  for (const Mpfr& x : program.constants()) balls_.emplace_back(x);
+  balls_.resize(temporaries + program.temporaries());
+  const auto ball = [&](const Operand& x) {
+    return &balls_[x.index + (x.bank == Bank::input ? 0 : x.bank == Bank::constant ? constants : temporaries)];
+  };
+  for (const Instruction& instruction : program.instructions()) {
+    Step step{instruction.op, ball(instruction.a), nullptr, &balls_[temporaries + instruction.result],
+              directions_.size()};
+    if (is_binary(instruction.op)) step.b = ball(instruction.b);
+    directions_.resize(directions_.size() + directions_of(step.op));
+    steps_.push_back(step);
+  }
+  for (const Operand& output : program.output_operands()) outputs_.push_back(ball(output));
+}
+
+bool BallProgram::is_bounded(const std::vector<Loop>& inputs, const std::vector<double>& log2_limits) {
+  loops_ = &inputs;
+  log2_limits_ = &log2_limits;
+  constexpr int arcs = 8;
+  constexpr double width = std::numbers::pi / arcs;
+  for (int n = 0; n < arcs; ++n)
+    if (!follow({(n + 0.5) * width, width / 2, n == 0, n + 1 == arcs}, 0)) return false;
+  // The lower half of the curve turns as far again.
+  for (const Direction& direction : directions_)
+    if (direction.quarters != direction.first) return fails(direction.singularity);
+  return true;
+}
+
+bool BallProgram::follow(const Arc& arc, int divisions) {
+  if (evaluate(arc)) {
+    directions_ = tried_;
+    return true;
+  }
+  constexpr int most_divisions = 6;
+  if (divisions == most_divisions) return false;
+  const double half = arc.half_width / 2;
+  return follow({arc.middle - half, half, arc.first, false}, divisions + 1) &&
+         follow({arc.middle + half, half, false, arc.last}, divisions + 1);
+}
+
+bool BallProgram::evaluate(const Arc& arc) {
+  // The arc is a little wider than its angles in double.
+  const double half_width = arc.half_width * (1 + 16 * std::numeric_limits<double>::epsilon());
+  const std::complex<double> at = std::polar(1.0, arc.middle);
+  for (std::size_t i = 0; i < loops_->size(); ++i) (*loops_)[i].enclose(at, half_width, balls_[i]);
+  tried_ = directions_;
+  for (const Step& step : steps_)
+    if (!apply(step, arc)) return false;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (!outputs_[i]->is_finite()) return fails("a value beyond all bounds");
+    if (!(outputs_[i]->log2_size() <= (*log2_limits_)[i])) return fails("a force that changes too much");
+  }
+  return true;
+}
+
+bool BallProgram::fails(const char* what) {
+  obstacle_ = what;
+  return false;
+}
+
+bool BallProgram::turn(std::size_t i, const Ball& x, const Arc& arc, const char* what) {
+  Direction& direction = tried_[i];
+  const auto lies = [&x](long quarters) {
+    switch (((quarters % 4) + 4) % 4) {
+      case 0:
+        return arb_is_positive(x.real()) != 0;
+      case 1:
+        return arb_is_positive(x.imaginary()) != 0;
+      case 2:
+        return arb_is_negative(x.real()) != 0;
+      default:
+        return arb_is_negative(x.imaginary()) != 0;
+    }
+  };
+  if (arc.first) {
+    // Where the curve begins all is real.
+    for (const long quarters : {0, 2})
+      if (lies(quarters)) {
+        direction = {quarters, quarters, what};
+        return true;
+      }
+    return fails(what);
+  }
+  // It shares a point with the arc before, so that it is at most one quarter turn on; as far back as may be, if that is
+  // not decided.
+  if (std::abs(direction.first - direction.quarters) == 1 && lies(direction.first)) {
+    direction.quarters = direction.first;
+    return true;
+  }
+  for (const long turned : {0, 1, -1})
+    if (lies(direction.quarters + turned)) {
+      direction.quarters += turned;
+      return true;
+    }
+  return fails(what);
+}
+
+long BallProgram::turn_back(std::size_t i, const Ball& x) {
+  const long quarters = tried_[i].quarters, even = quarters - (((quarters % 2) + 2) % 2);
+  if (((even % 4) + 4) % 4 == 0)
+    acb_set(raw(t_), raw(x));
+  else
+    acb_neg(raw(t_), raw(x));
+  return even / 2;
+}
+
+bool BallProgram::apply(const Step& step, const Arc& arc) {
+  const acb_srcptr a = raw(*step.a);
+  const acb_ptr z = raw(*step.z);
+  switch (step.op) {
+    case Op::add:
+      acb_add(z, a, raw(*step.b), bits);
+      return true;
+    case Op::subtract:
+      acb_sub(z, a, raw(*step.b), bits);
+      return true;
+    case Op::multiply:
+      acb_mul(z, a, raw(*step.b), bits);
+      return true;
+    case Op::negate:
+      acb_neg(z, a);
+      return true;
+    case Op::reciprocal:
+      if (!turn(step.direction, *step.a, arc, "a division by 0")) return false;
+      acb_inv(z, a, bits);
+      return true;
+    case Op::sqrt: {
+      if (!turn(step.direction, *step.a, arc, "a square root of 0")) return false;
+      const long half_turns = turn_back(step.direction, *step.a);
+      acb_sqrt(z, raw(t_), bits);
+      // i for each half turn.
+      for (long n = ((half_turns % 4) + 4) % 4; n > 0; --n) acb_mul_onei(z, z);
+      return true;
+    }
+    case Op::log: {
+      if (!turn(step.direction, *step.a, arc, "a logarithm of 0")) return false;
+      const long half_turns = turn_back(step.direction, *step.a);
+      acb_log(z, raw(t_), bits);
+      if (half_turns != 0) {
+        arb_const_pi(acb_imagref(raw(u_)), bits);
+        arb_addmul_si(acb_imagref(z), acb_imagref(raw(u_)), half_turns, bits);
+      }
+      return true;
+    }
+    case Op::exp:
+      acb_exp(z, a, bits);
+      return true;
+    case Op::sin:
+      acb_sin(z, a, bits);
+      return true;
+    case Op::cos:
+      acb_cos(z, a, bits);
+      return true;
+    case Op::sinh:
+      acb_sinh(z, a, bits);
+      return true;
+    case Op::cosh:
+      acb_cosh(z, a, bits);
+      return true;
+    case Op::tanh:
+      acb_cosh(raw(u_), a, bits);
+      if (!turn(step.direction, u_, arc, "a pole of tanh")) return false;
+      acb_tanh(z, a, bits);
+      return true;
+    case Op::atan: {
+      // (log(1 + i a) - log(1 - i a)) / 2i, both continued from the positive real axis.
+      acb_mul_onei(raw(u_), a);
+      acb_t sum;
+      acb_init(sum);
+      bool known = true;
+      for (const std::size_t side : {0, 1}) {
+        Ball w = u_;
+        if (side == 1) acb_neg(raw(w), raw(w));
+        acb_add_ui(raw(w), raw(w), 1, bits);
+        known = known && turn(step.direction + side, w, arc, "a branch point of atan");
+        if (!known) break;
+        const long half_turns = turn_back(step.direction + side, w);
+        acb_log(raw(t_), raw(t_), bits);
+        arb_const_pi(acb_imagref(raw(w)), bits);
+        arb_addmul_si(acb_imagref(raw(t_)), acb_imagref(raw(w)), half_turns, bits);
+        if (side == 0)
+          acb_set(sum, raw(t_));
+        else
+          acb_sub(sum, sum, raw(t_), bits);
+      }
+      if (known) {
+        acb_div_onei(sum, sum);
+        acb_mul_2exp_si(z, sum, -1);
+      }
+      acb_clear(sum);
+      return known;
+    }
+    case Op::abs:
+    case Op::sign: {
+      // Analytic where it keeps its sign: plus or minus its argument.
+      if (!turn(step.direction, *step.a, arc, "a magnitude at 0")) return false;
+      const bool negative = tried_[step.direction].first != 0;
+      if (step.op == Op::sign)
+        acb_set_si(z, negative ? -1 : 1);
+      else if (negative)
+        acb_neg(z, a);
+      else
+        acb_set(z, a);
+      return true;
+    }
+    default:
+      return fails("an operation without bounds");
+  }
+}
+
+}  // namespace hbvm

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hbvm/problem/effect/program.hpp"
+#include "loop.hpp"
+
+namespace hbvm {
+
+/// A program of an effect evaluated over balls along a closed curve in complex time, on which its inputs are loops. It
+/// tells whether the outputs are analytic inside the curve, and how large they are on it.
+///
+/// They are if no operation on the way meets a singularity inside: no 1/a a zero of a, no root or logarithm a zero of
+/// a, no tanh a a zero of cosh a, no atan a a zero of 1 + i a or 1 - i a, and no magnitude a zero of a. An analytic
+/// function has as many zeros inside a curve as it turns about 0 along it (the argument principle). Roots and
+/// logarithms are continued from arc to arc, so that they are of one branch.
+class BallProgram {
+ public:
+  /// The first inputs vary; the others are numbers, `coefficients`.
+  BallProgram(const Program<Mpfr>& program, Index inputs, const std::vector<const Mpfr*>& coefficients);
+
+  /// Whether all outputs are analytic inside the curve, and output i at most 2^log2_limits[i] on it: so are its Taylor
+  /// or Legendre coefficients, by Cauchy's estimate. A curve for which it says no may only be too wide for its arcs.
+  bool is_bounded(const std::vector<Loop>& inputs, const std::vector<double>& log2_limits);
+  /// What was in the way the last time: "a division by 0", "a value that is too large".
+  const std::string& obstacle() const { return obstacle_; }
+
+ private:
+  /// Which way a number lies from 0 while its curve is followed, in quarter turns from the positive real axis: it is
+  /// within one quarter turn of that direction.
+  struct Direction {
+    long quarters = 0, first = 0;
+    const char* singularity = "";  ///< what 0 is
+  };
+  struct Step {
+    Op op;
+    const Ball *a, *b;
+    Ball* z;
+    std::size_t direction = 0;  ///< the first of those it needs, if it needs any
+  };
+  struct Arc {
+    double middle, half_width;
+    bool first, last;
+  };
+  static std::size_t directions_of(Op op);
+
+  bool follow(const Arc& arc, int divisions);
+  bool evaluate(const Arc& arc);
+  bool apply(const Step& step, const Arc& arc);
+  /// Turns direction i towards x. \return whether x is known to lie on one side of 0
+  bool turn(std::size_t i, const Ball& x, const Arc& arc, const char* what);
+  /// x turned back by an even number of quarter turns to where its principal root and logarithm are continuous.
+  /// \return that number, halved
+  long turn_back(std::size_t i, const Ball& x);
+  bool fails(const char* what);
+
+  Index inputs_;
+  std::vector<Ball> balls_;  ///< inputs, constants and coefficients, temporaries
+  std::vector<Step> steps_;
+  std::vector<const Ball*> outputs_;
+  std::vector<Direction> directions_, tried_;
+  const std::vector<Loop>* loops_ = nullptr;
+  const std::vector<double>* log2_limits_ = nullptr;
+  std::string obstacle_;
+  Ball t_, u_;
+};
+
+}  // namespace hbvm

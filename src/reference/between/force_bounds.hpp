@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ball_program.hpp"
+#include "hbvm/problem/problem.hpp"
+
+namespace hbvm {
+
+/// Looks at the forces between the points at which a step knows them. Along a closed curve about the step in complex
+/// time, on which positions are polynomials, each force must be analytic inside and not much larger than what the step
+/// is made of: then the part of its series that the step leaves out is bounded by Cauchy's estimate. A force of short
+/// range that no point of a step feels is huge there, or singular.
+class ForceBounds {
+ public:
+  /// The problem must outlive it.
+  explicit ForceBounds(const Problem<Mpfr>& problem);
+
+  /// Of the step that starts at this state.
+  void start(const Vector<Mpfr>& q, const Vector<Mpfr>& p);
+  /// The input of a force along the curve. Forces are the instances of the effects, one after another, and then the
+  /// constraints by formulas.
+  using LoopOf = std::function<Loop(std::size_t force, Index input)>;
+  /// Whether along the curve, for a step of length 2^log2_h, each force changes momenta by at most 2^allowed_bits times
+  /// what they consist of, body by body, and each formula's gradient is as much larger than at the start at most.
+  bool hold(double log2_h, const LoopOf& loop);
+  /// log2 of what each block's momentum consists of: itself, and what forces do to it in so long a time.
+  std::vector<double> scales(double log2_h) const;
+  /// What was in the way: "effect 'formula': a division by 0".
+  std::string obstacle() const;
+
+  static constexpr double allowed_bits = 8;
+
+  struct Force {
+    const EffectTerm<Mpfr>* term;
+    Index instance;
+    std::string name;
+    bool is_constraint;
+    BallProgram program;
+    double log2_size = 0;  ///< of its greatest component at the start, by what it consists of
+    /// The displacement of an input.
+    const Displacement<Mpfr>& displacement(Index input, Index dimension) const {
+      return term->displacement(instance, input / dimension);
+    }
+  };
+  const std::vector<Force>& forces() const { return forces_; }
+
+ private:
+  void add(const EffectTerm<Mpfr>& term, Index instance, std::string name, bool is_constraint);
+
+  const Problem<Mpfr>& problem_;
+  std::vector<Force> forces_;
+  std::vector<std::size_t> block_of_;  ///< of each coordinate
+  /// log2, of each block: of its momentum, of the forces on it, of its inertia.
+  std::vector<double> momentum_, force_, inertia_;
+  double reach_ = 0, speed_ = 0;  ///< log2 of the greatest |q_i|, |v_i|
+  std::size_t failed_ = 0;
+};
+
+}  // namespace hbvm

@@ -1,0 +1,30 @@
+#include "hbvm/reference/exact_end.hpp"
+
+#include "hbvm/error.hpp"
+#include "hbvm/method/hbvm.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/reference/taylor.hpp"
+#include "hbvm_walk.hpp"
+
+namespace hbvm {
+
+ExactPoint exact_end(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Mpfr& t,
+                     Route route, const std::function<void()>& while_working) {
+  if (route == Route::taylor) {
+    TaylorMotion motion(problem, q, p, while_working);
+    motion.advance_to(t);
+    return {motion.q(), motion.p(), motion.lambda()};
+  }
+  if (route == Route::closed_form) throw InputError("the end of a motion is found by taylor or hbvm");
+  constexpr int few = 3;
+  const double digits = digits10<Mpfr>() - few;
+  const int s = stages_of_route(digits);
+  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
+  HbvmWalk walk(problem, method, q, p, digits, t);
+  walk.advance_to(t, [&](const Mpfr&) { while_working(); });
+  Point<Mpfr> point(problem);
+  const Vector<Mpfr> tangential = point.tangential(walk.state().q, walk.state().p);
+  return {walk.state().q, tangential, point.multiplier(walk.state().q, tangential)};
+}
+
+}  // namespace hbvm

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "hbvm/scalar/scalar.hpp"
+#include "hbvm/scene/scene.hpp"
+
+namespace hbvm {
+
+/// The digits that the start of a scene is written with, if its numbers were rounded to 15 or more, as those of a
+/// double are: the most that a decimal of a position, velocity, momentum, director or angular velocity has. Else 0: few
+/// digits are meant as they stand.
+int own_digits(const Scene& scene);
+
+/// The relative rounding of the start of a scene in S: that of its own digits, if it is coarser than that of S.
+template <Scalar S>
+S own_precision(const Scene& scene);
+
+#define HBVM_DECLARE(S) extern template S own_precision<S>(const Scene&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

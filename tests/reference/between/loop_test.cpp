@@ -1,0 +1,105 @@
+#include "reference/between/loop.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "hbvm/basis/legendre.hpp"
+#include "hbvm/scalar/literal.hpp"
+#include "printing.hpp"
+
+namespace hbvm {
+namespace {
+
+/// Whether the ball holds the number, but for what double leaves of it.
+bool holds(const Ball& ball, const std::complex<double>& z, double tolerance = 0) {
+  Ball x;
+  acb_set_d_d(raw(x), z.real(), z.imag());
+  mag_t error;
+  mag_init(error);
+  mag_set_d(error, tolerance);
+  acb_add_error_mag(raw(x), error);
+  mag_clear(error);
+  return acb_overlaps(raw(ball), raw(x)) != 0;
+}
+
+double radius(const Ball& ball) {
+  Ball x = ball;
+  mag_t size;
+  mag_init(size);
+  mag_hypot(size, arb_radref(acb_realref(raw(x))), arb_radref(acb_imagref(raw(x))));
+  const double result = mag_get_d(size);
+  mag_clear(size);
+  return result;
+}
+
+/// exp on the circle of radius 3, from its series in a unit of 1/2: each arc's ball holds the values on the arc, also
+/// at its ends, and is not much wider than they are.
+TEST(Loop, EnclosesASeriesOnACircle) {
+  const PrecisionScope scope(40);
+  constexpr Index order = 60;
+  std::vector<Mpfr> series{Mpfr(1)};
+  for (Index n = 1; n <= order; ++n) series.push_back(series.back() / (2 * n));
+  const Loop loop =
+      circle_of([&](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; }, order, std::log2(6.0));
+  for (const double half : {0.2, 0.05, 0.001})
+    for (double middle = half; middle < std::numbers::pi; middle += 0.3) {
+      Ball ball;
+      loop.enclose(std::polar(1.0, middle), half, ball);
+      double widest = 0;
+      const std::complex<double> centre = std::exp(std::polar(3.0, middle));
+      for (const double part : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+        const std::complex<double> value = std::exp(std::polar(3.0, middle + part * half));
+        EXPECT_TRUE(holds(ball, value, 1e-13 * std::abs(value))) << middle << " " << part;
+        widest = std::max(widest, std::abs(value - centre));
+      }
+      EXPECT_LE(radius(ball), 4 * widest + 1e-12);
+      EXPECT_FALSE(holds(ball, centre + 8 * widest + 1e-9));
+    }
+}
+
+/// A polynomial in Legendre form on an ellipse: real beyond both ends of the step, where Legendre polynomials say what
+/// it is, and at w = i the value at 1/2 + i (rho - 1/rho)/4.
+TEST(Loop, EnclosesAStepOnAnEllipse) {
+  const PrecisionScope scope(40);
+  const std::vector<Mpfr> y{literal<Mpfr>("3/2"), literal<Mpfr>("-1/3"), literal<Mpfr>("1/50"),
+                            literal<Mpfr>("1/7000")};
+  const Mpfr x_0 = literal<Mpfr>("-1/4");
+  for (const double rho : {1.5, 8.0}) {
+    const Loop loop = ellipse_of(x_0, y, std::log2(rho));
+    const auto exact = [&](double sign) {
+      const Vector<Mpfr> c = Vector<Mpfr>::Constant(1, Mpfr((2 + sign * (Mpfr(rho) + 1 / Mpfr(rho))) / 4));
+      const Matrix<Mpfr> integrals = legendre_integrals<Mpfr>(c, 4);
+      Mpfr x = x_0;
+      for (Index j = 0; j < 4; ++j) x += y[static_cast<std::size_t>(j)] * integrals(0, j);
+      return approximately(x);
+    };
+    Ball ball;
+    loop.enclose(1, 0, ball);
+    EXPECT_TRUE(holds(ball, exact(1), 1e-13)) << rho;
+    EXPECT_FALSE(holds(ball, exact(1) + 1e-9)) << rho;
+    loop.enclose(-1, 0, ball);
+    EXPECT_TRUE(holds(ball, exact(-1), 1e-12)) << rho;
+    EXPECT_FALSE(holds(ball, exact(-1) + 1e-9)) << rho;
+  }
+  // int_0^c P_1 = sqrt 3 (c^2 - c).
+  const double rho = 4, height = (rho - 1 / rho) / 4;
+  const Loop loop = ellipse_of(Mpfr(0), {Mpfr(0), Mpfr(1)}, std::log2(rho));
+  Ball ball;
+  loop.enclose({0, 1}, 0, ball);
+  EXPECT_TRUE(holds(ball, -std::sqrt(3.0) * (height * height + 0.25), 1e-12));
+}
+
+/// Numbers beyond the range of double are enclosed, too.
+TEST(Loop, HasAnyExponent) {
+  const PrecisionScope scope(40);
+  const std::vector<Mpfr> series{literal<Mpfr>("2^-5000"), literal<Mpfr>("2^-5001")};
+  const Loop loop = circle_of([&](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; }, 1, 1);
+  Ball ball;
+  loop.enclose(1, 0, ball);
+  acb_mul_2exp_si(raw(ball), raw(ball), 5000);
+  EXPECT_TRUE(holds(ball, 2));
+  EXPECT_FALSE(holds(ball, 2.001));
+}
+
+}  // namespace
+}  // namespace hbvm
