@@ -1,9 +1,8 @@
 # Shared by studies/run and tests/run: packages and builds. Sourced with the project's folder as the current one.
 
-build_packages="g++ cmake ninja-build libboost1.81-dev libeigen3-dev libmpfr-dev libflint-arb-dev libflint-dev libtomlplusplus-dev libcli11-dev
-  libfmt-dev nlohmann-json3-dev libjs-dygraphs gnuplot-nox"
-test_packages="libgtest-dev pkg-config doxygen clang-format-14 clang-tidy-14
-  chromium"
+build_packages="g++ cmake ninja-build libboost1.81-dev libeigen3-dev libmpfr-dev libflint-arb-dev
+  libflint-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev libjs-dygraphs gnuplot-nox"
+test_packages="libgtest-dev pkg-config doxygen clang-format-14 clang-tidy-14 chromium"
 clang_packages="clang libclang-rt-14-dev"
 speed_packages="libbenchmark-dev"
 

@@ -185,13 +185,20 @@ double order_between(const FileAgainst& coarse, const FileAgainst& fine) {
   return same_end && std::abs(steps) > 0 ? (coarse.error - fine.error) / steps : unknown;
 }
 
-/// Of step_text, or between the first two times.
-double step_of(const ResultsFile& file, const ResultsColumns& columns, const ResultsTable& rows) {
-  if (!file.step.empty()) {
-    const Mpfr step = magnitude(evaluate<Mpfr>(Expression::parse(file.step), {}));
-    if (!(step > 0)) throw InputError(file.name + ": its step '" + file.step + "' is 0");
-    return approximately(step);
+/// What the text of a file's step says; nothing if it is not known, or if what is stored of it cannot be read.
+std::optional<double> step_said(const ResultsFile& file, const Constants& constants) {
+  if (file.step.empty()) return std::nullopt;
+  try {
+    const Mpfr step = magnitude(evaluate<Mpfr>(Expression::parse(file.step), constants));
+    if (step > 0) return approximately(step);
+    if (file.step_given) throw InputError("it is 0");
+  } catch (const InputError& error) {
+    if (file.step_given) throw InputError("--steps: '" + file.step + "', of " + file.name + ": " + error.what());
   }
+  return std::nullopt;
+}
+
+double step_between(const ResultsColumns& columns, const ResultsTable& rows) {
   const ResultsColumns::Reading& time = *columns.find("t");
   return rows.cells.size() > 1 ? approximately(Mpfr(columns.value(time, 1) - columns.value(time, 0))) : unknown;
 }
@@ -246,8 +253,9 @@ Against compare_with_reference(const AgainstRequest& request) {
     const std::vector<std::size_t> chosen = choose_rows(columns, rows[f], out);
     const ResultsColumns::Reading& time = *columns.find("t");
     compare_start(columns, rows[f], start_of_scene, out);
-    out.step_text = request.files[f].step;
-    out.step = step_of(request.files[f], columns, rows[f]);
+    const std::optional<double> said = step_said(request.files[f], request.scene.constants);
+    out.step = said ? *said : step_between(columns, rows[f]);
+    if (said) out.step_text = request.files[f].step;
     ReferenceRequest wanted;
     wanted.scene = request.scene;
     wanted.digits = result.digits;

@@ -46,6 +46,7 @@ std::vector<ResultsFile> read_results(const AgainstArguments& arguments) {
                                          : step_stored(file.csv, std::filesystem::is_regular_file(description, ignored)
                                                                      ? read_file(description)
                                                                      : std::string());
+    file.step_given = !arguments.steps.empty();
     files.push_back(std::move(file));
   }
   return files;

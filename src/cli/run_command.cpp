@@ -513,8 +513,8 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--account", o->account, "Also show what effects and parts of the solver did and took");
   command->add_flag("--strict", o->strict, "Exit code 3 if a warning says that the run may be worth little");
   command->add_flag("--error", o->error,
-                    "Print the digits that are right, by a stored reference of this scene and time, or else by a run "
-                    "with more stages and 16 more digits");
+                    "Print the digits that are right, by a stored reference of this scene and time, or else by the "
+                    "motion's Taylor series with 16 more digits");
   command->add_flag("--shadow", o->shadow,
                     "Repeat the run with 16 more digits and say how many of each component survived rounding");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");

@@ -166,8 +166,14 @@ TEST(Against, TakesTheStepsThatAreGiven) {
   EXPECT_NEAR(against.order(), 4, 1e-6);
   // To t = 1 and 2, over a vector of size 1 or less.
   EXPECT_NEAR(against.least_digits(), 4, 0.5);
-  request.files[1].step = "0";
-  EXPECT_THROW(compare_with_reference(request), InputError);
+  // One that is stored may be no number; one that is given must be one.
+  for (const char* step : {"0", "0.01 s"}) {
+    request.files[1].step = step;
+    request.files[1].step_given = false;
+    EXPECT_EQ(compare_with_reference(request).files[1].step, 1) << step;
+    request.files[1].step_given = true;
+    EXPECT_THROW(compare_with_reference(request), InputError) << step;
+  }
 }
 
 TEST(Against, FindsTheStepThatIsStored) {

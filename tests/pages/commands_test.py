@@ -13,6 +13,7 @@ import tempfile
 import textwrap
 import time
 
+sys.dont_write_bytecode = True  # nothing is left in the sources
 from declared import FILES, CODES, ELSEWHERE, MENTIONS, SHORTER
 
 program, source = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])

@@ -16,6 +16,7 @@ struct ResultsFile {
   std::string name, csv;
   /// The step it was made with, an expression; empty if it is not known. step_stored() finds it in what files store.
   std::string step = {};
+  bool step_given = false;  ///< by a user: it must be a number; one that is stored may say anything
 };
 
 /// The step that a file of results says it was made with: "hbvm:step" of what describes it (JSON, as hbvm run writes it

@@ -57,10 +57,12 @@ class Planner {
           reachable_digits(precision, nature_) >= request_.digits + sure)
         return result;
     }
-    constexpr int guard = 3;
-    const int digits = request_.digits + static_cast<int>(std::ceil(nature_.digits_lost)) + guard;
-    result.push_back(
-        Precision::parse("mpfr:" + std::to_string(std::max(static_cast<int>(Precision::min_digits), digits))));
+    // An error that is made on the way may grow more than one of the start: of bodies that pass near one another.
+    for (const int guard : {3, 12}) {
+      const int digits = request_.digits + static_cast<int>(std::ceil(nature_.digits_lost)) + guard;
+      result.push_back(
+          Precision::parse("mpfr:" + std::to_string(std::max(static_cast<int>(Precision::min_digits), digits))));
+    }
     return result;
   }
 

@@ -46,6 +46,8 @@ class Errors {
       Mpfr error = differences_[static_cast<std::size_t>(i)];
       for (Index j = first; j < std::min(first + group, exact.size()); ++j)
         raise_to(error, Mpfr(differences_[static_cast<std::size_t>(j)] / trusted));
+      // What is exactly 0, and was found so, has all its digits.
+      if (sizes_[static_cast<std::size_t>(i)] == 0 && exact[i] == 0) error = 0;
       if (error > 0) raise_to(error, unsure);
       digits.push_back(right_digits(error, sizes_[static_cast<std::size_t>(i)], all));
     }
