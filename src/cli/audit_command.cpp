@@ -89,10 +89,10 @@ std::vector<Claim> claims_of(const AuditArguments& o) {
   return o.claims ? filtered(std::move(claims), *o.claims) : claims;
 }
 
-/// Where results go; with --json nowhere unless it is said.
+/// Where results go: nowhere unless it is said.
 std::optional<fs::path> folder_of(const AuditArguments& o) {
-  if (o.json && !o.work.out) return std::nullopt;
-  const fs::path folder = make_out_folder(o.work.out.value_or("audit-results"));
+  if (!o.work.out) return std::nullopt;
+  const fs::path folder = make_out_folder(*o.work.out);
   write_file(folder / "audit.csv", "this audit is not finished\n");
   return folder;
 }
@@ -132,7 +132,9 @@ void audit_command(const AuditArguments& o) {
   Table table = audit_table(findings);
   table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
   if (folder) {
-    write_csv((*folder / "audit.csv").string(), table);
+    Table with_reasons = audit_table(findings, true);
+    with_reasons.provenance = table.provenance;
+    write_csv((*folder / "audit.csv").string(), with_reasons);
     write_file(*folder / "audit.md", to_markdown(table));
     write_file(*folder / "audit.tex", to_latex(table));
     // It explains the audit of the paper.
@@ -170,12 +172,11 @@ void add_audit_command(CLI::App& app) {
                       "Audit the Runge-Kutta tableau in this TOML file (A, b, c as exact text), or what a method "
                       "says of itself: " +
                           method_usage());
-  o->work.add_to(
-      *command,
-      "Folder for the table (CSV, Markdown, LaTeX) and, of all the paper's claims, a figure; audit-results if absent "
-      "(with --json: none); "
-      "--full goes on from what it finds there",
-      "Threads");
+  o->work.add_to(*command,
+                 "Folder for the table (CSV, Markdown, LaTeX) and, of all the paper's claims, a figure; nothing is "
+                 "written without; "
+                 "--full goes on from what it finds there",
+                 "Threads");
   command->add_option(
       "--until", o->until,
       "Look at all of the motion up to this time, in the scene's units (if absent, at half of the time in "
@@ -194,7 +195,8 @@ void add_audit_command(CLI::App& app) {
       "could not be run. A file of claims: tables [[claim]] with quantity, problem, method and rate, as\n"
       "  quantity = \"raw p\", problem = \"double_pendulum\", method = \"hbvm:3,2\", rate = \"2*s\"; a tableau:\n"
       "  A = [[\"1/4\", \"1/4-sqrt(3)/6\"], [\"1/4+sqrt(3)/6\", \"1/4\"]], b = [\"1/2\", \"1/2\"], c if it is not the "
-      "row sums.\n"
+      "row sums,\n"
+      "  order = 4 if you claim one, digits = 30 if its numbers are decimals rounded to so many (guessed if absent).\n"
       "See studies/orders_beyond_round_off.\n"
       "Example: hbvm audit --claims evaik --out audit");
   command->callback([o] { audit_command(*o); });

@@ -7,7 +7,7 @@
 namespace hbvm {
 namespace {
 
-/// Calls use(order, defect) for tree after tree, as long as it returns true.
+/// Calls use(tree, residual) for tree after tree, as long as it returns true.
 template <Scalar S, class Use>
 void for_each_condition(const RungeKutta<S>& method, int max_order, const Use& use) {
   const Index s = method.b.size();
@@ -18,7 +18,7 @@ void for_each_condition(const RungeKutta<S>& method, int max_order, const Use& u
       phi[i] = 1;
       for (const int t : tree.subtrees) phi[i] *= A_phi[static_cast<std::size_t>(t)][i];
     }
-    if (!use(tree.order, magnitude(S(dot(method.b, phi) - S(1) / S(tree.density))))) return;
+    if (!use(tree, S(dot(method.b, phi) - S(1) / S(tree.density)))) return;
     if (tree.order < max_order) A_phi.push_back(method.A.lazyProduct(phi));
   }
 }
@@ -84,11 +84,21 @@ int fulfilled(Defect<S> defect, const RungeKutta<S>& method, const S& tolerance,
 template <Scalar S>
 std::vector<S> order_defects(const RungeKutta<S>& method, int max_order) {
   std::vector<S> worst(static_cast<std::size_t>(std::max(max_order, 0)), S(0));
-  for_each_condition(method, max_order, [&](int order, const S& defect) {
-    raise_to(worst[static_cast<std::size_t>(order - 1)], defect);
+  for_each_condition(method, max_order, [&](const RootedTree& tree, const S& residual) {
+    raise_to(worst[static_cast<std::size_t>(tree.order - 1)], magnitude(residual));
     return true;
   });
   return worst;
+}
+
+template <Scalar S>
+std::vector<std::vector<S>> order_residuals(const RungeKutta<S>& method, int max_order) {
+  std::vector<std::vector<S>> residuals(static_cast<std::size_t>(std::max(max_order, 0)));
+  for_each_condition(method, max_order, [&](const RootedTree& tree, const S& residual) {
+    residuals[static_cast<std::size_t>(tree.order - 1)].push_back(S(residual * S(tree.density)));
+    return true;
+  });
+  return residuals;
 }
 
 template <Scalar S>
@@ -111,9 +121,9 @@ int order(const RungeKutta<S>& method, const S& tolerance) {
   // No method of s stages has an order above 2 s.
   const int s = method.stages(), by_trees = std::min(max_tree_order, 2 * s);
   int p = by_trees;
-  for_each_condition(method, by_trees, [&](int tree_order, const S& defect) {
-    if (defect <= tolerance) return true;
-    p = tree_order - 1;
+  for_each_condition(method, by_trees, [&](const RootedTree& tree, const S& residual) {
+    if (magnitude(residual) <= tolerance) return true;
+    p = tree.order - 1;
     return false;
   });
   if (p < max_tree_order) return p;
@@ -123,11 +133,12 @@ int order(const RungeKutta<S>& method, const S& tolerance) {
   return std::max(p, std::min({B, 2 * C + 2, C + D + 1}));
 }
 
-#define HBVM_DEFINE(S)                                                 \
-  template std::vector<S> order_defects<S>(const RungeKutta<S>&, int); \
-  template S condition_B<S>(const RungeKutta<S>&, int);                \
-  template S condition_C<S>(const RungeKutta<S>&, int);                \
-  template S condition_D<S>(const RungeKutta<S>&, int);                \
+#define HBVM_DEFINE(S)                                                                \
+  template std::vector<S> order_defects<S>(const RungeKutta<S>&, int);                \
+  template std::vector<std::vector<S>> order_residuals<S>(const RungeKutta<S>&, int); \
+  template S condition_B<S>(const RungeKutta<S>&, int);                               \
+  template S condition_C<S>(const RungeKutta<S>&, int);                               \
+  template S condition_D<S>(const RungeKutta<S>&, int);                               \
   template int order<S>(const RungeKutta<S>&, const S&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -76,6 +76,12 @@ Tableau read_tableau(const std::string& path) {
       top.fail(*node, "'order' must be from 1 to " + std::to_string(2 * max_tableau_stages));
     tableau.order = static_cast<int>(order);
   }
+  if (const toml::node* const node = top.take("digits")) {
+    const long digits = top.integer("digits");
+    if (digits < 1 || digits > max_tableau_digits)
+      top.fail(*node, "'digits' must be from 1 to " + std::to_string(max_tableau_digits));
+    tableau.digits = static_cast<int>(digits);
+  }
   const toml::node *const A = &top.require("A"), *const b = &top.require("b"), *const c = top.take("c");
   top.finish();
 

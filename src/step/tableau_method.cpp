@@ -1,5 +1,8 @@
 #include "hbvm/step/tableau_method.hpp"
 
+#include <algorithm>
+
+#include "hbvm/method/decimals.hpp"
 #include "hbvm/method/order_conditions.hpp"
 #include "hbvm/method/read_tableau.hpp"
 #include "hbvm/method/symmetry_defect.hpp"
@@ -10,8 +13,14 @@ namespace {
 constexpr std::string_view projected = "+project";
 constexpr unsigned digits_of_conditions = 50;
 
-/// What the sums of its conditions may lose.
-Mpfr tolerance() { return 1 / pow(Mpfr(10), digits_of_conditions - 10); }
+/// What the sums of its conditions may lose, and decimals of fewer digits with them.
+Mpfr tolerance(const Tableau& tableau) {
+  constexpr int lost = 10, lost_of_decimals = 4;
+  int digits = static_cast<int>(digits_of_conditions) - lost;
+  if (const std::optional<Decimals> decimals = decimals_of(tableau))
+    digits = std::clamp(decimals->digits - lost_of_decimals, 1, digits);
+  return pow(Mpfr(10), -digits);
+}
 
 }  // namespace
 
@@ -21,7 +30,7 @@ TableauMethod::TableauMethod(Tableau tableau, std::string file, OnConstraints on
 int TableauMethod::order() const {
   if (tableau_.order) return *tableau_.order;
   const PrecisionScope scope(digits_of_conditions);
-  return hbvm::order(make_runge_kutta<Mpfr>(tableau_), tolerance());
+  return hbvm::order(make_runge_kutta<Mpfr>(tableau_), tolerance(tableau_));
 }
 
 Kept TableauMethod::kept() const {
@@ -30,10 +39,10 @@ Kept TableauMethod::kept() const {
   const PrecisionScope scope(digits_of_conditions);
   const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau_);
   return {.energy = false,
-          .momenta = symplecticity_defect(method) <= tolerance(),
+          .momenta = symplecticity_defect(method) <= tolerance(tableau_),
           .constraints = false,
           .hidden = false,
-          .reversal = symmetry_defect(method) <= tolerance()};
+          .reversal = symmetry_defect(method) <= tolerance(tableau_)};
 }
 
 std::string TableauMethod::text() const {
@@ -50,6 +59,7 @@ std::string TableauMethod::key() const {
     for (const Expression& x : row) key += "," + x.text();
   for (const Expression& x : tableau_.b) key += "," + x.text();
   for (const Expression& x : tableau_.c) key += "," + x.text();
+  if (tableau_.digits) key += ",digits " + std::to_string(*tableau_.digits);
   return key;
 }
 

@@ -15,6 +15,10 @@ namespace hbvm {
 template <Scalar S>
 std::vector<S> order_defects(const RungeKutta<S>& method, int max_order);
 
+/// With their signs, and times gamma(t): sum_i gamma(t) b_i Phi_i(t) - 1 for each tree of order p in entry p - 1.
+template <Scalar S>
+std::vector<std::vector<S>> order_residuals(const RungeKutta<S>& method, int max_order);
+
 /// The largest defects of Butcher's simplifying assumptions (the same, section IV.5 of volume II); 0 if p, q or r is:
 ///
 ///     B(p): sum_i b_i c_i^(n-1) = 1/n,                        n <= p
@@ -32,11 +36,12 @@ S condition_D(const RungeKutta<S>& method, int r);
 template <Scalar S>
 int order(const RungeKutta<S>& method, const S& tolerance);
 
-#define HBVM_DECLARE(S)                                                       \
-  extern template std::vector<S> order_defects<S>(const RungeKutta<S>&, int); \
-  extern template S condition_B<S>(const RungeKutta<S>&, int);                \
-  extern template S condition_C<S>(const RungeKutta<S>&, int);                \
-  extern template S condition_D<S>(const RungeKutta<S>&, int);                \
+#define HBVM_DECLARE(S)                                                                      \
+  extern template std::vector<S> order_defects<S>(const RungeKutta<S>&, int);                \
+  extern template std::vector<std::vector<S>> order_residuals<S>(const RungeKutta<S>&, int); \
+  extern template S condition_B<S>(const RungeKutta<S>&, int);                               \
+  extern template S condition_C<S>(const RungeKutta<S>&, int);                               \
+  extern template S condition_D<S>(const RungeKutta<S>&, int);                               \
   extern template int order<S>(const RungeKutta<S>&, const S&);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE

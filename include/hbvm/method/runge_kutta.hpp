@@ -14,7 +14,8 @@ struct Tableau {
   std::string name;
   std::vector<std::vector<Expression>> A;  ///< row by row
   std::vector<Expression> b, c;
-  std::optional<int> order;  ///< that its author claims
+  std::optional<int> order;        ///< that its author claims
+  std::optional<int> digits = {};  ///< to which its author gives the numbers that are decimals
 
   int stages() const { return static_cast<int>(b.size()); }
 };

@@ -9,11 +9,14 @@
 #include "exactness.hpp"
 #include "hbvm/clock.hpp"
 #include "hbvm/interruption.hpp"
+#include "hbvm/method/rooted_trees.hpp"
 #include "hbvm/scalar/literal.hpp"
+#include "hbvm/scalar/text.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/tableau_method.hpp"
 #include "measurements.hpp"
+#include "typo.hpp"
 
 namespace hbvm {
 namespace {
@@ -38,6 +41,25 @@ bool is_tableau(const Claim& claim) { return as_tableau(*claim.method) != nullpt
 
 /// By how much the rate of what is measured exceeds the rate that is claimed.
 double offset(const Claim& claim) { return is_tableau(claim) && claim.span == Span::interval ? 1 : 0; }
+
+/// Which rows of A do not sum to c, of those that miss it by most: "; row 5 sums to 0.888, c[5] is 0.889".
+std::string wrong_rows(const Tableau& tableau, const Met& met) {
+  const PrecisionScope scope(60);
+  const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau);
+  std::string text;
+  int named = 0;
+  for (Index i = 0; i < method.c.size(); ++i) {
+    Mpfr sum = 0;
+    for (Index j = 0; j < method.c.size(); ++j) sum += method.A(i, j);
+    if (magnitude(Mpfr(sum - method.c[i])) < pow(Mpfr(10), -std::min(met.due, 55))) continue;
+    constexpr int most = 3;
+    if (++named > most) return text + " and more";
+    const int shown = std::clamp(met.seen + 4, 6, 50);
+    text += "; row " + std::to_string(i + 1) + " sums to " + to_scientific(sum, shown) + ", c[" +
+            std::to_string(i + 1) + "] is " + to_scientific(method.c[i], shown);
+  }
+  return text;
+}
 
 /// The first of them that holds the numbers of a scene: 1e-420 is none of double.
 std::size_t first_level(const std::string& problem) {
@@ -123,6 +145,9 @@ void Auditor::prepare() {
   if (options_.coefficient_digits > 0 && CoefficientCheck::is_for(*cell_.subject().method)) {
     coefficients_.emplace(cell_.subject(), options_.coefficient_digits);
     cell_.check_time();
+    // A unit in the last digit, where half of one is as far as a right digit is off.
+    if (const auto& decimals = coefficients_->decimals())
+      cell_.log2_rounding = -decimals->digits * std::numbers::ln10 / std::numbers::ln2;
   }
   cell_.starts.count = options_.starts;
   cell_.starts.lead += options_.first_start * cell_.starts.stride;
@@ -186,12 +211,41 @@ std::string Auditor::reference() const {
   return "Gauss methods of " + std::to_string(cell_.stages() + 4) + " stages or more";
 }
 
+std::vector<Precision> Auditor::levels() const {
+  std::vector<Precision> result;
+  for (const std::string_view name : precisions) {
+    result.push_back(Precision::parse(name));
+    // One that has all their digits, and six more.
+    constexpr unsigned more = 6;
+    if (coefficients_ && coefficients_->decimals() &&
+        result.back().digits() >= static_cast<unsigned>(coefficients_->decimals()->digits) + more &&
+        result.size() > first_level(cell_.subject().problem))
+      break;
+  }
+  return result;
+}
+
+std::string Auditor::decimals_text() const {
+  const Decimals& decimals = *coefficients_->decimals();
+  return "the numbers are decimals of " + std::to_string(decimals.digits) + " digits and held to these; " +
+         decimals.example +
+         (decimals.fraction ? ", written as " + *decimals.fraction + ", would be exact"
+                            : ", written as an expression like 1/6 or (3-sqrt(3))/6, would be exact");
+}
+
+std::string Auditor::near_the_start() const {
+  return "from " + std::to_string(cell_.starts.count) + (cell_.starts.count == 1 ? " state" : " states") +
+         (options_.until ? " on the way" : " near the start");
+}
+
 template <class Measure>
 void Auditor::climb(const std::vector<std::size_t>& members, std::size_t at_least, const Measure& measure) {
-  for (std::size_t level = first_level(cell_.subject().problem); level < std::size(precisions); ++level) {
-    const Precision precision = Precision::parse(precisions[level]);
+  const std::vector<Precision> all = levels();
+  at_least = std::min(at_least, all.size());
+  for (std::size_t level = first_level(cell_.subject().problem); level < all.size(); ++level) {
+    const Precision& precision = all[level];
     const Ladders ladders = with_scalar(precision, measure);
-    if (level + 1 == deep && !steps_.empty() && &members == &steps_) deep_ = ladders;
+    if (level + 1 == std::min(deep, all.size()) && !steps_.empty() && &members == &steps_) deep_ = ladders;
     bool decided = true, open = false;
     for (const std::size_t c : members) {
       Finding& f = finding(c);
@@ -252,7 +306,8 @@ void Auditor::take(Finding& f, const std::vector<Rung>& rungs, const Precision& 
     const bool vanishes = none && !rungs.empty() && f.claim.form == Form::at_least && precision.digits() >= 100;
     f.verdict = vanishes ? Verdict::holds : Verdict::undecidable;
     f.measured = f.uncertainty = std::numeric_limits<double>::quiet_NaN();
-    f.reason = vanishes ? "the error is round-off" : "no five errors above round-off";
+    f.reason = vanishes ? "sampled: the error is round-off, " + near_the_start() : "no five errors above round-off";
+    if (!vanishes && coefficients_ && coefficients_->decimals()) f.reason += "; " + decimals_text();
     return;
   }
   f.measured = rate->value - offset(f.claim);
@@ -260,16 +315,20 @@ void Auditor::take(Finding& f, const std::vector<Rung>& rungs, const Precision& 
   rate->value = f.measured;
   f.verdict = judge(f.claim, rate);
   f.reason = f.verdict == Verdict::undecidable ? "the slope is not settled"
-             : f.verdict == Verdict::fails     ? "the error has another rate"
-                                               : "";
+             : f.verdict == Verdict::fails
+                 ? "the error has another rate"
+                 : "sampled: the slopes settle over " + std::to_string(std::lround(rate->halvings)) +
+                       " halvings of the step, " + near_the_start();
 }
 
 void Auditor::compare_with_one_step() {
-  const Precision precision = Precision::parse(precisions[deep - 1]);
-  if (!deep_)
+  const std::vector<Precision> all = levels();
+  const Precision precision = all[std::min(deep, all.size()) - 1];
+  if (!deep_) {
     deep_ = with_scalar(precision, [&]<Scalar S>() {
       return step_ladder<S>(cell_, [&](const Ladders& so_far) { return cell_.is_lost(so_far); });
     });
+  }
   for (const std::size_t c : intervals_) {
     Finding& f = finding(c);
     const auto ladder = deep_->find(f.claim.quantity);
@@ -297,10 +356,11 @@ void Auditor::conserve_in(const Precision& precision, int log2_step, long steps)
       f.reason = "there is nothing to measure on this problem";
       continue;
     }
-    f.evidence.push_back({precision.name(), {found->second.rung}});
+    const RoundOff& own = found->second;
+    f.evidence.push_back({precision.name(), {own.rung}});
     f.uncertainty = allowed_units(f.claim);
-    f.measured = std::max(f.measured, found->second.ratio * f.uncertainty);
-    if (found->second.ratio > 1) {
+    f.measured = std::max(f.measured, own.ratio * f.uncertainty);
+    if (own.ratio > 1) {
       fail(f, "it is more than round-off");
       settled_.insert(c);
     } else if (f.verdict != Verdict::fails) {
@@ -310,14 +370,20 @@ void Auditor::conserve_in(const Precision& precision, int log2_step, long steps)
 }
 
 void Auditor::conserve() {
-  for (std::size_t level = first_level(cell_.subject().problem); level < deep; ++level)
-    conserve_in(Precision::parse(precisions[level]), short_steps.log2_step, short_steps.steps * cell_.windows);
+  const std::vector<Precision> all = levels();
+  for (std::size_t level = first_level(cell_.subject().problem); level < std::min(deep, all.size()); ++level)
+    conserve_in(all[level], short_steps.log2_step, short_steps.steps * cell_.windows);
   int digits = 0;
   std::vector<std::size_t> unproved;
   for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
     if (finding(c).verdict != Verdict::holds) continue;
     finding(c).reason = proof_of(finding(c).claim, coefficients_ ? &*coefficients_ : nullptr);
     if (!finding(c).reason.empty()) continue;
+    if (coefficients_ && coefficients_->decimals()) {
+      finding(c).reason = "sampled: no error above the round-off of " + finding(c).precision + ", " + near_the_start() +
+                          "; " + decimals_text();
+      continue;
+    }
     unproved.push_back(c);
     digits = std::max(digits, digits_to_show(finding(c).claim, cell_.log2_scale));
   }
@@ -333,7 +399,10 @@ void Auditor::conserve() {
     }
   for (const std::size_t c : unproved) {
     Finding& f = finding(c);
-    if (f.verdict != Verdict::holds || digits <= shown) continue;
+    if (f.verdict != Verdict::holds) continue;
+    f.reason = "sampled: no error in " + std::to_string(shown) +
+               " digits, where one of the method's order would show, " + near_the_start();
+    if (digits <= shown) continue;
     f.verdict = Verdict::undecidable;
     f.reason =
         "an error would show in " + std::to_string(digits) + " digits, and " + std::to_string(shown) + " are looked at";
@@ -356,10 +425,13 @@ void Auditor::check_tableau() {
       f.precision = precision.name();
       f.uncertainty = allowed_ulps_a_stage * stages;
       f.measured = std::max(f.measured, units.at(f.claim.quantity));
-      if (f.measured <= f.uncertainty)
+      if (f.verdict == Verdict::fails) continue;
+      if (f.measured <= f.uncertainty) {
         f.verdict = Verdict::holds;
-      else
+        f.reason = "the conditions are met in double, quad and to " + std::to_string(precision.digits()) + " digits";
+      } else {
         fail(f, "it is more than round-off");
+      }
     }
   }
 }
@@ -386,37 +458,93 @@ void Auditor::count_digits() {
     double greatest = -std::numeric_limits<double>::infinity();
     for (const Rung& rung : ladder->second) greatest = std::max(greatest, rung.error);
     f.measured = -greatest * std::numbers::ln2 / std::numbers::ln10;
-    if (f.measured >= f.claim.predicted)
+    if (f.measured >= f.claim.predicted) {
       f.verdict = Verdict::holds;
-    else
+      f.reason = "sampled: so many digits are right at each step, " + near_the_start();
+    } else {
       fail(f, "fewer digits are right");
+    }
   }
 }
 
 void Auditor::measure_special() {
   Finding& f = finding(0);
-  if (is_tableau(f.claim)) {
-    if (!coefficients_) coefficients_.emplace(f.claim, 100);
-    const bool order = f.claim.quantity == Quantity::order_conditions;
-    const int digits = coefficients_->digits();
-    f.precision = "mpfr:" + std::to_string(digits);
-    f.measured = order ? coefficients_->order_to(digits) : coefficients_->row_sums() >= digits ? 1 : 0;
-    f.verdict = f.measured >= f.claim.predicted ? Verdict::holds : Verdict::fails;
-    const int next = static_cast<int>(f.measured) + 1;
-    if (f.verdict == Verdict::fails)
-      f.reason = order
-                     ? "the conditions of order " + std::to_string(next) + " are met to " +
-                           std::to_string(coefficients_->order(next)) + " digits only"
-                     : "c is the sum of the rows of A to " + std::to_string(coefficients_->row_sums()) + " digits only";
-    return;
-  }
+  if (is_tableau(f.claim)) return measure_tableau();
   f.precision = f.claim.quantity == Quantity::hidden_constant ? "mpfr:100" : "double";
   f.measured = special_value(cell_);
   f.uncertainty = f.claim.tolerance;
   const double miss =
       f.claim.form == Form::at_least ? f.claim.predicted - f.measured : std::abs(f.measured - f.claim.predicted);
   f.verdict = miss <= f.claim.tolerance ? Verdict::holds : Verdict::fails;
-  if (f.verdict == Verdict::fails) f.reason = "the value is another";
+  f.reason = f.verdict == Verdict::fails ? "the value is another" : "sampled: one run has this value";
+}
+
+void Auditor::measure_tableau() {
+  Finding& f = finding(0);
+  if (!coefficients_) coefficients_.emplace(f.claim, 100);
+  const CoefficientCheck& check = *coefficients_;
+  f.precision = "mpfr:" + std::to_string(check.digits());
+  switch (f.claim.quantity) {
+    case Quantity::order_conditions:
+      f.measured = check.order_found();
+      break;
+    case Quantity::B:
+      f.measured = check.B_found();
+      break;
+    case Quantity::C:
+      f.measured = check.C_found();
+      break;
+    case Quantity::D:
+      f.measured = check.D_found();
+      break;
+    case Quantity::symmetry:
+      f.verdict = check.symmetry().holds() ? Verdict::holds : Verdict::fails;
+      f.reason = "the coefficients are symmetric to " + std::to_string(check.symmetry().seen) + " digits";
+      return;
+    default:
+      throw InputError("the coefficients of " + f.claim.method_text() + " have no such conditions");
+  }
+  const int found = static_cast<int>(f.measured);
+  const bool holds = f.claim.form == Form::exactly ? f.measured == f.claim.predicted : f.measured >= f.claim.predicted;
+  f.verdict = holds ? Verdict::holds : Verdict::fails;
+  if (f.claim.quantity == Quantity::order_conditions) {
+    // Of an order that nobody states.
+    const bool unstated = holds && !as_tableau(*f.claim.method)->tableau().order;
+    const Tableau& tableau = as_tableau(*f.claim.method)->tableau();
+    if (unstated && found == 0) f.verdict = Verdict::fails;
+    const int meant = check.decimals() ? std::clamp(check.decimals()->digits - 4, 1, meant_digits) : meant_digits;
+    const auto typo = f.verdict == Verdict::fails || unstated ? typo_of(tableau, found, meant) : std::nullopt;
+    const bool nearly = unstated && is_nearly_of_next_order(tableau, found);
+    if (unstated && (typo || nearly)) f.verdict = Verdict::fails;
+    // By the trees alone no more can be told of a method that has a higher order by other conditions.
+    if (!holds && found == max_tree_order && f.claim.form == Form::at_least) {
+      f.verdict = Verdict::undecidable;
+      f.reason = "the conditions of all trees, to order " + std::to_string(max_tree_order) +
+                 ", are met; higher ones are looked at by B, C and D alone, which a method need not meet";
+    } else {
+      f.reason = words_on_order(f, found);
+      if (typo)
+        f.reason += ": it looks like a typo, since those of order " + std::to_string(typo->order) + " are met if " +
+                    typo->entry + " is " + typo->expected + " in place of " + typo->written;
+      else if (nearly)
+        f.reason += ": far better than by chance, it looks like a typo";
+    }
+  } else if (holds) {
+    f.reason = "the conditions hold to the power " + std::to_string(found) + ", and no further";
+  } else if (f.claim.quantity == Quantity::C && found == 0) {
+    f.reason = "c is the sum of the rows of A to " + std::to_string(check.row_sums().seen) + " digits only" +
+               wrong_rows(as_tableau(*f.claim.method)->tableau(), check.row_sums());
+  } else {
+    f.reason = "the conditions hold to the power " + std::to_string(found) + " only";
+  }
+  if (check.decimals()) f.reason += "; " + decimals_text();
+}
+
+std::string Auditor::words_on_order(const Finding& f, int found) const {
+  const int next = found + 1;
+  const std::string missed = "the conditions of order " + std::to_string(next) + " are met to " +
+                             std::to_string(coefficients_->order(next).seen) + " digits only";
+  return f.claim.predicted > found ? missed : "order " + std::to_string(found) + " found; " + missed;
 }
 
 void Auditor::fail(Finding& f, const std::string& reason) {
@@ -437,24 +565,47 @@ void Auditor::weigh(Finding& f) {
 
 void Auditor::weigh_coefficients(Finding& f) {
   const CoefficientCheck& check = *coefficients_;
-  int seen = check.definition();
-  if (is_tableau(f.claim)) {
-    const double order = f.claim.span == Span::step ? f.claim.predicted - 1 : f.claim.predicted;
-    const int shown = check.order_to(meant_digits);
-    // What the claim needs, as far as it is meant to be there; an order above that is due to the problem.
-    const bool is_order = is_rate(f.claim) || f.claim.quantity == Quantity::order_conditions;
-    const int needed = is_order ? std::min(static_cast<int>(std::ceil(order)), shown) : shown;
-    seen = check.order(needed);
-    const auto also = [&](int digits) {
-      if (digits >= meant_digits) seen = std::min(seen, digits);
-    };
-    if (f.claim.quantity == Quantity::angular_momentum) also(check.symplecticity());
-    if (f.claim.quantity == Quantity::reversal) also(check.symmetry());
-    if (f.claim.quantity == Quantity::C) seen = check.row_sums();
+  if (!is_tableau(f.claim)) {
+    f.coefficients_to = check.definition();
+    if (f.verdict == Verdict::holds && check.definition() < check.digits())
+      fail(f, "the coefficients are right to " + std::to_string(check.definition()) + " digits only");
+    return;
   }
-  f.coefficients_to = seen;
-  if (f.verdict != Verdict::holds || seen >= check.digits()) return;
-  fail(f, "the coefficients are right to " + std::to_string(seen) + " digits only");
+  const double order = f.claim.span == Span::step ? f.claim.predicted - 1 : f.claim.predicted;
+  const int meant = check.decimals() ? std::clamp(check.decimals()->digits - 4, 1, meant_digits) : meant_digits;
+  const int shown = check.order_to(meant);
+  // What the claim needs, as far as it is meant to be there; an order above that is due to the problem.
+  const bool is_order = is_rate(f.claim) && f.claim.quantity < Quantity::hidden_constant;
+  const bool of_order = is_order || f.claim.quantity == Quantity::order_conditions;
+  Met met = check.order(of_order ? std::min(static_cast<int>(std::ceil(order)), shown) : shown);
+  const auto also = [&](const Met& own) {
+    if (own.seen < meant) return;
+    met = {std::min(met.seen, own.seen), std::min(met.due, own.due)};
+    if (!own.holds()) met.due = met.seen + 1;
+  };
+  switch (f.claim.quantity) {
+    case Quantity::angular_momentum:
+      also(check.symplecticity());
+      break;
+    case Quantity::reversal:
+      also(check.symmetry());
+      break;
+    case Quantity::symmetry:
+      met = check.symmetry();
+      break;
+    case Quantity::C:
+      met = check.row_sums();
+      break;
+    case Quantity::B:
+    case Quantity::D:
+      return;
+    default:
+      break;
+  }
+  f.coefficients_to = met.seen;
+  if (f.verdict != Verdict::holds || met.holds()) return;
+  fail(f, "the coefficients are right to " + std::to_string(met.seen) + " digits only" +
+              (check.decimals() ? ", and its decimals could make it " + std::to_string(met.due) : ""));
 }
 
 }  // namespace hbvm

@@ -47,6 +47,11 @@ class Auditor {
   Finding& finding(std::size_t c) { return findings_[unit_.members[c]]; }
   std::string reference() const;
 
+  /// Precisions in the order in which they are tried: of decimals none that shows much more than they have.
+  std::vector<Precision> levels() const;
+  std::string decimals_text() const;
+  std::string near_the_start() const;
+
   void prepare();
   void decide();
   void follow_steps();
@@ -56,6 +61,8 @@ class Auditor {
   /// In some digits more than are claimed, at steps of half and a quarter of the interval and so on.
   void count_digits();
   void measure_special();
+  void measure_tableau();
+  std::string words_on_order(const Finding& f, int found) const;
 
   /// Raises the precision, over at least so many levels, until every claim of those given is decided.
   template <class Measure>

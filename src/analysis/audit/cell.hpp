@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "hbvm/analysis/audit/finding.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/scalar/scalar.hpp"
 
 namespace hbvm {
 
@@ -32,12 +35,19 @@ struct Cell {
   int log2_scale = 0;      ///< of the motion's time scale
   int log2_interval = -1;  ///< of the time in which errors are looked at, over the time scale
   long windows = 1;        ///< how often that time follows upon itself
-  double stop_at = 0;      ///< thread_seconds() at which to stop, 0: never
+  /// log2 of what the numbers of the method are rounded to, besides the precision of a run.
+  double log2_rounding = -std::numeric_limits<double>::infinity();
+  double stop_at = 0;  ///< thread_seconds() at which to stop, 0: never
 
   const Claim& subject() const { return claims.front(); }
   bool asks_for(Quantity quantity) const;
   /// Whether the finest rung of each quantity asked for is lost in round-off.
   bool is_lost(const Ladders& ladders) const;
+  /// log2 of the unit of round-off in S, or of what the method's numbers are rounded to.
+  template <Scalar S>
+  double log2_unit() const {
+    return std::max(static_cast<double>(1 - significand_bits<S>()), log2_rounding);
+  }
   /// What a reference must exceed.
   int stages() const;
   /// \throws LimitReached

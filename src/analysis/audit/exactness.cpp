@@ -5,25 +5,26 @@
 #include <numbers>
 
 #include "hbvm/analysis/choose_k.hpp"
-#include "hbvm/reference/reference_motion.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/hbvm_method.hpp"
 #include "hbvm/step/tableau_method.hpp"
-#include "sensitivity.hpp"
+#include "weak_terms.hpp"
 
 namespace hbvm {
 namespace {
 
 std::string proof_for_tableau(const Claim& claim, const CoefficientCheck& check, const std::optional<int>& degree) {
-  const bool symplectic = check.symplecticity() >= check.digits();
+  const bool symplectic = check.symplecticity().holds();
+  const std::string decimals =
+      check.decimals() ? ", to the " + std::to_string(check.decimals()->digits) + " digits of its decimals" : "";
   switch (claim.quantity) {
     case Quantity::H:
-      if (degree && *degree <= 1 && check.order(2) >= check.digits()) return "U is linear";
-      return degree && *degree <= 2 && symplectic ? "H is quadratic and the method symplectic" : "";
+      if (degree && *degree <= 1 && check.order(2).holds()) return "U is linear" + decimals;
+      return degree && *degree <= 2 && symplectic ? "H is quadratic and the method symplectic" + decimals : "";
     case Quantity::angular_momentum:
-      return symplectic ? "the method is symplectic" : "";
+      return symplectic ? "the method is symplectic" + decimals : "";
     case Quantity::reversal:
-      return check.symmetry() >= check.digits() ? "the method is symmetric" : "";
+      return check.symmetry().holds() ? "the method is symmetric" + decimals : "";
     default:
       return {};
   }
@@ -48,29 +49,33 @@ std::string proof_by_construction(const Claim& claim) {
   }
 }
 
-/// log2 of the greatest force of an effect over that of the least one, near the start.
-double bits_of_the_weakest(const Claim& claim, int log2_scale) {
-  const PrecisionScope scope(30);
-  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
-  Point<Mpfr> point(scene.problem);
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (const EffectTerm<Mpfr>& term : scene.problem.potential.terms) {
-    Potential<Mpfr> alone = scene.problem.potential;
-    alone.terms = {term};
-    PotentialEvaluator<Mpfr> evaluator(alone, 1);
-    Mpfr size = 0;
-    Matrix<Mpfr> force;
-    for (unsigned pattern = 1; pattern <= 4; ++pattern) {
-      const Kick off = kick(scene.problem, point, log2_scale, scene.q0, scene.p0, pattern);
-      const Vector<Mpfr> near = scene.q0 + off.q / 64;
-      evaluator.force(lanes(near), force);
-      raise_to(size, max_norm(force));
-    }
-    if (size == 0) continue;
-    least = std::min(least, log2_of(size));
-    greatest = std::max(greatest, log2_of(size));
+/// Up to this degree in the positions a method makes no error of what is claimed.
+int exact_degree(const Claim& claim, int r) {
+  const HbvmMethod* const hbvm = as_hbvm(*claim.method);
+  if (!hbvm) return claim.quantity == Quantity::H && as_tableau(*claim.method) ? 1 : 0;
+  const auto [k, s, ignored] = hbvm->name();
+  switch (claim.quantity) {
+    case Quantity::H:
+      return 2 * k / s;
+    case Quantity::g:
+      return 2 * r / s;
+    default:
+      return 2;
   }
-  return greatest > least ? greatest - least : 0;
+}
+
+double bits_of_the_weakest(const Claim& claim, int log2_scale) {
+  for (const unsigned digits : {60U, digits_of_terms}) {
+    const PrecisionScope scope(digits);
+    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
+    const HbvmMethod* const hbvm = as_hbvm(*claim.method);
+    const WeakTerms terms(scene, log2_scale, exact_degree(claim, hbvm ? hbvm->constraint_nodes(scene.problem) : 0));
+    if (terms.may_hide() && digits < digits_of_terms) continue;
+    return claim.quantity == Quantity::g                  ? terms.bits_of_g()
+           : claim.quantity == Quantity::angular_momentum ? std::max(terms.bits_of_U(), terms.bits_of_g())
+                                                          : terms.bits_of_U();
+  }
+  return 0;
 }
 
 }  // namespace
@@ -81,7 +86,8 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
   int of_g = 0, r = 0;  // degree, and nodes
   const HbvmMethod* const hbvm = as_hbvm(*claim.method);
   {
-    const PrecisionScope scope(30);
+    // What a run in fewer digits can tell from 0 is not folded away here.
+    const PrecisionScope scope(digits_of_terms);
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
     degree = degree_of_U(scene.problem);
     constrained = scene.problem.nu() > 0;

@@ -19,8 +19,9 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check);
 
 /// In how many decimal digits an error of the method that is not 0 would be seen at half the time scale: an error of
 /// one step is of an order Q that s and k bound, (2k + 1 for H, 2s + 2 else); Gauss formulas of Q
-/// nodes gain at most some 3 + log2 Q bits of each where a step resolves the motion; and the weakest of the effects may
-/// be the one that is not integrated exactly. \param log2_scale of the motion's time scale \throws InputError
+/// nodes gain at most some 3 + log2 Q bits of each where a step resolves the motion; and what is not integrated
+/// exactly, of any effect or within one formula, may be weaker than the rest, see WeakTerms. \param log2_scale of the
+/// motion's time scale \throws InputError
 int digits_to_show(const Claim& claim, int log2_scale);
 
 }  // namespace hbvm

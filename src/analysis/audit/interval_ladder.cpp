@@ -191,7 +191,7 @@ class IntervalLadder {
 
 template <Scalar S>
 Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
-  const double unit = 1 - significand_bits<S>() + run_roundings;  // in the scope of S
+  const double unit = cell.log2_unit<S>() + run_roundings;  // in the scope of S
   Trial<S> trial(cell.subject());
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
   IntervalLadder<S> ladder(cell, unit);

@@ -74,7 +74,10 @@ class ClaimReader {
     claim.label = string_or("label", "stated");
     const std::string quantity = reader_.string("quantity");
     checked([&] { claim.quantity = parse_quantity(quantity); });
-    claim.problem = located(reader_.string("problem"), folder_);
+    const bool of_coefficients = claim.quantity >= Quantity::order_conditions;
+    claim.problem =
+        !of_coefficients || reader_.take("problem") ? located(reader_.string("problem"), folder_) : "tableau";
+    if (of_coefficients) claim.problem = "tableau";
     const std::string method = reader_.string("method");
     checked([&] {
       claim.method = method_of(method, folder_);
@@ -133,6 +136,7 @@ class ClaimReader {
   void refuse_nonsense(const Claim& claim) const {
     const Quantity q = claim.quantity;
     const std::string name(name_of(q));
+    if (q >= Quantity::order_conditions) return refuse_of_coefficients(claim);
     if (q >= Quantity::hidden_constant) reader_.fail("quantity '" + name + "' has no rate to claim");
     if (q == Quantity::polynomials && claim.span != Span::step)
       reader_.fail("quantity '" + name + "' is one of a step: over = \"step\"");
@@ -152,6 +156,24 @@ class ClaimReader {
     if (q == Quantity::angular_momentum && claim.form != Form::round_off && claim.span == Span::step)
       reader_.fail("the angular momentum is looked at over an interval");
     checked([&] { static_cast<void>(load_scene(claim.problem)); });
+  }
+
+  /// A tableau has an order, powers to which B, C and D hold, and symmetry; HBVM conditions that hold or do not.
+  void refuse_of_coefficients(const Claim& claim) const {
+    const Quantity q = claim.quantity;
+    const std::string name(name_of(q));
+    const bool round_off = claim.form == Form::round_off;
+    if (as_tableau(*claim.method)) {
+      if (q == Quantity::X || q == Quantity::W) reader_.fail("quantity '" + name + "' is of hbvm:K,S");
+      if (round_off != (q == Quantity::symmetry))
+        reader_.fail(round_off ? "quantity '" + name + "' of a tableau is claimed with a number, as rate = 4"
+                               : "quantity 'symmetry' is claimed with rate = \"round-off\"");
+    } else if (as_hbvm(*claim.method)) {
+      if (q == Quantity::order_conditions) reader_.fail("quantity '" + name + "' is of a tableau");
+      if (!round_off) reader_.fail("quantity '" + name + "' of hbvm:K,S is claimed with rate = \"round-off\"");
+    } else {
+      reader_.fail("method " + claim.method->text() + " has no coefficients to look at");
+    }
   }
 
   /// Whether some constraint is not quadratic.

@@ -125,7 +125,7 @@ Finding finding_of(const Json& j) {
 
 }  // namespace
 
-Table audit_table(const std::vector<Finding>& findings) {
+Table audit_table(const std::vector<Finding>& findings, bool with_reasons) {
   const bool named =
       std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return !as_hbvm(*f.claim.method); });
   // Nodes for constraints are a column where a method says how many.
@@ -140,6 +140,7 @@ Table audit_table(const std::vector<Finding>& findings) {
   if (with_r) table.columns.emplace_back("r");
   for (const char* const column : {"predicted", "measured", "+-", "precision", "coefficients to", "verdict"})
     table.columns.emplace_back(column);
+  if (with_reasons) table.columns.emplace_back("reason");
   std::map<std::string, std::size_t> places;
   for (const Finding& f : findings) {
     const Claim& c = f.claim;
@@ -159,6 +160,7 @@ Table audit_table(const std::vector<Finding>& findings) {
     row.insert(row.end(), {predicted_text(c), short_text(f.measured), short_text(f.uncertainty), f.precision,
                            f.coefficients_to > 0 ? std::to_string(f.coefficients_to) : "---",
                            std::string(hbvm::name_of(f.verdict))});
+    if (with_reasons) row.push_back(on_one_line(f.reason));
     table.groups[place->second].rows.push_back(std::move(row));
   }
   return table;

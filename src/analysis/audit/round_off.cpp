@@ -36,7 +36,7 @@ double allowed_units(const Claim& claim) { return 4 * claim.method->terms(); }
 
 template <Scalar S>
 std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& run) {
-  const int last_bit = 1 - significand_bits<S>();
+  const double last_bit = cell.log2_unit<S>();
   Trial<S> trial(cell.subject());
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
   Laboratory laboratory(cell);
@@ -83,7 +83,7 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& 
     if (!cell.asks_for(Quantity::reversal)) continue;
     // What the way back makes of an error at the turn shows what it makes of all that were made before: the same way is
     // gone once more from a state that is off.
-    const int small = last_bit / 2;
+    const int small = static_cast<int>(last_bit / 2);
     const auto go_back = [&](Vector<Mpfr>& to_q, Vector<Mpfr>& to_p) {
       for (long n = 1; n <= run.steps; ++n) {
         trial.step();

@@ -104,7 +104,7 @@ class StepMeasurement {
 
 template <Scalar S>
 Ladders step_ladder(const Cell& cell, const Enough& enough) {
-  const double log2_epsilon = 1 - significand_bits<S>();
+  const double log2_epsilon = cell.log2_unit<S>();
   Trial<S> trial(cell.subject());
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
   Laboratory laboratory(cell);

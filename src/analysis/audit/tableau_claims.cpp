@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "hbvm/analysis/audit/claims.hpp"
+#include "hbvm/method/decimals.hpp"
 #include "hbvm/method/order_conditions.hpp"
 #include "hbvm/method/symmetry_defect.hpp"
 #include "hbvm/step/tableau_method.hpp"
@@ -9,7 +12,9 @@ std::vector<Claim> tableau_claims(const Tableau& tableau) {
   const auto method = std::make_shared<const TableauMethod>(tableau, tableau.name);
   const PrecisionScope scope(100);
   const RungeKutta<Mpfr> coefficients = make_runge_kutta<Mpfr>(tableau);
-  const Mpfr ten_digits = 1 / pow(Mpfr(10), 10);
+  // Of decimals with fewer digits those that four roundings leave.
+  const std::optional<Decimals> decimals = decimals_of(tableau);
+  const Mpfr ten_digits = pow(Mpfr(10), -(decimals ? std::clamp(decimals->digits - 4, 1, 10) : 10));
   const int nominal = tableau.order ? *tableau.order : order(coefficients, ten_digits);
   std::vector<Claim> claims;
   const auto add = [&](const std::string& label, Quantity quantity, const std::string& problem, Form form,

@@ -9,8 +9,8 @@
 
 namespace hbvm {
 
-/// One row a finding, a group for each problem.
-Table audit_table(const std::vector<Finding>& findings);
+/// One row a finding, a group for each problem; with the reasons as a last column if asked for.
+Table audit_table(const std::vector<Finding>& findings, bool with_reasons = false);
 
 /// {"claims": [{"claim", "quantity", "problem", "method", "k", "s", "over", "form", "predicted", "measured",
 /// "uncertainty", "precision", "coefficients_to", "interval", "seconds", "verdict", "reason", "reference", "evidence"},
