@@ -262,8 +262,20 @@ TEST_F(ReadClaims, TakesRatesOfGOfAnyConstraint) {
 }
 
 TEST_F(ReadClaims, RefusesQuantitiesThatHaveNoRate) {
-  for (const char* const quantity : {"hidden constant", "hidden drift", "sweeps", "order conditions", "B", "W"})
+  for (const char* const quantity : {"hidden constant", "hidden drift", "sweeps"})
     expect_refusal(changed("\"raw_p\"", "\"" + std::string(quantity) + "\""), 1, {"claim 1", quantity, "no rate"});
+  expect_refusal(changed("\"raw_p\"", "\"order conditions\""), 1, {"claim 1", "order conditions", "of a tableau"});
+  for (const char* const quantity : {"B", "W"})
+    expect_refusal(changed("\"raw_p\"", "\"" + std::string(quantity) + "\""), 1, {"claim 1", quantity, "round-off"});
+}
+
+/// Coefficients are of no problem, and none need be named.
+TEST_F(ReadClaims, OfCoefficientsNeedNoProblem) {
+  const std::vector<Claim> claims =
+      read("[[claim]]\nquantity = \"order conditions\"\nmethod = \"midpoint.toml\"\nrate = 2\n");
+  ASSERT_EQ(claims.size(), 1U);
+  EXPECT_EQ(claims[0].quantity, Quantity::order_conditions);
+  EXPECT_EQ(claims[0].predicted, 2);
 }
 
 TEST_F(ReadClaims, RefusesSpansThatMakeNoSense) {
