@@ -18,7 +18,7 @@ double seconds_of_product(unsigned digits) {
   mpfr_const_pi(raw(a), MPFR_RNDN);
   mpfr_const_log2(raw(b), MPFR_RNDN);
   constexpr int most = 1 << 16;
-  constexpr double enough = 1e-3;
+  constexpr double enough = double{1} / 1000;
   Mpfr c = 0;
   int count = 0;
   const double start = thread_seconds();
@@ -31,7 +31,7 @@ double seconds_of_product(unsigned digits) {
   return taken / count;
 }
 
-double bytes_of_number(unsigned digits) { return 40 + digits * std::log2(10.0) / 8; }
+double bytes_of_number(unsigned digits) { return 40 + digits * std::log2(double{10}) / 8; }
 
 /// Products of series, and series, of a program of an effect or constraint.
 struct SeriesCount {
@@ -64,7 +64,7 @@ SeriesCount series_of(const Problem<Mpfr>& problem) {
 
 Effort effort_of_taylor(const Problem<Mpfr>& problem, const MotionNature& nature, unsigned digits) {
   const SeriesCount count = series_of(problem);
-  // Numbers of a convolution fall to a third on average (AlignedSeries).
+  // Numbers of a convolution fall to a third on average as AlignedSeries keeps them.
   constexpr double part = double{1} / 3;
   const PrecisionScope scope(digits);
   const auto order = static_cast<double>(TaylorMotion::order_for(significand_bits<Mpfr>()));
@@ -75,15 +75,16 @@ Effort effort_of_taylor(const Problem<Mpfr>& problem, const MotionNature& nature
 Effort effort_of_hbvm(const Problem<Mpfr>& problem, const MotionNature& nature, unsigned digits) {
   const int s = stages_of_route(digits);
   const double unknowns = static_cast<double>(problem.m() + problem.nu()), product = seconds_of_product(digits);
-  // A step of a Taylor series is a fifth of its radius of convergence, that of HBVM 16/5 of it by rho (HbvmWalk).
-  const double rho = std::pow(10.0, digits / (2.0 * s)), steps = nature.steps * rho / 16;
-  const double sweeps = 3 + digits / 15.0, products = 4.0 * s * s * unknowns + s * series_of(problem).products;
+  // A step of a Taylor series is a fifth of its radius of convergence, that of HBVM 16/5 of it by rho, see HbvmWalk.
+  const double rho = std::pow(double{10}, static_cast<double>(digits) / (2 * s)), steps = nature.steps * rho / 16;
+  const double sweeps = 3 + static_cast<double>(digits) / 15,
+               products = 4 * s * s * unknowns + s * series_of(problem).products;
   // The Jacobian in double, and the coefficients of the method.
-  constexpr double nanosecond = 1e-9, operations = 4;
+  constexpr double nanosecond = double{1} / 1'000'000'000, operations = 4;
   const double jacobian = std::pow(s * unknowns, 3) / 3 * nanosecond;
   const double setting_up = operations * std::pow(s, 3) * product;
   return {"hbvm", setting_up + steps * (sweeps * products / 2 * product + jacobian),
-          (12.0 * s * s + 20 * s * unknowns) * bytes_of_number(digits) + 8 * std::pow(s * unknowns, 2)};
+          (12 * s * s + 20 * s * unknowns) * bytes_of_number(digits) + 8 * std::pow(s * unknowns, 2)};
 }
 
 std::string duration_text(double seconds) {
@@ -91,7 +92,7 @@ std::string duration_text(double seconds) {
     double seconds;
     const char* name;
   };
-  for (const Unit& unit : {Unit{365.25 * 86400, "years"}, {86400, "days"}, {3600, "hours"}, {60, "minutes"}})
+  for (const Unit& unit : {Unit{365 * 86400, "years"}, {86400, "days"}, {3600, "hours"}, {60, "minutes"}})
     if (seconds >= 2 * unit.seconds) return fmt::format("{:.3g} {}", seconds / unit.seconds, unit.name);
   return fmt::format("{:.3g} seconds", seconds);
 }

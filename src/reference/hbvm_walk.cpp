@@ -109,7 +109,8 @@ void HbvmWalk::shorten(double by, const std::string& why) {
 
 void HbvmWalk::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step) {
   // The part of rho by which a step may fall short, and what one is made for; beyond the last it may be longer.
-  constexpr double least_room = 0.07, usual_room = 0.3, much_room = 0.8, most_rise = 1;
+  constexpr double least_room = double{7} / 100, usual_room = double{3} / 10, much_room = double{4} / 5, most_rise = 1,
+                   most_fall = 4, fall = double{1} / 2;
   // As of a Taylor series: what forces may be beside the terms that are left out.
   constexpr double slack = 10;
   const double log2_ellipse =
@@ -134,11 +135,11 @@ void HbvmWalk::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>&
     }
     const double found = room(log2_h);
     if (found < least_room) {
-      again(std::min(usual_room - found, 4.0), "no step is short enough for its polynomial to be exact");
+      again(std::min(usual_room - found, most_fall), "no step is short enough for its polynomial to be exact");
       continue;
     }
     if (!is_bounded(before.q, h, log2_h, log2_ellipse)) {
-      again(0.5, bounds_.obstacle());
+      again(fall, bounds_.obstacle());
       continue;
     }
     if (found < usual_room) {

@@ -12,7 +12,7 @@ namespace hbvm {
 /// A motion by HBVM(s,s) that chooses its steps by itself. Where the motion is analytic within an ellipse about a step,
 /// whose half axes add up to rho/2 steps, the Legendre coefficients of the momenta fall by rho each, and the error of
 /// the output state is rho^(-2s). A step is so short that its coefficients fall as fast as the digits need, and that
-/// the forces are bounded along such an ellipse (ForceBounds).
+/// the forces are bounded along such an ellipse, see ForceBounds.
 class HbvmWalk {
  public:
   /// From this state on, with so many digits right, by steps of `longest` at most to begin with. Problem and method

@@ -92,13 +92,14 @@ class Attempt {
       efforts.push_back(effort_of_taylor(scene.problem, nature_, digits_));
     if (request_.only ? *request_.only == Route::hbvm : !without_hbvm_)
       efforts.push_back(effort_of_hbvm(scene.problem, nature_, digits_));
+    constexpr double gigabyte = 1'000'000'000;
     for (const Effort& effort : efforts) {
       if (request_.estimate) request_.estimate(effort);
       if (request_.force || (effort.seconds < longest_effort && effort.bytes < largest_effort)) continue;
       throw InputError(fmt::format(
           "{} digits of '{}' at t = {}: route {} would take about {} and {:.2g} GB; ask for less{}, or say --force",
           request_.digits, request_.scene.name, request_.times.back().text(), effort.route,
-          duration_text(effort.seconds), effort.bytes / 1e9,
+          duration_text(effort.seconds), effort.bytes / gigabyte,
           effort.route == "hbvm" ? ", or for --route taylor alone, which nothing confirms" : ""));
     }
   }

@@ -8,13 +8,6 @@
 
 namespace hbvm {
 
-double log2_of(const Mpfr& x) {
-  if (x == 0) return -std::numeric_limits<double>::infinity();
-  long exponent = 0;
-  const double fraction = mpfr_get_d_2exp(&exponent, raw(x), MPFR_RNDN);
-  return std::log2(std::abs(fraction)) + static_cast<double>(exponent);
-}
-
 void StepPolynomials::at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<Mpfr>& u, Vector<Mpfr>& v) const {
   const int s = static_cast<int>(gamma.rows());
   const Vector<Mpfr> here = Vector<Mpfr>::Constant(1, tau), end = Vector<Mpfr>::Constant(1, Mpfr(1));

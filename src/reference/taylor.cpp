@@ -457,7 +457,7 @@ void TaylorMotion::take_up() {
     const double radius = std::min(found.radius + log2_unit_, longest);
     least_radius_ = steps_ == 0 ? radius : std::min(least_radius_, radius);
     set(length_, unit_);
-    const double length = bounded_length(log2_unit_ + std::min(found.step, 0.0)) - log2_unit_;
+    const double length = bounded_length(log2_unit_ + std::min(found.step, double{0})) - log2_unit_;
     if (length < 0) {
       const double whole = std::floor(length);
       mpfr_set_d(raw(t_), std::exp2(length - whole), MPFR_RNDN);
@@ -472,7 +472,7 @@ void TaylorMotion::take_up() {
 double TaylorMotion::bounded_length(double most) {
   // Terms beyond the order are to be below 2^-(bits - slack) of the momenta: that far in, nothing is seen of how the
   // series converges at its own step, which makes its last terms round-off.
-  constexpr double slack = 20, rise = 0.5;
+  constexpr double slack = 20, rise = double{1} / 2;
   const double order = static_cast<double>(order_), bits = significand_bits<Mpfr>();
   const double log2_radii = (bits - slack + ForceBounds::allowed_bits) / order;
   bounds_->start(start_q_, start_p_);

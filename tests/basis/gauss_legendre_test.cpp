@@ -13,12 +13,12 @@
 namespace hbvm {
 namespace {
 
-class Ball {
+class RealBall {
  public:
-  Ball() { arb_init(x_); }
-  ~Ball() { arb_clear(x_); }
-  Ball(const Ball&) = delete;
-  Ball& operator=(const Ball&) = delete;
+  RealBall() { arb_init(x_); }
+  ~RealBall() { arb_clear(x_); }
+  RealBall(const RealBall&) = delete;
+  RealBall& operator=(const RealBall&) = delete;
   operator arb_ptr() { return x_; }
 
  private:
@@ -33,11 +33,11 @@ template <Scalar S>
 bool within_ulps(const S& value, arb_ptr truth, int quarters) {
   const BigFloat exact = exactly(value);
   const slong precision = 2 * mpfr_get_prec(raw(exact)) + 200;
-  Ball distance, bound;
+  RealBall distance, bound;
   arf_set_mpfr(arb_midref(static_cast<arb_ptr>(distance)), raw(exact));
   arb_sub(distance, distance, truth, precision);
   arb_abs(distance, distance);
-  Ball rest;
+  RealBall rest;
   arb_set_si(bound, quarters);
   arb_mul_2exp_si(bound, bound, -2);
   arb_one(rest);
@@ -55,7 +55,7 @@ void expect_certified(int n) {
   const slong precision = significand_bits<S>() + 100;
   // 1 - c is rounded again, and c was by half an ulp of a number half as large.
   constexpr int half = 2, three_quarters = 3;
-  Ball root, weight, c;
+  RealBall root, weight, c;
   for (int k = 0; 2 * k < n; ++k) {
     arb_hypgeom_legendre_p_ui_root(root, weight, static_cast<ulong>(n), static_cast<ulong>(k), precision);
     arb_mul_2exp_si(weight, weight, -1);

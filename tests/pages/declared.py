@@ -76,7 +76,7 @@ SHORTER = {
         "all hard cases: an hour",
     ),
     "hbvm audit --claims superconvergence --quick": (
-        "hbvm audit --claims superconvergence --quick --shard 1/5",
+        "hbvm audit --claims superconvergence --quick --shard 1/5 --out shard",
         "a quarter of a minute of two cores; a test of the command runs all quick claims",
     ),
 }

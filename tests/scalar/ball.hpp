@@ -8,18 +8,18 @@
 namespace hbvm {
 
 /// A number of FLINT/Arb, an interval that holds the exact result, in the bits of `bits`.
-class Ball {
+class RealBall {
  public:
   static inline slong bits = 128;
 
-  Ball() { arb_init(x_); }
-  Ball(int n) : Ball() { arb_set_si(x_, n); }
-  Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
-  Ball& operator=(const Ball& other) {
+  RealBall() { arb_init(x_); }
+  RealBall(int n) : RealBall() { arb_set_si(x_, n); }
+  RealBall(const RealBall& other) : RealBall() { arb_set(x_, other.x_); }
+  RealBall& operator=(const RealBall& other) {
     arb_set(x_, other.x_);
     return *this;
   }
-  ~Ball() { arb_clear(x_); }
+  ~RealBall() { arb_clear(x_); }
 
   /// The radius, from above.
   BigFloat radius() const {
@@ -38,31 +38,31 @@ class Ball {
     return result;
   }
 
-  friend Ball operator+(const Ball& a, const Ball& b) { return made(arb_add, a, b); }
-  friend Ball operator-(const Ball& a, const Ball& b) { return made(arb_sub, a, b); }
-  friend Ball operator*(const Ball& a, const Ball& b) { return made(arb_mul, a, b); }
-  friend Ball operator/(const Ball& a, const Ball& b) { return made(arb_div, a, b); }
-  friend Ball operator-(const Ball& a) { return Ball(0) - a; }
-  friend Ball pow(const Ball& a, const Ball& b) { return made(arb_pow, a, b); }
-  friend Ball sqrt(const Ball& a) { return made(arb_sqrt, a); }
-  friend Ball sin(const Ball& a) { return made(arb_sin, a); }
-  friend Ball cos(const Ball& a) { return made(arb_cos, a); }
-  friend Ball tan(const Ball& a) { return made(arb_tan, a); }
-  friend Ball exp(const Ball& a) { return made(arb_exp, a); }
-  friend Ball log(const Ball& a) { return made(arb_log, a); }
-  friend Ball sinh(const Ball& a) { return made(arb_sinh, a); }
-  friend Ball cosh(const Ball& a) { return made(arb_cosh, a); }
-  friend Ball tanh(const Ball& a) { return made(arb_tanh, a); }
-  friend Ball atan(const Ball& a) { return made(arb_atan, a); }
+  friend RealBall operator+(const RealBall& a, const RealBall& b) { return made(arb_add, a, b); }
+  friend RealBall operator-(const RealBall& a, const RealBall& b) { return made(arb_sub, a, b); }
+  friend RealBall operator*(const RealBall& a, const RealBall& b) { return made(arb_mul, a, b); }
+  friend RealBall operator/(const RealBall& a, const RealBall& b) { return made(arb_div, a, b); }
+  friend RealBall operator-(const RealBall& a) { return RealBall(0) - a; }
+  friend RealBall pow(const RealBall& a, const RealBall& b) { return made(arb_pow, a, b); }
+  friend RealBall sqrt(const RealBall& a) { return made(arb_sqrt, a); }
+  friend RealBall sin(const RealBall& a) { return made(arb_sin, a); }
+  friend RealBall cos(const RealBall& a) { return made(arb_cos, a); }
+  friend RealBall tan(const RealBall& a) { return made(arb_tan, a); }
+  friend RealBall exp(const RealBall& a) { return made(arb_exp, a); }
+  friend RealBall log(const RealBall& a) { return made(arb_log, a); }
+  friend RealBall sinh(const RealBall& a) { return made(arb_sinh, a); }
+  friend RealBall cosh(const RealBall& a) { return made(arb_cosh, a); }
+  friend RealBall tanh(const RealBall& a) { return made(arb_tanh, a); }
+  friend RealBall atan(const RealBall& a) { return made(arb_atan, a); }
 
  private:
-  static Ball made(void (*f)(arb_t, const arb_t, const arb_t, slong), const Ball& a, const Ball& b) {
-    Ball result;
+  static RealBall made(void (*f)(arb_t, const arb_t, const arb_t, slong), const RealBall& a, const RealBall& b) {
+    RealBall result;
     f(result.x_, a.x_, b.x_, bits);
     return result;
   }
-  static Ball made(void (*f)(arb_t, const arb_t, slong), const Ball& a) {
-    Ball result;
+  static RealBall made(void (*f)(arb_t, const arb_t, slong), const RealBall& a) {
+    RealBall result;
     f(result.x_, a.x_, bits);
     return result;
   }

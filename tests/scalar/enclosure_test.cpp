@@ -14,16 +14,16 @@
 namespace hbvm {
 namespace {
 
-class Ball {
+class RealBall {
  public:
-  Ball() { arb_init(x_); }
-  explicit Ball(long n) : Ball() { arb_set_si(x_, n); }
-  Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
-  Ball& operator=(const Ball& other) {
+  RealBall() { arb_init(x_); }
+  explicit RealBall(long n) : RealBall() { arb_set_si(x_, n); }
+  RealBall(const RealBall& other) : RealBall() { arb_set(x_, other.x_); }
+  RealBall& operator=(const RealBall& other) {
     arb_set(x_, other.x_);
     return *this;
   }
-  ~Ball() { arb_clear(x_); }
+  ~RealBall() { arb_clear(x_); }
   arb_ptr get() { return x_; }
   arb_srcptr get() const { return x_; }
 
@@ -37,7 +37,7 @@ enum class Binding { sum, product, sign, power, primary };
 struct Formula {
   std::string text;
   Binding binding;
-  Ball value;
+  RealBall value;
 
   std::string at_least(Binding needed) const { return binding >= needed ? text : "(" + text + ")"; }
 };
@@ -66,16 +66,16 @@ class Generator {
       }
       case 1: {
         const int n = 1 + pick(20);
-        return {std::to_string(n), Binding::primary, Ball(n)};
+        return {std::to_string(n), Binding::primary, RealBall(n)};
       }
       default: {
         const int whole = pick(30), thousandths = 1 + pick(999), exponent = pick(7) - 3;
         std::string digits = std::to_string(thousandths);
         digits.insert(0, 3 - digits.size(), '0');
-        Formula decimal{std::to_string(whole) + "." + digits, Binding::primary, Ball(1000L * whole + thousandths)};
+        Formula decimal{std::to_string(whole) + "." + digits, Binding::primary, RealBall(1000L * whole + thousandths)};
         if (exponent != 0) decimal.text += "e" + std::to_string(exponent);
-        const Ball ten(10);
-        Ball scale;
+        const RealBall ten(10);
+        RealBall scale;
         arb_pow_ui(scale.get(), ten.get(), static_cast<ulong>(std::abs(exponent - 3)), precision_);
         if (exponent > 3)
           arb_mul(decimal.value.get(), decimal.value.get(), scale.get(), precision_);
@@ -86,7 +86,7 @@ class Generator {
     }
   }
 
-  static long exponent_of(const Ball& x) {
+  static long exponent_of(const RealBall& x) {
     BigFloat middle(53);
     arf_get_mpfr(raw(middle), arb_midref(x.get()), MPFR_RNDN);
     return mpfr_zero_p(raw(middle)) ? 0 : static_cast<long>(mpfr_get_exp(raw(middle)));
@@ -132,7 +132,7 @@ class Generator {
         if (pick(2) == 0) {
           const int n = pick(9) - 4;
           if (arb_contains_zero(a.value.get()) || std::labs(exponent_of(a.value)) > 200) return std::nullopt;
-          const Ball exponent(n);
+          const RealBall exponent(n);
           infix("^", Formula{std::to_string(n), n < 0 ? Binding::sign : Binding::primary, exponent}, Binding::power,
                 Binding::primary, Binding::sign);
           arb_set_si(result.value.get(), n);
@@ -201,7 +201,7 @@ TEST_P(RandomExpressions, AreRoundedCorrectly) {
   const int bits = mpfr_working_bits();
   const slong precision = 6 * bits + 1'000;
   Generator generator(2024, precision);
-  Ball distance, half_ulp;
+  RealBall distance, half_ulp;
   int not_zero = 0;
   for (int trial = 0; trial < 1'000; ++trial) {
     const Formula formula = generator.formula(2 + trial % 4);

@@ -22,7 +22,7 @@ Effort effort_of_hbvm(const Problem<Mpfr>& problem, const MotionNature& nature, 
 std::string duration_text(double seconds);
 
 /// Work that takes longer is refused unless it is forced.
-inline constexpr double longest_effort = 24 * 3600.0;
-inline constexpr double largest_effort = 16e9;
+inline constexpr double longest_effort = 24 * 3600;
+inline constexpr double largest_effort = 16'000'000'000;
 
 }  // namespace hbvm

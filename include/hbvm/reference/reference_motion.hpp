@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "hbvm/problem/point.hpp"
+#include "hbvm/scalar/log2_of.hpp"
 #include "hbvm/solver/solver_kind.hpp"
 
 namespace hbvm {
@@ -63,8 +64,5 @@ class ReferenceMotion {
   StepPolynomials polynomials_;
   Errors errors_;  ///< infinite before the second run
 };
-
-/// log2 |x|, -infinity for 0: a double holds that of any number.
-double log2_of(const Mpfr& x);
 
 }  // namespace hbvm

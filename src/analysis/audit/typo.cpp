@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hbvm/method/order_conditions.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -46,7 +47,8 @@ class TypoSearch {
       if (conditions_won(order) >= 3 &&
           (!best_ || order > best_->order || (order == best_->order && change < least_change_))) {
         // As many digits as show the difference, and some more.
-        const double same = -std::log10(std::max(std::abs(approximately(Mpfr(change / written))), 1e-50));
+        const double same =
+            -std::log10(std::max(std::abs(approximately(Mpfr(change / written))), std::numeric_limits<double>::min()));
         const int shown = std::clamp(static_cast<int>(same) + 3, 5, 50);
         best_ = Typo{name, to_scientific(written, shown), to_scientific(entry, shown), order};
         least_change_ = change;

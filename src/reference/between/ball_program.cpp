@@ -1,6 +1,8 @@
 #include "ball_program.hpp"
 
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <numbers>
 
 namespace hbvm {
@@ -54,7 +56,7 @@ bool BallProgram::is_bounded(const std::vector<Loop>& inputs, const std::vector<
   constexpr int arcs = 8;
   constexpr double width = std::numbers::pi / arcs;
   for (int n = 0; n < arcs; ++n)
-    if (!follow({(n + 0.5) * width, width / 2, n == 0, n + 1 == arcs}, 0)) return false;
+    if (!follow({(2 * n + 1) * width / 2, width / 2, n == 0, n + 1 == arcs}, 0)) return false;
   // The lower half of the curve turns as far again.
   for (const Direction& direction : directions_)
     if (direction.quarters != direction.first) return fails(direction.singularity);
@@ -76,7 +78,7 @@ bool BallProgram::follow(const Arc& arc, int divisions) {
 bool BallProgram::evaluate(const Arc& arc) {
   // The arc is a little wider than its angles in double.
   const double half_width = arc.half_width * (1 + 16 * std::numeric_limits<double>::epsilon());
-  const std::complex<double> at = std::polar(1.0, arc.middle);
+  const std::complex<double> at = std::polar(double{1}, arc.middle);
   for (std::size_t i = 0; i < loops_->size(); ++i) (*loops_)[i].enclose(at, half_width, balls_[i]);
   tried_ = directions_;
   for (const Step& step : steps_)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/scalar/log2_of.hpp"
 
 namespace hbvm {
 namespace {
@@ -77,7 +77,7 @@ void ForceBounds::start(const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
 std::vector<double> ForceBounds::scales(double log2_h) const {
   // A body at rest on which next to nothing acts has as much more as is nothing beside the motion of the others.
   std::vector<double> scale;
-  const double far = std::max(reach_, speed_ + log2_h), beyond = 2.0 * significand_bits<Mpfr>();
+  const double far = std::max(reach_, speed_ + log2_h), beyond = 2 * static_cast<double>(significand_bits<Mpfr>());
   for (std::size_t b = 0; b < momentum_.size(); ++b)
     scale.push_back(std::max({momentum_[b], force_[b] + log2_h, inertia_[b] + far - log2_h - beyond}));
   return scale;

@@ -51,17 +51,17 @@ Expression formula(const std::string& text) { return Expression::parse(text, Exp
 void expect_random_formulas(unsigned digits, int trials) {
   RandomValues<double> random(static_cast<std::uint64_t>(digits));
   const PrecisionScope scope(digits);
-  Ball::bits = 8 * static_cast<slong>(digits);
+  RealBall::bits = 8 * static_cast<slong>(digits);
   for (int trial = 0; trial < trials; ++trial) {
     const RandomFormula tree(random, 1 + trial % 4, {"x", "y", "z", "m"});
     SCOPED_TRACE(tree.text());
     int place[4];
     for (int& p : place) p = static_cast<int>(random.whole(-900, 900));
-    std::vector<Jet<Ball>> variables;
-    for (std::size_t i = 0; i < 3; ++i) variables.push_back(Jet<Ball>::variable(Ball(place[i]) / 512, i, 3));
-    variables.push_back(Jet<Ball>::number(Ball(place[3]) / 512, 3));
-    const Jet<Ball> jet = tree.jet(variables);
-    std::vector<Ball> expected{jet.value};
+    std::vector<Jet<RealBall>> variables;
+    for (std::size_t i = 0; i < 3; ++i) variables.push_back(Jet<RealBall>::variable(RealBall(place[i]) / 512, i, 3));
+    variables.push_back(Jet<RealBall>::number(RealBall(place[3]) / 512, 3));
+    const Jet<RealBall> jet = tree.jet(variables);
+    std::vector<RealBall> expected{jet.value};
     expected.insert(expected.end(), jet.first.begin(), jet.first.end());
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j <= i; ++j) expected.push_back(jet.second[i][j]);
@@ -73,7 +73,7 @@ void expect_random_formulas(unsigned digits, int trials) {
     const std::vector<Mpfr> found = outputs(term, x);
     ASSERT_EQ(found.size(), expected.size());
     Mpfr size = 1;
-    for (const Ball& ball : expected) raise_to(size, magnitude(rounded_to<Mpfr>(raw(ball.midpoint()))));
+    for (const RealBall& ball : expected) raise_to(size, magnitude(rounded_to<Mpfr>(raw(ball.midpoint()))));
     // What cancels between terms, of which there are some dozens, takes a few digits.
     const Mpfr tolerance = size * pow(Mpfr(10), 12 - static_cast<int>(digits));
     for (std::size_t i = 0; i < found.size(); ++i) {

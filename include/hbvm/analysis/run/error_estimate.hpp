@@ -9,9 +9,9 @@
 namespace hbvm {
 
 /// How far the end of a run is from the exact motion: its difference from a stored reference of this scene and time, if
-/// there is one with enough digits; else from the motion by its Taylor series with 16 more digits (of a Taylor series, by
-/// HBVM), by steps of its own between whose points it looks; where there is no such series, since a force is not smooth
-/// or the start leaves the hidden constraints, from a run with another step, more stages and 16 more digits.
+/// there is one with enough digits; else from the motion by its Taylor series with 16 more digits (of a Taylor series,
+/// by HBVM), by steps of its own between whose points it looks; where there is no such series, since a force is not
+/// smooth or the start leaves the hidden constraints, from a run with another step, more stages and 16 more digits.
 /// Positions, and the momenta and multipliers of the output state.
 struct ErrorEstimate {
   std::string reference;                                  ///< "stored reference, 50 digits" or "computed now"

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "hbvm/scalar/mpfr.hpp"
+
+namespace hbvm {
+
+/// log2 |x|, -infinity for 0: a double holds that of any number.
+inline double log2_of(const Mpfr& x) {
+  if (x == 0) return -std::numeric_limits<double>::infinity();
+  long exponent = 0;
+  const double fraction = mpfr_get_d_2exp(&exponent, raw(x), MPFR_RNDN);
+  return std::log2(std::abs(fraction)) + static_cast<double>(exponent);
+}
+
+}  // namespace hbvm
