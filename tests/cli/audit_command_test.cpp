@@ -53,7 +53,8 @@ TEST(AuditCommand, WritesTables) {
   for (const char* const file : {"audit.csv", "audit.md", "audit.tex"})
     EXPECT_FALSE(text_of(folder / ("out/" + std::string(file))).empty()) << file;
   const auto lines = lines_of(text_of(folder / "out/audit.csv"));
-  EXPECT_EQ(lines.at(0), "problem,claim,quantity,over,k,s,predicted,measured,+-,precision,coefficients to,verdict,reason");
+  EXPECT_EQ(lines.at(0),
+            "problem,claim,quantity,over,k,s,predicted,measured,+-,precision,coefficients to,verdict,reason");
   EXPECT_NE(text_of(folder / "out/audit.csv-metadata.json").find("command hbvm audit --claims 'simple_pendulum'"),
             std::string::npos);
 }
