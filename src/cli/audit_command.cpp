@@ -145,7 +145,7 @@ void audit_command(const AuditArguments& o) {
   } else {
     fmt::print("{}", to_text(table));
     for (const Finding& f : findings)
-      if (f.verdict != Verdict::holds)
+      if (f.verdict != Verdict::holds || f.claim.quantity == Quantity::order_conditions)
         fmt::print("{}: {} of {} on {}: {}\n", name_of(f.verdict), name_of(f.claim.quantity), f.claim.method_text(),
                    f.claim.problem, f.reason);
     fmt::print("{}\n", summary(findings));

@@ -111,11 +111,16 @@ std::optional<Decimals> decimals_of(const Tableau& tableau) {
   if (tableau.digits) {
     result.digits = *tableau.digits;
   } else {
+    // From 1/10 to 1, where places and digits are the same; greater ones; any.
     std::vector<int> counts;
-    for (const Written& w : rounded)
-      if (w.significant >= w.places) counts.push_back(w.significant);
-    if (counts.empty())
-      for (const Written& w : rounded) counts.push_back(w.significant);
+    const auto count = [&](const auto& is_counted) {
+      if (!counts.empty()) return;
+      for (const Written& w : rounded)
+        if (is_counted(w)) counts.push_back(w.significant);
+    };
+    count([](const Written& w) { return w.significant == w.places; });
+    count([](const Written& w) { return w.significant > w.places; });
+    count([](const Written&) { return true; });
     const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
     std::nth_element(counts.begin(), middle, counts.end());
     constexpr int of_double = 17;

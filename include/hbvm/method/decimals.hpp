@@ -15,8 +15,8 @@ struct Decimals {
 };
 
 /// The decimals of a tableau, with the digits that its author says. If none are said: decimals of eight digits or more
-/// are taken for rounded, unless they are whole multiples of 2^-30; the digits are those that most of them have from
-/// 1/10 on, 16 for what a double prints. None if nothing is rounded.
+/// are taken for rounded, unless they are whole multiples of 2^-30; the digits are the median of those that have a
+/// value from 1/10 to 1, if any have, and 16 for what a double prints. None if nothing is rounded.
 std::optional<Decimals> decimals_of(const Tableau& tableau);
 
 /// The coefficients with every decimal off by a unit in its last digit, up or down by `pattern`. Numbers below 1 have

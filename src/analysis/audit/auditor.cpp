@@ -17,6 +17,7 @@
 #include "hbvm/step/tableau_method.hpp"
 #include "measurements.hpp"
 #include "typo.hpp"
+#include "weak_terms.hpp"
 
 namespace hbvm {
 namespace {
@@ -401,7 +402,8 @@ void Auditor::conserve() {
     Finding& f = finding(c);
     if (f.verdict != Verdict::holds) continue;
     f.reason = "sampled: no error in " + std::to_string(shown) +
-               " digits, where one of the method's order would show, " + near_the_start();
+               " digits, where one of the method's order would show if no term is weaker than the rest by 10^-" +
+               std::to_string(digits_of_terms) + ", " + near_the_start();
     if (digits <= shown) continue;
     f.verdict = Verdict::undecidable;
     f.reason =
@@ -544,7 +546,11 @@ std::string Auditor::words_on_order(const Finding& f, int found) const {
   const int next = found + 1;
   const std::string missed = "the conditions of order " + std::to_string(next) + " are met to " +
                              std::to_string(coefficients_->order(next).seen) + " digits only";
-  return f.claim.predicted > found ? missed : "order " + std::to_string(found) + " found; " + missed;
+  if (f.claim.predicted > found) return missed;
+  const std::string to = coefficients_->decimals() && found > 0
+                             ? ", its conditions met to " + std::to_string(coefficients_->order(found).seen) + " digits"
+                             : "";
+  return "order " + std::to_string(found) + " found" + to + "; " + missed;
 }
 
 void Auditor::fail(Finding& f, const std::string& reason) {

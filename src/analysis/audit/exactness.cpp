@@ -64,18 +64,31 @@ int exact_degree(const Claim& claim, int r) {
   }
 }
 
-double bits_of_the_weakest(const Claim& claim, int log2_scale) {
-  for (const unsigned digits : {60U, digits_of_terms}) {
-    const PrecisionScope scope(digits);
-    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
-    const HbvmMethod* const hbvm = as_hbvm(*claim.method);
-    const WeakTerms terms(scene, log2_scale, exact_degree(claim, hbvm ? hbvm->constraint_nodes(scene.problem) : 0));
-    if (terms.may_hide() && digits < digits_of_terms) continue;
-    return claim.quantity == Quantity::g                  ? terms.bits_of_g()
-           : claim.quantity == Quantity::angular_momentum ? std::max(terms.bits_of_U(), terms.bits_of_g())
-                                                          : terms.bits_of_U();
+WeakTerms::Bits weak_bits(const Claim& claim, int log2_scale, unsigned digits) {
+  const PrecisionScope scope(digits);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
+  const HbvmMethod* const hbvm = as_hbvm(*claim.method);
+  const WeakTerms terms(scene, log2_scale, exact_degree(claim, hbvm ? hbvm->constraint_nodes(scene.problem) : 0));
+  const auto [U, U_all] = terms.of_U();
+  const auto [g, g_all] = terms.of_g();
+  switch (claim.quantity) {
+    case Quantity::g:
+      return {g, g_all};
+    case Quantity::angular_momentum:
+      return {std::max(U, g), std::max(U_all, g_all)};
+    default:
+      return {U, U_all};
   }
-  return 0;
+}
+
+double bits_of_the_weakest(const Claim& claim, int log2_scale) {
+  const WeakTerms::Bits here = weak_bits(claim, log2_scale, digits_of_terms);
+  if (here.all == here.told) return here.told;
+  // With more digits rounding becomes less, a term stays what it is.
+  constexpr unsigned more = 100;
+  constexpr double same = 50;
+  const WeakTerms::Bits there = weak_bits(claim, log2_scale, digits_of_terms + more);
+  return std::abs(there.all - here.all) < same ? here.all : here.told;
 }
 
 }  // namespace

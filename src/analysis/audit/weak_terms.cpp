@@ -20,7 +20,7 @@ constexpr int more_degrees = 6, most_degree = 60;
 
 }  // namespace
 
-WeakTerms::Sizes::Sizes() : greatest(none), least(-none) {}
+WeakTerms::Sizes::Sizes() : greatest(none), least(-none), least_of_all(-none) {}
 
 WeakTerms::WeakTerms(const Assembled<Mpfr>& scene, int log2_scale, int exact_degree)
     : scene_(scene), exact_degree_(exact_degree) {
@@ -40,7 +40,8 @@ WeakTerms::WeakTerms(const Assembled<Mpfr>& scene, int log2_scale, int exact_deg
     if (const auto* formula = std::get_if<FormulaConstraint<Mpfr>>(&constraint.form)) {
       Sizes of_this;
       expand(formula->term, 0, of_this);
-      bits_of_g_ = std::max(bits_of_g_, of_this.bits());
+      of_g_.told = std::max(of_g_.told, of_this.bits().told);
+      of_g_.all = std::max(of_g_.all, of_this.bits().all);
     }
 }
 
@@ -60,7 +61,7 @@ void WeakTerms::expand(const EffectTerm<Mpfr>& term, Index instance, Sizes& size
     }
     return x;
   };
-  const double noise = -static_cast<double>(significand_bits<Mpfr>()) * 3 / 5;
+  const double noise = -static_cast<double>(significand_bits<Mpfr>()) * 19 / 20;
   const auto along = [&](const Vector<Mpfr>& x, const Vector<Mpfr>& dx) {
     double greatest = none, inexact = none;
     try {
@@ -79,10 +80,8 @@ void WeakTerms::expand(const EffectTerm<Mpfr>& term, Index instance, Sizes& size
     }
     sizes.greatest = std::max(sizes.greatest, greatest);
     if (inexact == none) return;
-    if (inexact < greatest + noise)
-      may_hide_ = true;
-    else
-      sizes.least = std::min(sizes.least, inexact);
+    sizes.least_of_all = std::min(sizes.least_of_all, inexact);
+    if (inexact >= greatest + noise) sizes.least = std::min(sizes.least, inexact);
   };
   for (std::size_t n = 0; n < places_.size(); ++n) along(inputs_at(places_[n], false), inputs_at(directions_[n], true));
   // Each input by itself, from where it is: a motion may lead along one alone.

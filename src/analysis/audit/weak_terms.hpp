@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "hbvm/problem/effect/term.hpp"
 #include "hbvm/scene/assemble.hpp"
 
@@ -18,17 +20,19 @@ class WeakTerms {
 
   /// log2 of the greatest term of all over the greatest of those of the body, pair or group and of the direction where
   /// that is the least; 0 where there are none.
-  double bits_of_U() const { return of_U_.bits(); }
+  struct Bits {
+    double told = 0;  ///< of terms above rounding
+    double all = 0;   ///< of those, too, that may be nothing but rounding
+  };
+  Bits of_U() const { return of_U_.bits(); }
   /// The same of each g by itself, the greatest.
-  double bits_of_g() const { return bits_of_g_; }
-  /// Whether some terms may be nothing but rounding.
-  bool may_hide() const { return may_hide_; }
+  Bits of_g() const { return of_g_; }
 
  private:
   struct Sizes {
-    double greatest, least;
+    double greatest, least, least_of_all;
     Sizes();
-    double bits() const { return greatest > least ? greatest - least : 0; }
+    Bits bits() const { return {std::max(greatest - least, double{0}), std::max(greatest - least_of_all, double{0})}; }
   };
   void expand(const EffectTerm<Mpfr>& term, Index instance, Sizes& sizes);
 
@@ -37,8 +41,7 @@ class WeakTerms {
   std::vector<Vector<Mpfr>> places_, directions_;  ///< of all coordinates
   Mpfr size_ = 0;                                  ///< of a direction
   Sizes of_U_;
-  double bits_of_g_ = 0;
-  bool may_hide_ = false;
+  Bits of_g_;
 };
 
 }  // namespace hbvm
