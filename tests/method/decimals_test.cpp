@@ -23,6 +23,19 @@ TEST(Decimals, AreWhatIsRounded) {
   EXPECT_EQ(decimals_with("0.16666666666666666")->digits, 16 + 1 - 1) << "what a double prints has 16";
 }
 
+/// Of numbers with as many places those below 1 tell the digits, and what is exact is no example.
+TEST(Decimals, OfEqualPlaces) {
+  const auto found = decimals_of(tableau({{"0.2000000000", "9.8228928517"}, {"2.8461538462", "11.5957933242"}},
+                                         {"0.5000000000", "0.4492362983"}, {"0.8888888889", "1.0000000000"}));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->digits, 10);
+  EXPECT_EQ(found->example, "2.8461538462");
+  EXPECT_EQ(found->fraction, "37/13");
+  const auto great = decimals_of(tableau({{"9.8228928517"}}, {"1"}, {"2.8461538462"}));
+  ASSERT_TRUE(great);
+  EXPECT_EQ(great->digits, 11);
+}
+
 TEST(Decimals, HaveTheDigitsThatAreSaid) {
   Tableau said = tableau({{"1/2"}}, {"0.25"}, {"1/2"});
   EXPECT_FALSE(decimals_of(said));
