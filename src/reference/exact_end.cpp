@@ -2,7 +2,6 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/method/hbvm.hpp"
-#include "hbvm/problem/point.hpp"
 #include "hbvm/reference/taylor.hpp"
 #include "hbvm_walk.hpp"
 
@@ -22,9 +21,7 @@ ExactPoint exact_end(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const 
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
   HbvmWalk walk(problem, method, q, p, digits, t);
   walk.advance_to(t, [&](const Mpfr&) { while_working(); });
-  Point<Mpfr> point(problem);
-  const Vector<Mpfr> tangential = point.tangential(walk.state().q, walk.state().p);
-  return {walk.state().q, tangential, point.multiplier(walk.state().q, tangential)};
+  return walk.output();
 }
 
 }  // namespace hbvm

@@ -5,22 +5,13 @@
 #include <limits>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/reference/reference_motion.hpp"
+#include "hbvm/scalar/log2_of.hpp"
 #include "hbvm/scalar/text.hpp"
 
 namespace hbvm {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/// 2^x, rounded to double.
-Mpfr power_of(double log2) {
-  Mpfr x = 0;
-  mpfr_set_d(raw(x), std::exp2(log2 - std::floor(log2)), MPFR_RNDN);
-  mpfr_mul_2si(raw(x), raw(x), static_cast<long>(std::floor(log2)), MPFR_RNDN);
-  return x;
-}
 
 }  // namespace
 
@@ -29,16 +20,21 @@ HbvmWalk::HbvmWalk(const Problem<Mpfr>& problem, const Hbvm<Mpfr>& method, const
     : problem_(problem),
       stepper_(problem, method, SolverKind::newton),
       bounds_(problem),
+      point_(problem),
       state_(q, p),
       log2_rho_(digits * std::log2(double{10}) / (2 * method.s)),
       log2_h_(std::min(log2_of(longest), first_length())),
       most_log2_(log2_h_) {}
 
-double HbvmWalk::first_length() const {
+ExactPoint HbvmWalk::output() {
+  const Vector<Mpfr> tangential = point_.tangential(state_.q, state_.p);
+  return {state_.q, tangential, point_.multiplier(state_.q, tangential)};
+}
+
+double HbvmWalk::first_length() {
   // A step that is far too long costs more than some that are too short.
   constexpr double part = 2;
-  Point<Mpfr> point(problem_);
-  const Point<Mpfr>::Forces forces = point.forces(state_.q, state_.p);
+  const Point<Mpfr>::Forces forces = point_.forces(state_.q, state_.p);
   Vector<Mpfr> v(state_.p.size()), acceleration(v.size());
   const Vector<Mpfr> force = forces.applied + forces.constraint;
   problem_.mass.velocity(lanes(state_.p), lanes(v));
@@ -116,7 +112,7 @@ void HbvmWalk::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>&
   const double log2_ellipse =
       log2_rho_ - (slack - ForceBounds::allowed_bits) / static_cast<double>(2 * stepper_.unknowns()->gamma.rows());
   while (now_ < t) {
-    const Mpfr left = t - now_, whole = power_of(log2_h_);
+    const Mpfr left = t - now_, whole = power_of_two(log2_h_);
     // Two steps of half the length rather than a short last one.
     const Mpfr h = left <= whole ? left : left < 2 * whole ? Mpfr(left / 2) : whole;
     const double log2_h = log2_of(h);

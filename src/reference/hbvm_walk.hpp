@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "between/force_bounds.hpp"
+#include "hbvm/problem/point.hpp"
+#include "hbvm/reference/closed_form/closed_form.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
 
 namespace hbvm {
@@ -24,13 +26,16 @@ class HbvmWalk {
   /// \throws IntegrationError where no step is short enough
   void advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step);
 
+  /// The propagated state.
   const State<Mpfr>& state() const { return state_; }
+  /// The output state: q, the tangential p and the multiplier there, which have order 2s.
+  ExactPoint output();
   long steps() const { return steps_; }
 
  private:
   /// log2 of a part of the time in which velocity or acceleration carry a body, or a director, as far as it is from the
   /// origin; infinite where nothing moves.
-  double first_length() const;
+  double first_length();
   /// log2 of how many times as long the last step might have been.
   double room(double log2_h) const;
   /// Whether the forces are bounded along the ellipse of the step that began at q0.
@@ -40,6 +45,7 @@ class HbvmWalk {
   const Problem<Mpfr>& problem_;
   HbvmStepper<Mpfr> stepper_;
   ForceBounds bounds_;
+  Point<Mpfr> point_;
   State<Mpfr> state_;
   Mpfr now_ = 0;
   double log2_rho_;            ///< that the digits need

@@ -64,7 +64,6 @@ int stages_of_route(double digits) {
 RouteRun hbvm_route(const RouteWork& work, double digits) {
   const int s = stages_of_route(digits);
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
-  Point<Mpfr> point(work.scene.problem);
   const Leg way = run_legs(work.scene, work.times, work.legs, work.keeper,
                            [&](const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times,
                                const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
@@ -78,9 +77,7 @@ RouteRun hbvm_route(const RouteWork& work, double digits) {
                              Leg leg;
                              for (const Mpfr& t : times) {
                                advance_to(t);
-                               const Vector<Mpfr>& at = walk.state().q;
-                               const Vector<Mpfr> tangential = point.tangential(at, walk.state().p);
-                               leg.points.push_back({at, tangential, point.multiplier(at, tangential)});
+                               leg.points.push_back(walk.output());
                              }
                              advance_to(end);
                              leg.q = walk.state().q;

@@ -412,9 +412,7 @@ TaylorMotion::Extent TaylorMotion::extent(Index order) {
 
 void TaylorMotion::set_unit(double log2) {
   log2_unit_ = std::min(log2, longest);
-  const double whole = std::floor(log2_unit_);
-  mpfr_set_d(raw(unit_), std::exp2(log2_unit_ - whole), MPFR_RNDN);
-  mpfr_mul_2si(raw(unit_), raw(unit_), static_cast<long>(whole), MPFR_RNDN);
+  set(unit_, power_of_two(log2_unit_));
   set_product(t_, unit_, unit_);
   mpfr_ui_div(raw(per_square_), 1, raw(t_), MPFR_RNDN);
 }
@@ -458,12 +456,7 @@ void TaylorMotion::take_up() {
     least_radius_ = steps_ == 0 ? radius : std::min(least_radius_, radius);
     set(length_, unit_);
     const double length = bounded_length(log2_unit_ + std::min(found.step, double{0})) - log2_unit_;
-    if (length < 0) {
-      const double whole = std::floor(length);
-      mpfr_set_d(raw(t_), std::exp2(length - whole), MPFR_RNDN);
-      mpfr_mul_2si(raw(t_), raw(t_), static_cast<long>(whole), MPFR_RNDN);
-      set_product(length_, length_, t_);
-    }
+    if (length < 0) set_product(length_, length_, power_of_two(length));
     next_log2_unit_ = next;
     return;
   }
