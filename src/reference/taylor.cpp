@@ -436,7 +436,7 @@ void TaylorMotion::find_unit() {
 
 void TaylorMotion::take_up() {
   // More and the terms before the largest would lose digits beside it.
-  constexpr double most_growth = AlignedSeries::guard_bits / 2;
+  constexpr double most_growth = AlignedSeries::guard_bits / double{2};
   // A little more than the last step: where the series would take more, the unit follows.
   constexpr double room = double{1} / 16, most_rise = 1;
   const double bits = significand_bits<Mpfr>();
