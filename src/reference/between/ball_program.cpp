@@ -1,5 +1,6 @@
 #include "ball_program.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -9,6 +10,24 @@ namespace hbvm {
 namespace {
 
 constexpr slong bits = Ball::bits;
+
+/// The degree of what is not computed as a loop.
+constexpr int none = 3;
+
+/// Of the result of an operation on values of such degrees; `none` or more if it is not computed as a loop.
+int degree(Op op, int a, int b) {
+  switch (op) {
+    case Op::add:
+    case Op::subtract:
+      return std::max(a, b);
+    case Op::negate:
+      return a;
+    case Op::multiply:
+      return a + b;
+    default:
+      return none;
+  }
+}
 
 }  // namespace
 
@@ -29,29 +48,57 @@ std::size_t BallProgram::directions_of(Op op) {
 }
 
 BallProgram::BallProgram(const Program<Mpfr>& program, Index inputs, const std::vector<const Mpfr*>& coefficients)
-    : inputs_(inputs) {
-  const auto varying = static_cast<std::size_t>(inputs);
-  const std::size_t constants = varying + coefficients.size();
-  const std::size_t temporaries = constants + program.constants().size();
-  balls_.resize(varying);
+    : inputs_(static_cast<std::size_t>(inputs)) {
+  const std::size_t constants = inputs_ + coefficients.size(), results = constants + program.constants().size();
+  const std::size_t values = results + program.instructions().size();
+  balls_.resize(inputs_);
   for (const Mpfr* x : coefficients) balls_.emplace_back(*x);
   for (const Mpfr& x : program.constants()) balls_.emplace_back(x);
-  balls_.resize(temporaries + program.temporaries());
-  const auto ball = [&](const Operand& x) {
-    return &balls_[x.index + (x.bank == Bank::input ? 0 : x.bank == Bank::constant ? constants : temporaries)];
+  balls_.resize(values);
+  loops_.resize(values, Loop(Mpfr(0)));
+  for (std::size_t i = inputs_; i < results; ++i)
+    loops_[i] = Loop(i < constants ? *coefficients[i - inputs_] : program.constants()[i - constants]);
+  // Of each value its degree in the inputs, where a loop is made of it.
+  std::vector<int> degrees(values, none);
+  std::fill_n(degrees.begin(), inputs_, 1);
+  std::fill(degrees.begin() + static_cast<std::ptrdiff_t>(inputs_),
+            degrees.begin() + static_cast<std::ptrdiff_t>(results), 0);
+  // Registers serve several values in turn; here each has a ball of its own.
+  std::vector<std::size_t> registers(program.temporaries());
+  const auto value_of = [&](const Operand& x) {
+    return x.bank == Bank::input ? x.index : x.bank == Bank::constant ? constants + x.index : registers[x.index];
   };
+  std::vector<bool> wanted(values, false);
+  const auto ball = [&](std::size_t value) {
+    wanted[value] = true;
+    return &balls_[value];
+  };
+  std::size_t z = results;
   for (const Instruction& instruction : program.instructions()) {
-    Step step{instruction.op, ball(instruction.a), nullptr, &balls_[temporaries + instruction.result],
-              directions_.size()};
-    if (is_binary(instruction.op)) step.b = ball(instruction.b);
-    directions_.resize(directions_.size() + directions_of(step.op));
-    steps_.push_back(step);
+    const std::size_t a = value_of(instruction.a), b = is_binary(instruction.op) ? value_of(instruction.b) : a;
+    degrees[z] = degree(instruction.op, degrees[a], degrees[b]);
+    if (degrees[z] < none) {
+      polynomials_.push_back({instruction.op, a, b, z});
+    } else {
+      steps_.push_back({instruction.op, ball(a), ball(b), &balls_[z], directions_.size()});
+      directions_.resize(directions_.size() + directions_of(instruction.op));
+    }
+    registers[instruction.result] = z++;
   }
-  for (const Operand& output : program.output_operands()) outputs_.push_back(ball(output));
+  for (const Operand& output : program.output_operands()) outputs_.push_back(ball(value_of(output)));
+  for (std::size_t i = 0; i < values; ++i)
+    if (wanted[i] && degrees[i] < none && (i < inputs_ || i >= results)) enclosed_.push_back(i);
 }
 
 bool BallProgram::is_bounded(const std::vector<Loop>& inputs, const std::vector<double>& log2_limits) {
-  loops_ = &inputs;
+  std::copy(inputs.begin(), inputs.end(), loops_.begin());
+  for (const auto& [op, a, b, z] : polynomials_)
+    loops_[z] = op == Op::add        ? loops_[a] + loops_[b]
+                : op == Op::subtract ? loops_[a] - loops_[b]
+                : op == Op::multiply ? loops_[a] * loops_[b]
+                                     : -loops_[a];
+  enclosures_.clear();
+  for (const std::size_t i : enclosed_) enclosures_.emplace_back(loops_[i]);
   log2_limits_ = &log2_limits;
   constexpr int arcs = 8;
   constexpr double width = std::numbers::pi / arcs;
@@ -79,7 +126,7 @@ bool BallProgram::evaluate(const Arc& arc) {
   // The arc is a little wider than its angles in double.
   const double half_width = arc.half_width * (1 + 16 * std::numeric_limits<double>::epsilon());
   const std::complex<double> at = std::polar(double{1}, arc.middle);
-  for (std::size_t i = 0; i < loops_->size(); ++i) (*loops_)[i].enclose(at, half_width, balls_[i]);
+  for (std::size_t i = 0; i < enclosed_.size(); ++i) enclosures_[i].enclose(at, half_width, balls_[enclosed_[i]]);
   tried_ = directions_;
   for (const Step& step : steps_)
     if (!apply(step, arc)) return false;

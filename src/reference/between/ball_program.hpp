@@ -14,7 +14,8 @@ namespace hbvm {
 /// They are if no operation on the way meets a singularity inside: no 1/a a zero of a, no root or logarithm a zero of
 /// a, no tanh a a zero of cosh a, no atan a a zero of 1 + i a or 1 - i a, and no magnitude a zero of a. An analytic
 /// function has as many zeros inside a curve as it turns about 0 along it (the argument principle). Roots and
-/// logarithms are continued from arc to arc, so that they are of one branch.
+/// logarithms are continued from arc to arc, so that they are of one branch. Values of degree 2 in the inputs, such as
+/// the square of a distance, are computed as loops, whose terms may cancel.
 class BallProgram {
  public:
   /// The first inputs vary; the others are numbers, `coefficients`.
@@ -39,6 +40,11 @@ class BallProgram {
     Ball* z;
     std::size_t direction = 0;  ///< the first of those it needs, if it needs any
   };
+  /// A value that is a loop, as the inputs are: a sum, a difference, a product of two, or the negative of one.
+  struct Polynomial {
+    Op op;
+    std::size_t a, b, z;  ///< numbers of values
+  };
   struct Arc {
     double middle, half_width;
     bool first, last;
@@ -55,12 +61,15 @@ class BallProgram {
   long turn_back(std::size_t i, const Ball& x);
   bool fails(const char* what);
 
-  Index inputs_;
-  std::vector<Ball> balls_;  ///< inputs, constants and coefficients, temporaries
+  std::size_t inputs_;
+  std::vector<Ball> balls_;  ///< of each value: inputs, coefficients and constants, results
   std::vector<Step> steps_;
+  std::vector<Polynomial> polynomials_;
+  std::vector<std::size_t> enclosed_;  ///< the loops of which balls are wanted
   std::vector<const Ball*> outputs_;
   std::vector<Direction> directions_, tried_;
-  const std::vector<Loop>* loops_ = nullptr;
+  std::vector<Loop> loops_;  ///< of each value that has one
+  std::vector<LoopEnclosure> enclosures_;
   const std::vector<double>* log2_limits_ = nullptr;
   std::string obstacle_;
   Ball t_, u_;

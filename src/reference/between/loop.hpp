@@ -14,11 +14,35 @@ namespace hbvm {
 ///
 ///     x(theta) = sum_n a_n exp(i n theta),  a_n real,
 ///
-/// so that x is real at 0 and pi, and the lower half of the curve mirrors the upper.
+/// so that x is real at 0 and pi, and the lower half of the curve mirrors the upper. Sums and products of loops on one
+/// curve are loops. Their terms cancel where those of balls cannot: of x^2 + y^2 on a circle in space hardly more than
+/// a_0 is left.
 class Loop {
  public:
-  /// \param forward  a_0, a_1, …; backward: a_-1, a_-2, …; each a double times 2^exponent
-  Loop(const std::vector<double>& forward, const std::vector<double>& backward, long exponent);
+  /// \param coefficients  a_first, a_{first+1}, …, each times 2^exponent; first is 0 or negative
+  /// \param error  that each value may be off by, times 2^exponent, besides rounding of the coefficients
+  Loop(std::vector<double> coefficients, long first, long exponent, double error = 0);
+  /// A number, which does not vary.
+  explicit Loop(const Mpfr& number);
+
+  Loop operator+(const Loop& other) const;
+  Loop operator-(const Loop& other) const { return *this + -other; }
+  Loop operator*(const Loop& other) const;
+  Loop operator-() const;
+
+ private:
+  friend class LoopEnclosure;
+  bool is_zero() const;
+
+  std::vector<double> coefficients_;
+  long first_, exponent_;
+  double error_;  ///< that each value is off by at most
+};
+
+/// Balls that hold a loop, arc by arc.
+class LoopEnclosure {
+ public:
+  explicit LoopEnclosure(const Loop& loop);
 
   /// A ball that holds x on the arc of `half_width` radians to both sides of the angle with exp(i theta) = `at`: by
   /// Taylor's formula about the middle, whose remainder sum |a_n| |n|^d / d! bounds.
@@ -28,11 +52,11 @@ class Loop {
   static constexpr std::size_t derivatives = 6;
   /// a_n n^d / d! for each d.
   using Weights = std::array<double, derivatives>;
-  void add(const std::vector<double>& coefficients, std::size_t first, std::vector<Weights>& weights);
+  void add(double coefficient, double n, std::vector<Weights>& weights);
 
-  std::vector<Weights> forward_, backward_;
+  std::vector<Weights> forward_, backward_;      ///< a_0, a_1, …; a_-1, a_-2, …
   std::array<double, derivatives + 1> sizes_{};  ///< sum |a_n| |n|^d / d!
-  double roundings_;
+  double roundings_, error_;
   long exponent_;
 };
 

@@ -44,7 +44,7 @@ TEST(Loop, EnclosesASeriesOnACircle) {
   for (const double half : {0.2, 0.05, 0.001})
     for (double middle = half; middle < std::numbers::pi; middle += 0.3) {
       Ball ball;
-      loop.enclose(std::polar(1.0, middle), half, ball);
+      LoopEnclosure(loop).enclose(std::polar(1.0, middle), half, ball);
       double widest = 0;
       const std::complex<double> centre = std::exp(std::polar(3.0, middle));
       for (const double part : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
@@ -74,10 +74,10 @@ TEST(Loop, EnclosesAStepOnAnEllipse) {
       return approximately(x);
     };
     Ball ball;
-    loop.enclose(1, 0, ball);
+    LoopEnclosure(loop).enclose(1, 0, ball);
     EXPECT_TRUE(holds(ball, exact(1), 1e-13)) << rho;
     EXPECT_FALSE(holds(ball, exact(1) + 1e-9)) << rho;
-    loop.enclose(-1, 0, ball);
+    LoopEnclosure(loop).enclose(-1, 0, ball);
     EXPECT_TRUE(holds(ball, exact(-1), 1e-12)) << rho;
     EXPECT_FALSE(holds(ball, exact(-1) + 1e-9)) << rho;
   }
@@ -85,8 +85,55 @@ TEST(Loop, EnclosesAStepOnAnEllipse) {
   const double rho = 4, height = (rho - 1 / rho) / 4;
   const Loop loop = ellipse_of(Mpfr(0), {Mpfr(0), Mpfr(1)}, std::log2(rho));
   Ball ball;
-  loop.enclose({0, 1}, 0, ball);
+  LoopEnclosure(loop).enclose({0, 1}, 0, ball);
   EXPECT_TRUE(holds(ball, -std::sqrt(3.0) * (height * height + 0.25), 1e-12));
+}
+
+/// Sums and products of loops hold those of the values. Of cos^2 + sin^2 on a wide circle hardly more than 1 is left,
+/// though each square is some thousand: the terms cancel.
+TEST(Loop, IsAddedAndMultiplied) {
+  const PrecisionScope scope(40);
+  constexpr Index order = 70;
+  std::vector<Mpfr> cosine, sine;
+  Mpfr term = 1;
+  for (Index n = 0; n <= order; ++n) {
+    cosine.push_back(n % 2 == 1 ? Mpfr(0) : n % 4 == 0 ? term : Mpfr(-term));
+    sine.push_back(n % 2 == 0 ? Mpfr(0) : n % 4 == 1 ? term : Mpfr(-term));
+    term /= n + 1;
+  }
+  const double radius_of_circle = 5;
+  const auto circle = [&](const std::vector<Mpfr>& series) {
+    return circle_of([&](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; }, order,
+                     std::log2(radius_of_circle));
+  };
+  const Loop c = circle(cosine), s = circle(sine), far(literal<Mpfr>("3*2^-80"));
+  // Rounding of doubles beside the sum of the terms, e^5, and its square.
+  const double rounding = 1e-11 * std::exp(radius_of_circle), of_squares = rounding * std::exp(radius_of_circle);
+  for (const double angle : {0.0, 0.7, 1.6, 3.1}) {
+    const std::complex<double> at = std::polar(1.0, angle), t = radius_of_circle * at;
+    const auto expect = [&](const Loop& loop, const std::complex<double>& value, double widest) {
+      Ball ball;
+      LoopEnclosure(loop).enclose(at, 0, ball);
+      EXPECT_TRUE(holds(ball, value, 1e-13 * std::abs(value))) << angle << " " << value;
+      EXPECT_LE(radius(ball), widest) << angle;
+    };
+    expect(c * c + s * s, 1, of_squares);
+    expect(c * s, std::cos(t) * std::sin(t), of_squares);
+    expect(c - s, std::cos(t) - std::sin(t), rounding);
+    expect(-(c * Loop(Mpfr(3))), -3.0 * std::cos(t), rounding);
+    expect(far + far * Loop(Mpfr(-1)) + far, std::ldexp(3.0, -80), 1e-36);
+    expect(far + c, std::cos(t), rounding);
+    expect(Loop(Mpfr(0)) + far, std::ldexp(3.0, -80), 1e-36);
+    expect(Loop(Mpfr(0)) * c + far, std::ldexp(3.0, -80), 1e-36);
+  }
+  // Of two ellipses: x = c on both, its square is c^2.
+  const double rho = 6;
+  const Loop x = ellipse_of(literal<Mpfr>("0"), {Mpfr(1)}, std::log2(rho));
+  const std::complex<double> w = std::polar(rho, 1.2), value = 0.5 + (w + 1.0 / w) / 4.0;
+  Ball ball;
+  LoopEnclosure(x * x - x).enclose(std::polar(1.0, 1.2), 0, ball);
+  EXPECT_TRUE(holds(ball, value * value - value, 1e-13));
+  EXPECT_LE(radius(ball), 1e-12);
 }
 
 /// Numbers beyond the range of double are enclosed, too.
@@ -95,7 +142,7 @@ TEST(Loop, HasAnyExponent) {
   const std::vector<Mpfr> series{literal<Mpfr>("2^-5000"), literal<Mpfr>("2^-5001")};
   const Loop loop = circle_of([&](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; }, 1, 1);
   Ball ball;
-  loop.enclose(1, 0, ball);
+  LoopEnclosure(loop).enclose(1, 0, ball);
   acb_mul_2exp_si(raw(ball), raw(ball), 5000);
   EXPECT_TRUE(holds(ball, 2));
   EXPECT_FALSE(holds(ball, 2.001));
