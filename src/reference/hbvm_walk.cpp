@@ -104,13 +104,15 @@ void HbvmWalk::shorten(double by, const std::string& why) {
 }
 
 void HbvmWalk::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step) {
-  // The part of rho by which a step may fall short, and what one is made for; beyond the last it may be longer.
-  constexpr double least_room = double{7} / 100, usual_room = double{3} / 10, much_room = double{4} / 5, most_rise = 1,
-                   most_fall = 4, fall = double{1} / 2;
+  // log2 of how many times as long a step may be at least, is when its length is chosen, and may be at most before
+  // another length is worth its new matrix.
+  constexpr double least_room = double{5} / 100, usual_room = double{2} / 10, much_room = double{5} / 10, most_rise = 1,
+                   most_fall = 4, fall = double{1} / 2, most_trend = double{3} / 10;
   // As of a Taylor series: what forces may be beside the terms that are left out.
   constexpr double slack = 10;
   const double log2_ellipse =
       log2_rho_ - (slack - ForceBounds::allowed_bits) / static_cast<double>(2 * stepper_.unknowns()->gamma.rows());
+  double last_length = -infinite;
   while (now_ < t) {
     const Mpfr left = t - now_, whole = power_of_two(log2_h_);
     // Two steps of half the length rather than a short last one.
@@ -138,11 +140,16 @@ void HbvmWalk::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>&
       again(fall, bounds_.obstacle());
       continue;
     }
-    if (found < usual_room) {
-      log2_h_ = log2_h - (usual_room - found);
-    } else if (found > much_room && log2_h >= log2_h_) {
-      const double rise = std::min(found - usual_room, most_rise);
-      if (is_bounded(before.q, h, log2_h, log2_ellipse + rise)) log2_h_ += rise;
+    // The length that would have done; where it falls from step to step, it goes on to.
+    const double length = log2_h + std::min(found, most_rise + usual_room);
+    const double expected = length + std::clamp(length - last_length, -most_trend, double{0}) - log2_h;
+    last_length = length;
+    if (expected < least_room) {
+      log2_h_ = log2_h + expected - usual_room;
+    } else if (expected > much_room && h == whole) {
+      double rise = std::min(expected - usual_room, most_rise);
+      while (rise > least_room && !is_bounded(before.q, h, log2_h, log2_ellipse + rise)) rise /= 2;
+      if (rise > least_room) log2_h_ += rise;
     }
     now_ = h == left ? t : Mpfr(now_ + h);
     ++steps_;
