@@ -1,6 +1,6 @@
 #include "hbvm/integrate/energy_change.hpp"
 
-#include <algorithm>
+#include <vector>
 
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -8,22 +8,25 @@
 namespace hbvm {
 
 template <Scalar S>
-typename EnergyChange<S>::Bin& EnergyChange<S>::bin(const S& x) {
-  const long exponent = binary_exponent(x);
-  const auto at = std::lower_bound(bins_.begin(), bins_.end(), exponent,
-                                   [](const Bin& bin, long wanted) { return bin.exponent < wanted; });
-  if (at != bins_.end() && at->exponent == exponent) return *at;
-  Bin added;
-  added.exponent = exponent;
-  return *bins_.insert(at, added);
+void EnergyChange<S>::remember(Archive& archive) {
+  std::vector<long> exponents;
+  for (const auto& [exponent, bin] : bins_) exponents.push_back(exponent);
+  archive.sized(exponents);
+  std::map<long, Bin> bins;
+  for (const long exponent : exponents) {
+    Bin& bin = bins[exponent] = bins_[exponent];
+    archive(bin.count, bin.reached, bin.first);
+  }
+  bins_.swap(bins);
+  archive(error_, t_);
 }
 
 template <Scalar S>
 void EnergyChange<S>::observe(const S& kinetic, const S& error, const S& t) {
-  ++bin(kinetic).count;
+  ++bins_[binary_exponent(kinetic)].count;
   set_product(scaled_, error, part_);
   if (!exceeds(scaled_, kinetic)) return;
-  Bin& of_error = bin(error);
+  Bin& of_error = bins_[binary_exponent(error)];
   if (!of_error.reached) {
     of_error.reached = true;
     set(of_error.first, t);
@@ -36,10 +39,10 @@ void EnergyChange<S>::observe(const S& kinetic, const S& error, const S& t) {
 template <Scalar S>
 S EnergyChange<S>::usual() const {
   long all = 0, below = 0;
-  for (const Bin& bin : bins_) all += bin.count;
-  for (const Bin& bin : bins_) {
+  for (const auto& [exponent, bin] : bins_) all += bin.count;
+  for (const auto& [exponent, bin] : bins_) {
     below += bin.count;
-    if (2 * below >= all) return bin.exponent == exponent_of_zero ? S(0) : power_of_two<S>(bin.exponent);
+    if (2 * below >= all) return exponent == exponent_of_zero ? S(0) : power_of_two<S>(exponent);
   }
   return 0;
 }
@@ -52,8 +55,8 @@ typename EnergyChange<S>::Change EnergyChange<S>::change() const {
   if (!(error_ > least)) return change;
   change.error = error_;
   change.t = t_;
-  for (const Bin& bin : bins_)
-    if (bin.reached && power_of_two<S>(bin.exponent - 1) > least && exceeds(change.t, bin.first)) change.t = bin.first;
+  for (const auto& [exponent, bin] : bins_)
+    if (bin.reached && power_of_two<S>(exponent - 1) > least && exceeds(change.t, bin.first)) change.t = bin.first;
   return change;
 }
 

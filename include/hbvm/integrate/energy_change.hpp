@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <map>
 
 #include "hbvm/integrate/observer.hpp"
 
@@ -19,10 +19,7 @@ class EnergyChange {
 
   /// A mesh point: T and H - H_0 there.
   void observe(const S& kinetic, const S& error, const S& t);
-  void remember(Archive& archive) {
-    archive.sized(bins_);
-    archive(error_, t_);
-  }
+  void remember(Archive& archive);
 
   /// Where it changed: the greatest error there, the kinetic energy that half of the mesh points do not exceed, to a
   /// factor of 2, and the first time; error = 0 if nowhere.
@@ -34,15 +31,13 @@ class EnergyChange {
  private:
   /// What lies in 2^(exponent - 1) .. 2^exponent: how many T, and the first of the errors that exceed 1/20 of their T.
   struct Bin {
-    long exponent = 0, count = 0;
+    long count = 0;
     bool reached = false;
     S first = 0;
-    void remember(Archive& archive) { archive(exponent, count, reached, first); }
   };
-  Bin& bin(const S& x);
   S usual() const;
 
-  std::vector<Bin> bins_;  ///< ascending
+  std::map<long, Bin> bins_;  ///< by exponent
   S error_ = 0, t_ = 0, part_ = part, scaled_;
 };
 
