@@ -1,7 +1,5 @@
 #include "hbvm/basis/gauss_legendre.hpp"
 
-#include <arb_hypgeom.h>
-
 #include <string>
 #include <tuple>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "hbvm/error.hpp"
 #include "hbvm/scalar/with_scalar.hpp"
 #include "printing.hpp"
+#include "scalar/arb.hpp"
 
 namespace hbvm {
 namespace {

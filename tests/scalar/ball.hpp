@@ -1,9 +1,8 @@
 #pragma once
 
-#include <arb.h>
-
 #include "hbvm/scalar/big_float.hpp"
 #include "hbvm/scalar/scalar.hpp"
+#include "scalar/arb.hpp"
 
 namespace hbvm {
 

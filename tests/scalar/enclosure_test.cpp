@@ -1,6 +1,5 @@
 // Correct rounding of random expressions, against ball arithmetic of FLINT/Arb on the same tree.
 
-#include <arb.h>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "hbvm/scalar/expression.hpp"
 #include "hbvm/scalar/scalar.hpp"
+#include "scalar/arb.hpp"
 
 namespace hbvm {
 namespace {

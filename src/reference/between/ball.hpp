@@ -1,12 +1,7 @@
 #pragma once
 
-#if __has_include(<flint/acb.h>)
-#include <flint/acb.h>  // FLINT 3
-#else
-#include <acb.h>  // Arb beside FLINT 2
-#endif
-
 #include "hbvm/scalar/mpfr.hpp"
+#include "scalar/arb.hpp"
 
 namespace hbvm {
 
