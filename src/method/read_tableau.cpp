@@ -20,9 +20,9 @@ void check_value(const TomlTable& table, const toml::node& node, const Expressio
   }
 }
 
-const toml::array& array_of(const TomlTable& table, const toml::node& node, const std::string& place) {
+const toml::array& array_of(const TomlTable& table, const toml::node& node, std::string_view place) {
   const toml::array* const array = node.as_array();
-  if (!array) table.fail(node, place + " must be an array");
+  if (!array) table.fail(node, std::string(place) + " must be an array");
   return *array;
 }
 
