@@ -16,6 +16,7 @@ ELSEWHERE = {
     "studies/run --docs": "the test docs.pages",
     "tests/run": "runs this test",
     "tests/run --coverage": "builds all with counters: ten minutes",
+    "tests/run --dev solver": "builds the library in another way: minutes",
     "tests/run --turn": "builds all in other ways: half an hour",
     "tests/mutants/run": "builds the program for each of its changes: an hour",
     "studies/speed/run": "builds; measures for minutes what no other work may disturb",
