@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hbvm/integrate/integrate.hpp"
+#include "hbvm/interruption.hpp"
 #include "hbvm/problem/effect/trace.hpp"
 #include "hbvm/problem/general_drift.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -49,6 +50,7 @@ Trial<S> try_nodes(const Assembled<S>& scene, const HbvmName& name, bool keeps_g
   State<S> state(scene.q0, scene.p0);
   try {
     for (; trial.made < first_steps && trial.may_be_round_off; ++trial.made) {
+      end_on_signal("the nodes of the method were not chosen");
       const Vector<S> q = state.q, p = state.p;
       stepper.step(state, step);
       raise_to(trial.defect, defect.measure({q, p, step}, stepper.solver().unknowns()));

@@ -43,17 +43,15 @@ CellRunner in_processes(const std::vector<WorkCell>& cells, int jobs, std::funct
                                                                                   const TakeResult& take) {
     std::list<Running> running;
     // A signal ends the cells at work, too, and what these say is no result.
-    const auto end_on_signal = [] {
-      if (const int signal = interruption) throw Interrupted(signal, "the work was not finished");
-    };
+    const auto look_at_signal = [] { end_on_signal("the work was not finished"); };
     for (auto next = open.begin(); next != open.end() || !running.empty();) {
-      end_on_signal();
+      look_at_signal();
       while (next != open.end() && running.size() < static_cast<std::size_t>(std::max(1, jobs))) {
         running.emplace_back(*next, cells[*next].run, seconds(*next));
         ++next;
       }
       for (const auto& place : wait_for(running)) {
-        end_on_signal();
+        look_at_signal();
         const Apart& process = place->process;
         take(place->index, result(place->index, {process.text(), process.failure(), process.cpu_seconds()}));
         running.erase(place);

@@ -80,7 +80,7 @@ std::function<void(double)> part_done(ProgressBar& bar) {
   return [&bar](double part) {
     constexpr long parts = 10'000;
     bar.update(static_cast<long>(part * parts), parts);
-    if (const int signal = interruption) throw Interrupted(signal, "the work was not finished");
+    end_on_signal("the work was not finished");
   };
 }
 

@@ -2,9 +2,9 @@
 
 namespace hbvm {
 
-/// From now on SIGINT, SIGTERM and SIGHUP end a run between two steps (Interrupted), a second one of a kind the program
-/// itself at once; those that were ignored stay so. A file that has grown too large fails to be written as on a full
-/// disk, without a signal.
+/// From now on SIGINT, SIGTERM and SIGHUP end a run after a step or a part of one (Interrupted), a second one of a kind
+/// the program itself at once; those that were ignored stay so. A file that has grown too large fails to be written as
+/// on a full disk, without a signal.
 void end_runs_on_signals();
 
 }  // namespace hbvm

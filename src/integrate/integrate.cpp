@@ -39,6 +39,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
   std::vector<Snapshot<S>> snapshots(static_cast<std::size_t>(std::min<long>(longest, grid.steps())), result.end);
   std::size_t block = 1;
   std::optional<StepError> failure;
+  bool within_step = false;
   for (long n = result.end.n; n < grid.steps() && !failure;) {
     std::size_t made = 0;
     const double before = thread_seconds(), elapsed_before = elapsed_seconds();
@@ -53,6 +54,8 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
       }
     } catch (const StageFailure& error) {
       failure.emplace(n + 1, to_text(grid.time(n)), error);
+    } catch (const Interrupted&) {
+      within_step = true;
     }
     const double seconds = thread_seconds() - before;
     result.cpu_seconds += seconds;
@@ -65,7 +68,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     block = seconds > long_enough ? std::max<std::size_t>(block / 2, 1) : std::min(2 * block, snapshots.size());
 
     const int signal = n < grid.steps() ? interruption.load() : 0;
-    if (checkpoints && !failure && (signal != 0 || n == grid.steps() || checkpoints->due()))
+    if (checkpoints && !failure && !within_step && (signal != 0 || n == grid.steps() || checkpoints->due()))
       checkpoints->save(contents);
     if (signal != 0 && !failure)
       throw Interrupted(signal, std::string("interrupted by SIG") + sigabbrev_np(signal) + " after step " +

@@ -1,6 +1,7 @@
 #include "hbvm/reference/taylor_method.hpp"
 
 #include "hbvm/error.hpp"
+#include "hbvm/interruption.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/reference/taylor.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -20,7 +21,7 @@ class TaylorStepper final : public Stepper<Mpfr> {
   long step(State<Mpfr>& state, const Mpfr& h) override {
     const PartCall counted(series_, timed_);
     try {
-      TaylorMotion motion(problem_, state.q, state.p);
+      TaylorMotion motion(problem_, state.q, state.p, [] { end_on_signal("a step is made of many"); });
       motion.advance_to(h);
       const auto steps = static_cast<std::uint64_t>(motion.steps() + 1);
       for (std::size_t t = 0; t < effects_.size(); ++t) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "hbvm/interruption.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/linear/constant_count.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
@@ -311,7 +312,9 @@ template <Scalar S>
 
 template <Scalar S>
 typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
-  ++sweeps_;
+  // A step that takes more than this is likely to fail in the end, after thousands in many digits.
+  constexpr long usual = 100;
+  if (++sweeps_ > usual) end_on_signal("the stage equations were not solved");
   take_scales();
   if (!finite_ || !look_at_changes()) return Verdict::not_finite;
 

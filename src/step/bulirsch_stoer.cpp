@@ -3,6 +3,7 @@
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 #include <charconv>
 
+#include "hbvm/interruption.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/text.hpp"
@@ -69,6 +70,7 @@ class BulirschStoer final : public ReducedStepper<S> {
         throw StageFailure(FailureCause::precision_exhausted,
                            "the tolerance is not reached by parts of " + to_scientific(part_, 3) + " of the step",
                            to_scientific(part_, 3), tries);
+      end_on_signal("a step is made in parts");
       if (made) evaluate_at(x_, slope_);
     }
     set_changes(x_);

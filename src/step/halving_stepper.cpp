@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "copy_state.hpp"
+#include "hbvm/interruption.hpp"
 
 namespace hbvm {
 
@@ -57,6 +58,7 @@ long HalvingStepper<S>::step(State<S>& state, const S& h) {
     smallest = std::max(smallest, depth_);
     ++substeps;
     done += whole >> depth_;
+    if (done < whole) end_on_signal("a step is divided");
     if (depth_ > 0 && ++successes_ >= patience_ && done % (whole >> (depth_ - 1)) == 0) {
       --depth_;
       successes_ = 0;

@@ -1,8 +1,11 @@
 #include "hbvm/analysis/choose_k.hpp"
 
+#include <csignal>
+
 #include "hbvm/analysis/run/run.hpp"
 #include "hbvm/analysis/simulate.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/interruption.hpp"
 #include "hbvm/problem/general_drift.hpp"
 #include "hbvm/step/registry.hpp"
 #include "printing.hpp"
@@ -33,6 +36,14 @@ Assembled<S> assembled(const std::vector<std::string>& effects, const std::strin
 
 std::optional<int> degree(const std::vector<std::string>& effects) {
   return degree_of_U(assembled<double>(effects).problem);
+}
+
+/// It may try a thousand nodes, for minutes.
+TEST(ChooseK, IsEndedByASignal) {
+  const Assembled<double> scene = assembled<double>({central_attraction});
+  interruption = SIGTERM;
+  EXPECT_THROW(choose_k(scene, HbvmName{0, 2, 0}, 1.0 / 8, SolverKind::automatic), Interrupted);
+  interruption = 0;
 }
 
 TEST(DegreeOfU, IsTheGreatestOfItsEffects) {

@@ -208,6 +208,56 @@ TYPED_TEST(Memory, OfAnIntegrationIsComplete) {
   EXPECT_EQ(step, 150);
 }
 
+/// A stepper whose third step a signal ends half-way.
+class EndedWithinAStep final : public Stepper<double> {
+ public:
+  explicit EndedWithinAStep(Stepper<double>& whole) : whole_(whole) {}
+  const Problem<double>& problem() const override { return whole_.problem(); }
+  long step(State<double>& state, const double& h) override {
+    if (++steps_ < 3) return whole_.step(state, h);
+    state.q[0] += 1;
+    interruption = SIGTERM;
+    end_on_signal("half-way");
+    return 0;
+  }
+  const Vector<double>& multiplier() const override { return whole_.multiplier(); }
+  SolverCounts counts() const override { return whole_.counts(); }
+  void measure_time() override {}
+  void remember(Archive& archive) override { archive(steps_, whole_); }
+
+ private:
+  Stepper<double>& whole_;
+  long steps_ = 0;
+};
+
+struct Last final : Observer<double> {
+  long n = -1;
+  void observe(const Snapshot<double>& snapshot) override { n = snapshot.n; }
+  void remember(Archive&) override {}
+};
+
+TEST(Checkpoints, AreNotMadeOfAStepThatASignalEnded) {
+  const Folder folder;
+  const std::string file = folder / "run";
+  SceneRun<double> run(load_scene("simple_pendulum"), 1, 1, "1/8", "1");
+  EndedWithinAStep stepper(run.stepper);
+  Last shown;
+  Checkpoints checkpoints(file, 1e9, {});
+  try {
+    integrate<double>(stepper, run.state, run.grid, {&shown}, &checkpoints);
+    ADD_FAILURE() << "it was not interrupted";
+  } catch (const Interrupted& interrupted) {
+    EXPECT_NE(std::string(interrupted.what()).find("after step 2,"), std::string::npos) << interrupted.what();
+  }
+  interruption = 0;
+  EXPECT_EQ(shown.n, 2);
+  // The one made at the start.
+  Archive kept(read_checkpoint(file).state);
+  long n = -1;
+  kept(n);
+  EXPECT_EQ(n, 0);
+}
+
 TEST(Checkpoints, AreWrittenAtTheStartWhenDueAndAtTheEnd) {
   const Folder folder;
   const std::string file = folder / "run";

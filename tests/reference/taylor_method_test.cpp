@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 
+#include "hbvm/interruption.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/registry.hpp"
@@ -95,6 +97,18 @@ TEST_F(TaylorMethod, IsForMpfrAlone) {
     EXPECT_NE(std::string(error.what()).find("mpfr:"), std::string::npos) << error.what();
   }
   EXPECT_THROW(method->make_stepper(quad.problem, SolverKind::automatic), InputError);
+}
+
+TEST_F(TaylorMethod, IsEndedByASignalWithinAStep) {
+  const PrecisionScope scope(30);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("kepler"));
+  const auto stepper = parse_method("taylor")->make_stepper(scene.problem, SolverKind::automatic);
+  State<Mpfr> state(scene.q0, scene.p0);
+  interruption = SIGTERM;
+  EXPECT_THROW(stepper->step(state, Mpfr(10)), Interrupted);
+  interruption = 0;
+  EXPECT_EQ(state.q, scene.q0);
+  EXPECT_GT(stepper->step(state, Mpfr(10)), 1);
 }
 
 TEST_F(TaylorMethod, LeavesTheStateAtASingularity) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <functional>
 
+#include "hbvm/interruption.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
 
@@ -54,6 +56,17 @@ class StoppingRuleTest : public testing::Test {
   PrecisionScope digits_{50};
 };
 TYPED_TEST_SUITE(StoppingRuleTest, AllScalars, ScalarNames);
+
+/// A step that nearly every step is like is finished first.
+TYPED_TEST(StoppingRuleTest, IsEndedByASignalAfterManySweeps) {
+  using S = TypeParam;
+  Sequence<S> sequence({1});
+  const auto falls_slowly = [](long n, Index) { return S(1) / S(n); };
+  interruption = SIGTERM;
+  EXPECT_EQ(sequence.run(100, falls_slowly), Sequence<S>::Verdict::go_on);
+  EXPECT_THROW(sequence.run(101, falls_slowly), Interrupted);
+  interruption = 0;
+}
 
 /// 2^-(bits n), and what is left after sweep n is 2^-bits of it: the first n with 2^-(bits (n + 1)) <= 2^-12 epsilon.
 TYPED_TEST(StoppingRuleTest, EndsWhereTheNextChangeIsBelow2ToTheMinus12OfRoundOff) {

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 
+#include "hbvm/interruption.hpp"
 #include "hbvm/problem/point.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/odeint_methods.hpp"
@@ -40,6 +42,16 @@ TYPED_TEST(BulirschStoerTest, ReachesItsDigits) {
         }
       }
   }
+}
+
+TEST(BulirschStoer, IsEndedByASignalBetweenParts) {
+  const Assembled<double> scene = assemble<double>(load_scene("kepler"));
+  const auto stepper = parse_method("bulirsch_stoer:10")->make_stepper(scene.problem, SolverKind::automatic);
+  State<double> state(scene.q0, scene.p0);
+  interruption = SIGTERM;
+  EXPECT_THROW(stepper->step(state, 100), Interrupted);
+  EXPECT_EQ(stepper->step(state, 1.0 / 1'024), 1);
+  interruption = 0;
 }
 
 /// Powers of 2 of length and time change nothing but the units.

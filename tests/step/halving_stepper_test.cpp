@@ -1,5 +1,8 @@
 #include "hbvm/step/halving_stepper.hpp"
 
+#include <csignal>
+
+#include "hbvm/interruption.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
@@ -52,6 +55,17 @@ TEST_F(Halving, LeavesStepsThatSucceedAlone) {
   EXPECT_EQ(tried, std::vector<double>(5, 1));
   EXPECT_EQ(halving.log().steps, 0);
   EXPECT_EQ(halving.log().substeps, 0);
+}
+
+/// A million parts may take longer than anyone waits; a whole step is finished.
+TEST_F(Halving, IsEndedByASignalBetweenParts) {
+  HalvingStepper<double> halving = stepper([](double, double size) { return size > 1.0 / 4; });
+  HalvingStepper<double> whole = stepper([](double, double) { return false; });
+  interruption = SIGTERM;
+  EXPECT_THROW(halving.step(state, 1), Interrupted);
+  EXPECT_EQ(state.q[0], 1.0 / 4);
+  EXPECT_EQ(whole.step(state, 1), 1);
+  interruption = 0;
 }
 
 TEST_F(Halving, DividesOneThatFailsAndReturnsToTheWhole) {

@@ -22,7 +22,8 @@ struct Integration {
 /// at the start, whenever that is due, when a signal ends it, and at the end; one that resumes goes on where it was,
 /// with stepper and observers as they were, and shows what comes after.
 /// \throws StepError
-/// \throws Interrupted between two steps, if a signal asks for it
+/// \throws Interrupted if a signal asks for it: between two steps, or within one that is made of many parts; then what
+///         was kept last stays, as a stepper remembers parts of a step that was not finished
 template <Scalar S>
 Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
                          const std::vector<Observer<S>*>& observers, Checkpoints* checkpoints = nullptr);

@@ -126,10 +126,6 @@ std::optional<ErrorEstimate> estimate_by_store(const RunRequest& request, const 
 /// Beyond so many coordinates the series take more memory than a run.
 constexpr Index most_coordinates = 20'000;
 
-void look_at_signal() {
-  if (const int signal = interruption) throw Interrupted(signal, "the check was interrupted");
-}
-
 /// Against the exact motion, found with the digits of the scope by a route that chooses its own steps. \return nothing
 /// where there is none: from a start that leaves the hidden constraints, or where forces are not smooth
 template <Scalar S>
@@ -148,7 +144,7 @@ std::optional<ErrorEstimate> estimate_by_motion(const RunRequest& request, Route
   const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
   try {
     ExactPoint end = exact_end(scene.problem, from.q, back ? Vector<Mpfr>(-tangential) : tangential,
-                               magnitude(grid.until()), route, look_at_signal);
+                               magnitude(grid.until()), route, [] { end_on_signal("the check was interrupted"); });
     if (back) end.p = -end.p;
     RedundantConstraints<Mpfr> redundant(scene.problem);
     const Index d = scene.problem.dimension;
