@@ -29,6 +29,13 @@ int degree(Op op, int a, int b) {
   }
 }
 
+/// Whether Re x > 1, so that exp(x) is more than what is added to it.
+bool is_large(const Ball& x) {
+  Ball less;
+  acb_sub_ui(raw(less), raw(x), 1, bits);
+  return arb_is_positive(less.real()) != 0;
+}
+
 }  // namespace
 
 std::size_t BallProgram::directions_of(Op op) {
@@ -55,6 +62,7 @@ BallProgram::BallProgram(const Program<Mpfr>& program, Index inputs, const std::
   for (const Mpfr* x : coefficients) balls_.emplace_back(*x);
   for (const Mpfr& x : program.constants()) balls_.emplace_back(x);
   balls_.resize(values);
+  exponents_.resize(values);
   loops_.resize(values, Loop(Mpfr(0)));
   for (std::size_t i = inputs_; i < results; ++i)
     loops_[i] = Loop(i < constants ? *coefficients[i - inputs_] : program.constants()[i - constants]);
@@ -131,8 +139,9 @@ bool BallProgram::evaluate(const Arc& arc) {
   for (const Step& step : steps_)
     if (!apply(step, arc)) return false;
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    if (!outputs_[i]->is_finite()) return fails("a value beyond all bounds");
-    if (!(outputs_[i]->log2_size() <= (*log2_limits_)[i])) return fails("a force that changes too much");
+    const Ball output = whole(outputs_[i]);
+    if (!output.is_finite()) return fails("a value beyond all bounds");
+    if (!(output.log2_size() <= (*log2_limits_)[i])) return fails("a force that changes too much");
   }
   return true;
 }
@@ -188,7 +197,154 @@ long BallProgram::turn_back(std::size_t i, const Ball& x) {
   return even / 2;
 }
 
+Ball BallProgram::whole(const Ball* value) {
+  Ball result = *value;
+  const Exponent& exponent = exponent_of(value);
+  if (!exponent.there) return result;
+  Ball power;
+  acb_exp(raw(power), raw(exponent.v), bits);
+  acb_mul(raw(result), raw(result), raw(power), bits);
+  return result;
+}
+
+void BallProgram::add_scaled(const Step& step, const Arc& arc) {
+  const Exponent &a = exponent_of(step.a), &b = exponent_of(step.b);
+  Exponent& z = exponent_of(step.z);
+  const auto sum = [&](const Ball& x, const Ball& y) {
+    (step.op == Op::add ? acb_add : acb_sub)(raw(*step.z), raw(x), raw(y), bits);
+  };
+  Ball apart;  // of the exponents
+  acb_sub(raw(apart), raw(a.v), raw(b.v), bits);
+  const bool alike = a.there && b.there && a.of != nullptr && a.of == b.of && a.sign == b.sign;
+  if (arc.first) {
+    Ball opposite;
+    acb_neg(raw(opposite), raw(apart));
+    z.first_is_greater = a.there && (alike || is_large(apart));
+    z.there = z.first_is_greater || (b.there && is_large(opposite));
+    const Exponent& greater = z.first_is_greater ? a : b;
+    z.of = greater.of;
+    z.sign = greater.sign;
+  }
+  if (!z.there) {
+    acb_zero(raw(z.v));
+    sum(whole(step.a), whole(step.b));
+    return;
+  }
+  acb_set(raw(z.v), raw(z.first_is_greater ? a.v : b.v));
+  if (alike) {
+    sum(*step.a, *step.b);
+    return;
+  }
+  if (z.first_is_greater) acb_neg(raw(apart), raw(apart));
+  acb_exp(raw(apart), raw(apart), bits);
+  Ball other = z.first_is_greater ? *step.b : *step.a;
+  acb_mul(raw(other), raw(other), raw(apart), bits);
+  if (z.first_is_greater)
+    sum(*step.a, other);
+  else
+    sum(other, *step.b);
+}
+
+void BallProgram::start_hyperbolic(const Step& step, const Arc& arc) {
+  Exponent& z = exponent_of(step.z);
+  const Ball a = whole(step.a);
+  if (arc.first) {
+    Ball opposite;
+    acb_neg(raw(opposite), raw(a));
+    z.sign = is_large(opposite) ? -1 : 1;
+    z.there = z.sign < 0 || is_large(a);
+    z.of = exponent_of(step.a).there ? nullptr : step.a;
+  }
+  if (!z.there) {
+    acb_zero(raw(z.v));
+    (step.op == Op::cosh ? acb_cosh : acb_sinh)(raw(*step.z), raw(a), bits);
+    return;
+  }
+  // cosh a = exp(sign a) (1 + exp(-2 sign a))/2; sinh a likewise.
+  acb_mul_si(raw(z.v), raw(a), z.sign, bits);
+  acb_mul_si(raw(t_), raw(z.v), -2, bits);
+  acb_exp(raw(t_), raw(t_), bits);
+  if (step.op == Op::sinh) acb_neg(raw(t_), raw(t_));
+  acb_add_ui(raw(t_), raw(t_), 1, bits);
+  if (step.op == Op::sinh) acb_mul_si(raw(t_), raw(t_), z.sign, bits);
+  acb_mul_2exp_si(raw(*step.z), raw(t_), -1);
+}
+
+bool BallProgram::apply_scaled(const Step& step, const Arc& arc, bool& known) {
+  const Exponent& a = exponent_of(step.a);
+  Exponent& z = exponent_of(step.z);
+  known = true;
+  if (step.op == Op::exp) {
+    z.there = true;
+    z.sign = 1;
+    z.of = a.there ? nullptr : step.a;
+    acb_set(raw(z.v), raw(whole(step.a)));
+    acb_one(raw(*step.z));
+    return true;
+  }
+  if (step.op == Op::cosh || step.op == Op::sinh) {
+    start_hyperbolic(step, arc);
+    return true;
+  }
+  const bool binary = is_binary(step.op);
+  if (!a.there && !(binary && exponent_of(step.b).there)) {
+    z.there = false;
+    acb_zero(raw(z.v));
+    return false;
+  }
+  // What keeps the exponent of its argument, times 1, -1 or 1/2.
+  const auto keep = [&](int sign) {
+    z.there = true;
+    z.of = a.of;
+    z.sign = sign * a.sign;
+    acb_mul_si(raw(z.v), raw(a.v), sign, bits);
+  };
+  switch (step.op) {
+    case Op::add:
+    case Op::subtract:
+      add_scaled(step, arc);
+      return true;
+    case Op::multiply: {
+      const Exponent& b = exponent_of(step.b);
+      z.there = true;
+      z.of = a.there && b.there ? nullptr : a.there ? a.of : b.of;
+      z.sign = a.there ? a.sign : b.sign;
+      if (a.there && b.there)
+        acb_add(raw(z.v), raw(a.v), raw(b.v), bits);
+      else
+        acb_set(raw(z.v), raw(a.there ? a.v : b.v));
+      acb_mul(raw(*step.z), raw(*step.a), raw(*step.b), bits);
+      return true;
+    }
+    case Op::negate:
+      keep(1);
+      acb_neg(raw(*step.z), raw(*step.a));
+      return true;
+    case Op::reciprocal:
+      known = turn(step.direction, *step.a, arc, "a division by 0");
+      if (!known) return true;
+      keep(-1);
+      acb_inv(raw(*step.z), raw(*step.a), bits);
+      return true;
+    default: {
+      // Of what has no rule of its own the argument is one ball.
+      z.there = false;
+      acb_zero(raw(z.v));
+      const Ball argument = whole(step.a);
+      Step plain = step;
+      plain.a = &argument;
+      known = apply_plain(plain, arc);
+      return true;
+    }
+  }
+}
+
 bool BallProgram::apply(const Step& step, const Arc& arc) {
+  bool known = true;
+  return apply_scaled(step, arc, known) ? known : apply_plain(step, arc);
+}
+
+bool BallProgram::apply_plain(const Step& step, const Arc& arc) {
   const acb_srcptr a = raw(*step.a);
   const acb_ptr z = raw(*step.z);
   switch (step.op) {
@@ -226,23 +382,18 @@ bool BallProgram::apply(const Step& step, const Arc& arc) {
       }
       return true;
     }
-    case Op::exp:
-      acb_exp(z, a, bits);
-      return true;
     case Op::sin:
       acb_sin(z, a, bits);
       return true;
     case Op::cos:
       acb_cos(z, a, bits);
       return true;
-    case Op::sinh:
-      acb_sinh(z, a, bits);
-      return true;
-    case Op::cosh:
-      acb_cosh(z, a, bits);
-      return true;
     case Op::tanh:
-      acb_cosh(raw(u_), a, bits);
+      // Its poles are the zeros of 1 + exp(-2 a), and of 1 + exp(2 a).
+      if (arc.first) exponent_of(step.z).sign = arb_is_negative(step.a->real()) != 0 ? -1 : 1;
+      acb_mul_si(raw(u_), a, exponent_of(step.z).sign * -2, bits);
+      acb_exp(raw(u_), raw(u_), bits);
+      acb_add_ui(raw(u_), raw(u_), 1, bits);
       if (!turn(step.direction, u_, arc, "a pole of tanh")) return false;
       acb_tanh(z, a, bits);
       return true;

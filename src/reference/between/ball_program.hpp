@@ -16,6 +16,10 @@ namespace hbvm {
 /// function has as many zeros inside a curve as it turns about 0 along it (the argument principle). Roots and
 /// logarithms are continued from arc to arc, so that they are of one branch. Values of degree 2 in the inputs, such as
 /// the square of a distance, are computed as loops, whose terms may cancel.
+///
+/// Far from where it matters exp(a) turns about 0 as often as Im a passes 2 pi, and yet has no zero. So values are kept
+/// as m exp(v), of which m alone is followed: 1/cosh(a), tanh(a) and 1/(c + exp(a)) are known to be analytic where Re a
+/// keeps its sign, however large a is.
 class BallProgram {
  public:
   /// The first inputs vary; the others are numbers, `coefficients`.
@@ -33,6 +37,14 @@ class BallProgram {
   struct Direction {
     long quarters = 0, first = 0;
     const char* singularity = "";  ///< what 0 is
+  };
+  /// Of a value m exp(v), whose m is its ball. That it has a v, and which, is decided where a curve begins.
+  struct Exponent {
+    bool there = false;
+    int sign = 1;                  ///< v is this times `of`, if that is there
+    const Ball* of = nullptr;      ///< null: a sum of others
+    bool first_is_greater = true;  ///< of a sum of two
+    Ball v;                        ///< 0 if there is none
   };
   struct Step {
     Op op;
@@ -54,6 +66,15 @@ class BallProgram {
   bool follow(const Arc& arc, int divisions);
   bool evaluate(const Arc& arc);
   bool apply(const Step& step, const Arc& arc);
+  /// The operations that make an exponent or keep it. \return whether this is one of them; if so, `known` is what
+  /// apply() returns
+  bool apply_scaled(const Step& step, const Arc& arc, bool& known);
+  bool apply_plain(const Step& step, const Arc& arc);
+  void add_scaled(const Step& step, const Arc& arc);
+  void start_hyperbolic(const Step& step, const Arc& arc);
+  Exponent& exponent_of(const Ball* value) { return exponents_[static_cast<std::size_t>(value - balls_.data())]; }
+  /// m exp(v) as a ball.
+  Ball whole(const Ball* value);
   /// Turns direction i towards x. \return whether x is known to lie on one side of 0
   bool turn(std::size_t i, const Ball& x, const Arc& arc, const char* what);
   /// x turned back by an even number of quarter turns to where its principal root and logarithm are continuous.
@@ -62,7 +83,8 @@ class BallProgram {
   bool fails(const char* what);
 
   std::size_t inputs_;
-  std::vector<Ball> balls_;  ///< of each value: inputs, coefficients and constants, results
+  std::vector<Ball> balls_;          ///< of each value: inputs, coefficients and constants, results
+  std::vector<Exponent> exponents_;  ///< likewise
   std::vector<Step> steps_;
   std::vector<Polynomial> polynomials_;
   std::vector<std::size_t> enclosed_;  ///< the loops of which balls are wanted

@@ -109,6 +109,60 @@ TEST(BallProgram, SeesABumpBesideTheCurve) {
   EXPECT_FALSE(function.is_bounded(2, 0));
 }
 
+/// Steep functions are analytic up to the line of poles beside the real axis, though exp turns thousands of times on
+/// such circles; and not beyond.
+TEST(BallProgram, SeesSteepWallsFromAfar) {
+  const double pole = std::hypot(1, 1e-5 * std::numbers::pi / 2), double_pole = std::hypot(1, 1e-5 * std::numbers::pi);
+  for (const char* side : {"1", "-1"}) {
+    const auto steep = [](const Value& x) { return 100000 * x; };
+    OnCircles([&](const Value& x) { return tanh(steep(x)); }, side).expect_singularity_at(pole, "tanh");
+    OnCircles([&](const Value& x) { return 1 / cosh(steep(x)); }, side).expect_singularity_at(pole, "1/cosh");
+    OnCircles([&](const Value& x) { return 1 / sinh(steep(x)); }, side).expect_singularity_at(1, "1/sinh");
+    OnCircles([&](const Value& x) { return 1 / (exp(steep(x)) + 3); }, side)
+        .expect_singularity_at(double_pole, "1/(exp + 3)");
+    OnCircles([&](const Value& x) { return 1 / (exp(steep(x)) - 3); }, side).expect_singularity_at(1, "1/(exp - 3)");
+    OnCircles([&](const Value& x) { return exp(steep(x)) / (exp(2 * steep(x)) + 5 * exp(steep(x)) + 1); }, side)
+        .expect_singularity_at(1, "of two exponentials");
+  }
+}
+
+/// Values kept beside an exponential are what they are: sums of like and unlike ones, products, quotients, negatives.
+TEST(BallProgram, KeepsExponentsApart) {
+  const auto expect_small = [](const std::function<Value(const Value&)>& f, const char* middle, const char* name) {
+    OnCircles function(f, middle);
+    // Balls of arcs are some hundredths wide.
+    EXPECT_TRUE(function.is_bounded(1, 0)) << name << ": " << function.obstacle;
+  };
+  for (const char* middle : {"5/2", "-5/2"}) {
+    expect_small([](const Value& x) { return exp(x) * exp(-x) - 1; }, middle, "exp(x) exp(-x)");
+    expect_small([](const Value& x) { return 1 / exp(x) - exp(-x); }, middle, "1/exp(x)");
+    expect_small([](const Value& x) { return (cosh(x) - sinh(x)) * exp(x) - 1; }, middle, "cosh - sinh");
+    expect_small([](const Value& x) { return (cosh(x) + sinh(x)) * exp(-x) - 1; }, middle, "cosh + sinh");
+    expect_small([](const Value& x) { return sinh(x) / cosh(x) - tanh(x); }, middle, "sinh/cosh");
+    expect_small([](const Value& x) { return (exp(x) + 2) * exp(-x) - 2 * exp(-x) - 1; }, middle, "exp + 2");
+    expect_small([](const Value& x) { return (exp(2 * x) - exp(x)) * exp(-(2 * x)) + exp(-x) - 1; }, middle,
+                 "of two exponentials");
+    expect_small([](const Value& x) { return sin(exp(x / 10) - exp(x / 10)); }, middle, "sin of an exponential");
+  }
+}
+
+/// The same program on one curve after another: what it decided on the one is not left on the next.
+TEST(BallProgram, DecidesAnewOnEachCurve) {
+  Trace<Mpfr> trace;
+  const PrecisionScope scope(30);
+  const Value x(trace, trace.input(0));
+  const Program<Mpfr> program = trace.compile({(exp(x) + 1).id()}, 1, 0).program;
+  BallProgram balls(program, 1, {});
+  for (const int middle : {20, -20, 20, 0}) {
+    const std::vector<Mpfr> series{Mpfr(middle), Mpfr(1)};
+    const std::vector<Loop> loops{
+        circle_of([&](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; }, 1, 0)};
+    const double log2_size = std::log2(1 + std::exp(middle + 1.0));
+    EXPECT_TRUE(balls.is_bounded(loops, {log2_size + 1.2})) << middle << " " << balls.obstacle();
+    EXPECT_FALSE(balls.is_bounded(loops, {log2_size - 1.2})) << middle;
+  }
+}
+
 TEST(BallProgram, SaysWhatIsInTheWay) {
   OnCircles pole([](const Value& x) { return 1 / x; }, "1");
   EXPECT_FALSE(pole.is_bounded(1));
