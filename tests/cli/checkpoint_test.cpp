@@ -328,8 +328,8 @@ TEST(Start, AndReverseComeBackToRoundOff) {
       EXPECT_EQ(split(lines_of(text_of(back)).back()).at(0), "-2");
       with_scalar(Precision::parse(precision), [&]<Scalar S>() {
         for (std::size_t i = 0; i < 4; ++i) {
-          EXPECT_EQ(first[1 + i], forth["q"][i]);
-          EXPECT_EQ(first[5 + i], forth["p"][i]);
+          EXPECT_EQ(forth["q"][i], first[1 + i]);
+          EXPECT_EQ(forth["p"][i], first[5 + i]);
           const auto miss = [&](const ordered_json& came, const std::string& from) {
             return magnitude(S(literal<S>(came.get<std::string>()) - literal<S>(from)));
           };
