@@ -10,8 +10,10 @@ configure_package_config_file(src/install/hbvmConfig.cmake.in ${made}/hbvmConfig
                               INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${made}/hbvmConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${made}/hbvmConfig.cmake ${made}/hbvmConfigVersion.cmake DESTINATION ${package_folder})
-list(TRANSFORM BALL_LIBRARIES PREPEND -l OUTPUT_VARIABLE flags)
-list(JOIN flags " " BALL_LIBRARY_FLAGS)
+set(library_flags ${BALL_LIBRARIES} ${HBVM_QUAD_LIBRARY})
+list(TRANSFORM library_flags PREPEND -l)
+list(JOIN library_flags " " library_flags)
+list(TRANSFORM HBVM_QUAD_DEFINITION PREPEND -D OUTPUT_VARIABLE quad_flag)
 configure_file(src/install/hbvm.pc.in ${made}/hbvm.pc @ONLY)
 install(FILES ${made}/hbvm.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

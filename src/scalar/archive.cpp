@@ -76,6 +76,7 @@ void Archive::keep(double& x) {
   if (error != std::errc() || end != token.data() + token.size()) refuse("'" + std::string(token) + "' is no number");
 }
 
+#if HBVM_QUAD
 void Archive::keep(Quad& x) {
   if (!reading_) return write(hexadecimal(raw(exactly(x))));
   const std::string_view token = read();
@@ -83,6 +84,7 @@ void Archive::keep(Quad& x) {
   if (!set_to_hexadecimal(raw(value), token)) refuse("'" + std::string(token) + "' is no number");
   x = rounded_to<Quad>(raw(value));
 }
+#endif
 
 void Archive::keep(Mpfr& x) {
   auto bits = static_cast<long>(mpfr_get_prec(raw(x)));

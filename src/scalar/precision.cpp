@@ -3,12 +3,17 @@
 #include <charconv>
 
 #include "hbvm/error.hpp"
+#include "hbvm/scalar/quad.hpp"
 
 namespace hbvm {
 
 Precision Precision::parse(std::string_view name) {
   if (name == "double") return {Kind::binary64, 15};
-  if (name == "quad") return {Kind::binary128, 33};
+  if (name == "quad") {
+    if (has_quad) return {Kind::binary128, 33};
+    throw InputError(
+        "precision 'quad' is not in this build of hbvm (HBVM_QUAD is off): use mpfr:34, of as many digits");
+  }
   constexpr std::string_view prefix = "mpfr:";
   const bool digits_alone = !name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos;
   if (name.starts_with(prefix) || digits_alone) {
@@ -34,5 +39,7 @@ std::string Precision::name() const {
   }
   return "mpfr:" + std::to_string(digits_);
 }
+
+const char* precision_of_34_digits() { return has_quad ? "quad" : "mpfr:34"; }
 
 }  // namespace hbvm

@@ -4,6 +4,33 @@
 #include <cmath>
 
 namespace hbvm {
+
+template <>
+double rounded_to<double>(mpfr_srcptr x) {
+  return mpfr_get_d(x, MPFR_RNDN);
+}
+
+template <>
+Mpfr rounded_to<Mpfr>(mpfr_srcptr x) {
+  Mpfr result;
+  mpfr_set(raw(result), x, MPFR_RNDN);
+  return result;
+}
+
+BigFloat exactly(double x) {
+  BigFloat result(std::numeric_limits<double>::digits);
+  mpfr_set_d(raw(result), x, MPFR_RNDN);
+  return result;
+}
+
+BigFloat exactly(const Mpfr& x) {
+  BigFloat result(mpfr_get_prec(raw(x)));
+  mpfr_set(raw(result), raw(x), MPFR_RNDN);
+  return result;
+}
+
+#if HBVM_QUAD
+
 namespace {
 
 constexpr long quad_bits = std::numeric_limits<Quad>::digits;
@@ -19,11 +46,6 @@ BigFloat power_of_two(long exponent) {
 }
 
 }  // namespace
-
-template <>
-double rounded_to<double>(mpfr_srcptr x) {
-  return mpfr_get_d(x, MPFR_RNDN);
-}
 
 template <>
 Quad rounded_to<Quad>(mpfr_srcptr x) {
@@ -50,19 +72,6 @@ Quad rounded_to<Quad>(mpfr_srcptr x) {
   return boost::multiprecision::ldexp(sum, static_cast<int>(exponent));
 }
 
-template <>
-Mpfr rounded_to<Mpfr>(mpfr_srcptr x) {
-  Mpfr result;
-  mpfr_set(raw(result), x, MPFR_RNDN);
-  return result;
-}
-
-BigFloat exactly(double x) {
-  BigFloat result(std::numeric_limits<double>::digits);
-  mpfr_set_d(raw(result), x, MPFR_RNDN);
-  return result;
-}
-
 BigFloat exactly(const Quad& x) {
   BigFloat result(std::numeric_limits<Quad>::digits);
   if (!isfinite(x) || x == 0) {
@@ -82,10 +91,6 @@ BigFloat exactly(const Quad& x) {
   return result;
 }
 
-BigFloat exactly(const Mpfr& x) {
-  BigFloat result(mpfr_get_prec(raw(x)));
-  mpfr_set(raw(result), raw(x), MPFR_RNDN);
-  return result;
-}
+#endif
 
 }  // namespace hbvm

@@ -107,7 +107,9 @@ BigFloat number_of(const std::string& decimal, int digits) {
 }  // namespace
 
 std::string to_text(const Mpfr& x) { return text_of(exactly(x)); }
+#if HBVM_QUAD
 std::string to_text(const Quad& x) { return text_of(exactly(x)); }
+#endif
 
 std::string to_text(double x) {
   if (x != x || x - x != 0 || x == 0) return special(exactly(x));
@@ -124,7 +126,9 @@ std::string to_text(double x) {
 }
 
 std::string to_scientific(const Mpfr& x, int digits) { return scientific(exactly(x), digits); }
+#if HBVM_QUAD
 std::string to_scientific(const Quad& x, int digits) { return scientific(exactly(x), digits); }
+#endif
 std::string to_scientific(double x, int digits) { return scientific(exactly(x), digits); }
 std::string to_scientific(const std::string& decimal, int digits) {
   return scientific(number_of(decimal, digits), digits);

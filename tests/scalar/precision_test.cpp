@@ -17,6 +17,7 @@ TEST(Precision, ReadsQuad) {
   const Precision precision = Precision::parse("quad");
   EXPECT_EQ(precision.kind(), Precision::Kind::binary128);
   EXPECT_EQ(precision.digits(), 33u);
+  EXPECT_EQ(precision.name(), precision_of_34_digits());
 }
 
 TEST(Precision, ReadsMpfrWithinItsLimits) {

@@ -12,7 +12,7 @@ class Precision {
   static constexpr unsigned min_digits = 20;
   static constexpr unsigned max_digits = 10'000;
 
-  /// \throws InputError unless `name` is one of these forms and min_digits <= N <= max_digits
+  /// \throws InputError unless `name` is one of these forms, min_digits <= N <= max_digits and this build has quad
   static Precision parse(std::string_view name);
 
   Kind kind() const { return kind_; }
@@ -27,5 +27,8 @@ class Precision {
   Kind kind_;
   unsigned digits_;
 };
+
+/// The cheapest precision of 34 digits: "quad", or "mpfr:34" of a build without it.
+const char* precision_of_34_digits();
 
 }  // namespace hbvm

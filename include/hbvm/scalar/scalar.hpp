@@ -13,8 +13,12 @@ namespace hbvm {
 template <class S>
 concept Scalar = std::same_as<S, double> || std::same_as<S, Quad> || std::same_as<S, Mpfr>;
 
-/// The one list of the scalars: HBVM_FOR_EACH_SCALAR(X) expands X(double) X(Quad) X(Mpfr).
+/// The one list of the scalars of this build: HBVM_FOR_EACH_SCALAR(X) expands X(double) X(Quad) X(Mpfr).
+#if HBVM_QUAD
 #define HBVM_FOR_EACH_SCALAR(X) X(double) X(::hbvm::Quad) X(::hbvm::Mpfr)
+#else
+#define HBVM_FOR_EACH_SCALAR(X) X(double) X(::hbvm::Mpfr)
+#endif
 
 /// Significand bits of the working precision.
 template <Scalar S>

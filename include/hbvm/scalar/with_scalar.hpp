@@ -20,7 +20,9 @@ auto with_scalar(const Precision& precision, F&& f) {
     case Precision::Kind::binary64:
       return std::forward<F>(f).template operator()<double>();
     case Precision::Kind::binary128:
+#if HBVM_QUAD
       return std::forward<F>(f).template operator()<Quad>();
+#endif
     case Precision::Kind::mpfr:
       break;
   }

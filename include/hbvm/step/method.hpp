@@ -60,9 +60,9 @@ class Method {
 
   /// What makes its steppers, with the coefficients that they share. The problem must outlive them. The solver is for
   /// stage equations that leave a choice. \throws InputError if the method is not for this problem
-  virtual StepperMaker<double> prepare(const Problem<double>& problem, SolverKind solver) const = 0;
-  virtual StepperMaker<Quad> prepare(const Problem<Quad>& problem, SolverKind solver) const = 0;
-  virtual StepperMaker<Mpfr> prepare(const Problem<Mpfr>& problem, SolverKind solver) const = 0;
+#define HBVM_DECLARE(S) virtual StepperMaker<S> prepare(const Problem<S>& problem, SolverKind solver) const = 0;
+  HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
 
   /// One of them.
   template <Scalar S>
@@ -79,15 +79,12 @@ using MethodPtr = std::shared_ptr<const Method>;
 template <class Own>
 class MethodByTemplate : public Method {
  public:
-  StepperMaker<double> prepare(const Problem<double>& problem, SolverKind solver) const override {
-    return own().prepare_in(problem, solver);
+#define HBVM_DECLARE(S)                                                                  \
+  StepperMaker<S> prepare(const Problem<S>& problem, SolverKind solver) const override { \
+    return own().prepare_in(problem, solver);                                            \
   }
-  StepperMaker<Quad> prepare(const Problem<Quad>& problem, SolverKind solver) const override {
-    return own().prepare_in(problem, solver);
-  }
-  StepperMaker<Mpfr> prepare(const Problem<Mpfr>& problem, SolverKind solver) const override {
-    return own().prepare_in(problem, solver);
-  }
+  HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
 
  private:
   const Own& own() const { return static_cast<const Own&>(*this); }

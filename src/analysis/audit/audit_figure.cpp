@@ -77,7 +77,7 @@ Figure audit_figure(const std::string& folder) {
   const std::filesystem::path path(folder);
   const auto in_all_precisions = [](Quantity quantity, const MethodPtr& method) {
     return std::vector<Line>{{quantity, method, "mpfr:50", "50 digits"},
-                             {quantity, method, "quad", "quad"},
+                             {quantity, method, precision_of_34_digits(), precision_of_34_digits()},
                              {quantity, method, "double", "double"}};
   };
   Figure figure;

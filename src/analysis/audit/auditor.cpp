@@ -23,7 +23,8 @@ namespace hbvm {
 namespace {
 
 /// Precisions in the order in which they are tried.
-constexpr std::string_view precisions[] = {"double", "quad", "mpfr:50", "mpfr:100", "mpfr:200", "mpfr:400"};
+const std::string_view precisions[] = {"double",  precision_of_34_digits(), "mpfr:50", "mpfr:100", "mpfr:200",
+                                       "mpfr:400"};
 /// Of the errors of one step, at least so many; of what is conserved to round-off, exactly so many.
 constexpr std::size_t deep = 4;
 
@@ -430,7 +431,8 @@ void Auditor::check_tableau() {
       if (f.verdict == Verdict::fails) continue;
       if (f.measured <= f.uncertainty) {
         f.verdict = Verdict::holds;
-        f.reason = "the conditions are met in double, quad and to " + std::to_string(precision.digits()) + " digits";
+        f.reason = "the conditions are met in double, " + std::string(precision_of_34_digits()) + " and to " +
+                   std::to_string(precision.digits()) + " digits";
       } else {
         fail(f, "it is more than round-off");
       }

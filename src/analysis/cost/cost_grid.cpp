@@ -121,7 +121,7 @@ double reachable_digits(const Precision& precision, const MotionNature& nature) 
 std::vector<Precision> default_precisions(double most_digits, const MotionNature& nature) {
   std::vector<Precision> result;
   double reached = 0;
-  for (const char* const name : {"double", "quad"})
+  for (const char* const name : {"double", precision_of_34_digits()})
     if (reached < most_digits) {
       result.push_back(Precision::parse(name));
       reached = reachable_digits(result.back(), nature);

@@ -47,7 +47,7 @@ CostMeasurement MethodErrors::run(const MethodPtr& method, const Precision& prec
 
 /// Where errors of few digits are not lost in the motion's growth of rounding.
 Precision MethodErrors::pilot_precision(double digits) const {
-  for (const char* const name : {"double", "quad"})
+  for (const char* const name : {"double", precision_of_34_digits()})
     if (reachable_digits(Precision::parse(name), nature_) >= digits) return Precision::parse(name);
   return Precision::parse("mpfr:" + std::to_string(static_cast<int>(std::ceil(digits + nature_.digits_lost)) + 4));
 }

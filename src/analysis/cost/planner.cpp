@@ -50,7 +50,7 @@ class Planner {
     constexpr double sure = 1;
     const MotionNature harmless{};
     std::vector<Precision> result;
-    for (const char* const name : {"double", "quad"}) {
+    for (const char* const name : {"double", precision_of_34_digits()}) {
       const Precision precision = Precision::parse(name);
       if (reachable_digits(precision, harmless) >= request_.digits) result.push_back(precision);
       if (precision.kind() == Precision::Kind::binary64 &&

@@ -28,9 +28,10 @@ std::vector<CostCell> step_time_cells(const CostStudy& study, const MotionNature
   std::vector<CostCell> cells;
   for (const MethodPtr& method : study.methods) {
     if (!shows_a_step(*method)) continue;
-    for (const char* const name :
+    for (const std::string_view name :
          {"double", "quad", "mpfr:20", "mpfr:34", "mpfr:50", "mpfr:100", "mpfr:200", "mpfr:500", "mpfr:1000"})
-      cells.push_back({method, Precision::parse(name), std::max(1L, std::lround(usual_steps(study, nature)))});
+      if (has_quad || name != "quad")
+        cells.push_back({method, Precision::parse(name), std::max(1L, std::lround(usual_steps(study, nature)))});
   }
   return cells;
 }

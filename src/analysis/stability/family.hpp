@@ -26,12 +26,14 @@ class Family {
   using Measure = std::function<CaseResult(const std::string& precision)>;
   void add(const std::string& name, const std::string& parameter, const std::vector<std::string>& precisions,
            const Expected& expected, const Measure& measure, double seconds = 0) const {
-    for (const std::string& precision : precisions)
+    for (std::string precision : precisions) {
+      if (precision == "quad") precision = precision_of_34_digits();
       cases_.push_back({name_, name, parameter, precision, expected,
                         seconds > 0 ? seconds
                         : full_     ? 300
                                     : 20,
                         [measure, precision] { return measure(precision); }});
+    }
   }
   /// A run of a scene, measured by what `measure` does with the request.
   void add_run(const std::string& name, const std::string& parameter, const std::vector<std::string>& precisions,
