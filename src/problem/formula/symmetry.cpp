@@ -22,11 +22,30 @@ class Spread {
   std::uint32_t state_ = 1;
 };
 
+/// While it lives, this thread's numbers have the widest range of exponents there is: bumps that are narrow and far
+/// away are still felt.
+class WidestRange {
+ public:
+  WidestRange() {
+    mpfr_set_emin(mpfr_get_emin_min());
+    mpfr_set_emax(mpfr_get_emax_max());
+  }
+  ~WidestRange() {
+    mpfr_set_emin(least_);
+    mpfr_set_emax(greatest_);
+  }
+  WidestRange(const WidestRange&) = delete;
+
+ private:
+  mpfr_exp_t least_ = mpfr_get_emin(), greatest_ = mpfr_get_emax();
+};
+
 /// The equations that one instance puts up, for its points.
 class Sampling {
  public:
-  Sampling(const EffectTerm<Mpfr>& term, const std::vector<SpaceBlock>& blocks, Index dimension)
-      : term_(term), blocks_(blocks), d_(dimension), rotations_(dimension == 2 ? 1 : 3) {}
+  /// \param is_number U varies with nothing
+  Sampling(const EffectTerm<Mpfr>& term, const std::vector<SpaceBlock>& blocks, Index dimension, bool is_number)
+      : term_(term), blocks_(blocks), d_(dimension), rotations_(dimension == 2 ? 1 : 3), is_number_(is_number) {}
 
   std::size_t rotations() const { return static_cast<std::size_t>(rotations_); }
   std::size_t columns() const { return static_cast<std::size_t>(rotations_ + d_); }
@@ -53,12 +72,16 @@ class Sampling {
         for (Index k = 0; k < rotations_; ++k) result[static_cast<std::size_t>(k)].value += g * turned(k, at)[i];
       }
     }
+    felt_ = force > 0;
     for (std::size_t j = 0; j < columns(); ++j) {
       const Mpfr size = j < rotations() ? Mpfr(force * reach) : force;
       result[j].error = size * sqrt(epsilon<Mpfr>());
     }
     return result;
   }
+
+  /// Whether there was a force at the last point, or U is a number.
+  bool felt() const { return felt_ || is_number_; }
 
   /// What the equations of an instance depend on, where its displacements can be any vectors: its parameters, and the
   /// T_a. Nothing where they cannot.
@@ -100,6 +123,8 @@ class Sampling {
   const EffectTerm<Mpfr>& term_;
   const std::vector<SpaceBlock>& blocks_;
   Index d_, rotations_;
+  bool is_number_;
+  mutable bool felt_ = false;
 };
 
 /// Some equations more than there are unknowns, at points in a region about q where U has a gradient.
@@ -115,14 +140,14 @@ void sample(const Sampling& sampling, Index instance, const Vector<Mpfr>& q, std
       Vector<Mpfr> near = q;
       for (Index j = 0; j < q.size(); ++j) near[j] += radius * spread.next();
       auto row = sampling.row(instance, near);
-      if (!row) break;
+      if (!row || !sampling.felt()) break;
       found.push_back(std::move(*row));
     }
     if (found.size() < count) continue;
     rows.insert(rows.end(), found.begin(), found.end());
     return;
   }
-  // Nowhere around has it a gradient: nothing is said to keep it.
+  // Nowhere around has it a gradient that is felt: nothing is said to keep it.
   for (std::size_t j = 0; j < sampling.columns(); ++j) {
     rows.emplace_back(sampling.columns());
     rows.back()[j] = 1;
@@ -144,7 +169,11 @@ EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<S
     const PrecisionScope many(2 * digits + 700);
     const FormulaUse<Mpfr> exact = exactly(use);
     const EffectTerm<Mpfr> term = make_term(exact);
-    const Sampling sampling(term, blocks, use.dimension);
+    const std::set<std::string> names = use.formula.names();
+    const bool is_number =
+        std::none_of(names.begin(), names.end(), [&](const std::string& name) { return use.variables.contains(name); });
+    const WidestRange widest;
+    const Sampling sampling(term, blocks, use.dimension, is_number);
     columns = sampling.columns();
     Vector<Mpfr> start(q.size());
     for (Index j = 0; j < q.size(); ++j) start[j] = rounded_to<Mpfr>(raw(exactly(q[j])));
@@ -157,8 +186,13 @@ EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<S
     // What is across the motions that keep it says the same in as few equations as there can be.
     for (const UncertainRow& row :
          null_space(null_space(std::move(rows), columns, sampling.rotations()), columns, sampling.rotations())) {
+      // Of a force of short range they may be beyond the range of S; their sizes say nothing.
+      Mpfr greatest = 0;
+      for (const Uncertain& x : row)
+        if (!x.holds_zero()) raise_to(greatest, magnitude(x.value));
       conditions.emplace_back();
-      for (const Uncertain& x : row) conditions.back().push_back(exactly(x.holds_zero() ? Mpfr(0) : x.value));
+      for (const Uncertain& x : row)
+        conditions.back().push_back(exactly(x.holds_zero() ? Mpfr(0) : Mpfr(x.value / greatest)));
     }
   }
   result.conditions.resize(static_cast<Index>(conditions.size()), static_cast<Index>(columns));
