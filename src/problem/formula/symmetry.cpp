@@ -6,6 +6,7 @@
 
 #include "hbvm/linear/null_space.hpp"
 #include "hbvm/problem/effect/execution.hpp"
+#include "scalar/expression_node.hpp"
 
 namespace hbvm {
 namespace {
@@ -72,7 +73,7 @@ class Sampling {
         for (Index k = 0; k < rotations_; ++k) result[static_cast<std::size_t>(k)].value += g * turned(k, at)[i];
       }
     }
-    felt_ = force > 0;
+    force_ = force;
     for (std::size_t j = 0; j < columns(); ++j) {
       const Mpfr size = j < rotations() ? Mpfr(force * reach) : force;
       result[j].error = size * sqrt(epsilon<Mpfr>());
@@ -81,7 +82,9 @@ class Sampling {
   }
 
   /// Whether there was a force at the last point, or U is a number.
-  bool felt() const { return felt_ || is_number_; }
+  bool felt() const { return force_ > 0 || is_number_; }
+  /// Its greatest component there.
+  const Mpfr& force() const { return force_; }
 
   /// What the equations of an instance depend on, where its displacements can be any vectors: its parameters, and the
   /// T_a. Nothing where they cannot.
@@ -124,34 +127,92 @@ class Sampling {
   const std::vector<SpaceBlock>& blocks_;
   Index d_, rotations_;
   bool is_number_;
-  mutable bool felt_ = false;
+  mutable Mpfr force_ = 0;
+};
+
+/// What an instance puts up, and the greatest force at its points.
+struct Sample {
+  std::vector<UncertainRow> rows;
+  Mpfr force = 0;
 };
 
 /// Some equations more than there are unknowns, at points in a region about q where U has a gradient.
-void sample(const Sampling& sampling, Index instance, const Vector<Mpfr>& q, std::vector<UncertainRow>& rows) {
+Sample sample(const Sampling& sampling, Index instance, const Vector<Mpfr>& q) {
   constexpr int most_halvings = 60;
   const std::size_t count = sampling.columns() + 2;
   const Mpfr size = max_norm(q);
   Mpfr radius = (size == 0 ? Mpfr(1) : size) / 8;
   for (int halvings = 0; halvings < most_halvings; ++halvings, radius /= 2) {
     Spread spread;
-    std::vector<UncertainRow> found;
-    while (found.size() < count) {
+    Sample found;
+    while (found.rows.size() < count) {
       Vector<Mpfr> near = q;
       for (Index j = 0; j < q.size(); ++j) near[j] += radius * spread.next();
       auto row = sampling.row(instance, near);
       if (!row || !sampling.felt()) break;
-      found.push_back(std::move(*row));
+      raise_to(found.force, sampling.force());
+      found.rows.push_back(std::move(*row));
     }
-    if (found.size() < count) continue;
-    rows.insert(rows.end(), found.begin(), found.end());
-    return;
+    if (found.rows.size() == count) return found;
   }
   // Nowhere around has it a gradient that is felt: nothing is said to keep it.
+  Sample nothing;
   for (std::size_t j = 0; j < sampling.columns(); ++j) {
-    rows.emplace_back(sampling.columns());
-    rows.back()[j] = 1;
+    nothing.rows.emplace_back(sampling.columns());
+    nothing.rows.back()[j] = 1;
   }
+  return nothing;
+}
+
+using NodePtr = std::shared_ptr<const Expression::Node>;
+
+/// Whether a function in it may be smaller than any number of digits tells.
+bool may_vanish(const NodePtr& node) {
+  using Kind = Expression::Node::Kind;
+  if (!node) return false;
+  const bool is_exponential =
+      node->kind == Kind::exp || node->kind == Kind::sinh || node->kind == Kind::cosh || node->kind == Kind::tanh;
+  return is_exponential || may_vanish(node->left) || may_vanish(node->right);
+}
+
+/// Those terms of a sum that may be nothing beside the others where it is looked at, and not elsewhere.
+void add_weak_terms(const Expression& sum, const NodePtr& node, std::vector<Expression>& terms) {
+  using Kind = Expression::Node::Kind;
+  if (node->kind == Kind::add || node->kind == Kind::subtract || node->kind == Kind::negate) {
+    for (const NodePtr& part : {node->left, node->right})
+      if (part) add_weak_terms(sum, part, terms);
+  } else if (node != sum.root() && may_vanish(node)) {
+    terms.push_back(sum.part(node));
+  }
+}
+
+/// The equations of all instances of a formula, and of each of its terms that is not seen beside the others.
+std::vector<UncertainRow> all_rows(const FormulaUse<Mpfr>& use, const std::vector<SpaceBlock>& blocks,
+                                   const Vector<Mpfr>& q) {
+  const std::set<std::string> names = use.formula.names();
+  const bool is_number =
+      std::none_of(names.begin(), names.end(), [&](const std::string& name) { return use.variables.contains(name); });
+  const EffectTerm<Mpfr> whole = make_term(use);
+  const Sampling sampling(whole, blocks, use.dimension, is_number);
+  std::vector<Expression> weak;
+  add_weak_terms(use.formula, use.formula.root(), weak);
+  std::vector<EffectTerm<Mpfr>> terms;
+  for (const Expression& term : weak)
+    terms.push_back(make_term(FormulaUse<Mpfr>{term, use.constants, use.dimension, use.arguments, use.variables,
+                                               use.parameters, use.instances}));
+  std::vector<UncertainRow> rows;
+  std::set<std::vector<Mpfr>> seen;
+  for (std::size_t n = 0; n < use.instances.size(); ++n) {
+    const std::vector<Mpfr> signature = sampling.signature(use.instances[n]);
+    if (!signature.empty() && !seen.insert(signature).second) continue;
+    const Sample all = sample(sampling, static_cast<Index>(n), q);
+    rows.insert(rows.end(), all.rows.begin(), all.rows.end());
+    for (const EffectTerm<Mpfr>& term : terms) {
+      const Sample part = sample(Sampling(term, blocks, use.dimension, false), static_cast<Index>(n), q);
+      if (part.force < sqrt(epsilon<Mpfr>()) * all.force) rows.insert(rows.end(), part.rows.begin(), part.rows.end());
+    }
+  }
+  return rows;
 }
 
 }  // namespace
@@ -167,25 +228,14 @@ EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<S
   std::size_t columns = 0;
   {
     const PrecisionScope many(2 * digits + 700);
-    const FormulaUse<Mpfr> exact = exactly(use);
-    const EffectTerm<Mpfr> term = make_term(exact);
-    const std::set<std::string> names = use.formula.names();
-    const bool is_number =
-        std::none_of(names.begin(), names.end(), [&](const std::string& name) { return use.variables.contains(name); });
     const WidestRange widest;
-    const Sampling sampling(term, blocks, use.dimension, is_number);
-    columns = sampling.columns();
     Vector<Mpfr> start(q.size());
     for (Index j = 0; j < q.size(); ++j) start[j] = rounded_to<Mpfr>(raw(exactly(q[j])));
-    std::vector<UncertainRow> rows;
-    std::set<std::vector<Mpfr>> seen;
-    for (std::size_t n = 0; n < exact.instances.size(); ++n) {
-      const std::vector<Mpfr> signature = sampling.signature(exact.instances[n]);
-      if (signature.empty() || seen.insert(signature).second) sample(sampling, static_cast<Index>(n), start, rows);
-    }
+    const auto rotations = static_cast<std::size_t>(use.dimension == 2 ? 1 : 3);
+    columns = rotations + static_cast<std::size_t>(use.dimension);
     // What is across the motions that keep it says the same in as few equations as there can be.
     for (const UncertainRow& row :
-         null_space(null_space(std::move(rows), columns, sampling.rotations()), columns, sampling.rotations())) {
+         null_space(null_space(all_rows(exactly(use), blocks, start), columns, rotations), columns, rotations)) {
       // Of a force of short range they may be beyond the range of S; their sizes say nothing.
       Mpfr greatest = 0;
       for (const Uncertain& x : row)

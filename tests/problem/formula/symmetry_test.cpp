@@ -64,6 +64,8 @@ TYPED_TEST(FormulaSymmetry, IsBrokenByWhatIsWeak) {
   EXPECT_EQ(this->kept("1/r + 1e-200*x1"), (Names{"P_y", "P_z", "L_x"}));
   EXPECT_EQ(this->kept("exp(-((x1 + 7)*1e7)^2)"), (Names{"P_y", "P_z", "L_x"})) << "10^15 digits below 1";
   EXPECT_EQ(this->kept("exp(-((x1 + 7)*1e12)^2)"), (Names{})) << "beyond all exponents";
+  EXPECT_EQ(this->kept("1/r - exp(-((x1 + 7)*1e7)^2)"), (Names{"P_y", "P_z", "L_x"})) << "beside another";
+  EXPECT_EQ(this->kept("1/r + exp(-1e9*r)/r"), (Names{"P_x", "P_y", "P_z", "L_x", "L_y", "L_z"}));
   EXPECT_EQ(this->kept("k/2"), (Names{"P_x", "P_y", "P_z", "L_x", "L_y", "L_z"}));
   EXPECT_EQ(this->kept("(x1^2 + y1^2)/3 + (z1*2)^2/12"), (Names{"L_x", "L_y", "L_z"})) << "equal, if not as rounded";
 }
