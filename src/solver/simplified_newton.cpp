@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hbvm/interruption.hpp"
 #include "hbvm/linear/arrays.hpp"
 #include "hbvm/scalar/binary_exponent.hpp"
 #include "hbvm/scalar/in_place.hpp"
@@ -286,6 +287,8 @@ long SimplifiedNewton<S>::grow(const StepStart<S>& from, int halvings) {
   begin(from, h);
   prepare(Start::constant, from.p);
   for (bool first = true;; first = false) {
+    // There may be a thousand shorter steps.
+    if (!first) end_on_signal("the solution was not followed from shorter steps");
     try {
       begin(from, h);
       usable_ = false;

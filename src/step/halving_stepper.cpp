@@ -45,7 +45,10 @@ long HalvingStepper<S>::step(State<S>& state, const S& h) {
       // An attempt at twice the last size was in vain.
       if (depth_ < last_) patience_ = std::min(2 * patience_, longest_patience);
       successes_ = 0;
-      if (++depth_ <= deepest) continue;
+      if (++depth_ <= deepest) {
+        end_on_signal("a step is divided");
+        continue;
+      }
       copy_state(state, before_);
       depth_ = last_ = 0;
       throw StageFailure(first->cause(),

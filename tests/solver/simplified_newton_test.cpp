@@ -1,5 +1,8 @@
 #include "hbvm/solver/simplified_newton.hpp"
 
+#include <csignal>
+
+#include "hbvm/interruption.hpp"
 #include "hbvm/scene/assemble.hpp"
 #include "hbvm/scene/scene.hpp"
 #include "hbvm/step/state.hpp"
@@ -79,6 +82,18 @@ TYPED_TEST(SimplifiedNewtonTest, FailsWithACause) {
     EXPECT_EQ(failure.cause(), FailureCause::stage_equations_diverge) << failure.what();
     EXPECT_GT(failure.sweeps(), 0);
   }
+}
+
+/// An ordinary step is finished first.
+TEST(SimplifiedNewton, IsEndedByASignalBetweenShorterSteps) {
+  const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
+  const Hbvm<double> method = make_hbvm<double>(2, 2);
+  SimplifiedNewton<double> newton(scene.problem, method);
+  const double h = 1.0 / 64;
+  interruption = SIGTERM;
+  EXPECT_NO_THROW(newton.solve({scene.q0, scene.p0, h}));
+  EXPECT_THROW(newton.follow({scene.q0, scene.p0, h}), Interrupted);
+  interruption = 0;
 }
 
 /// Two satellites are at rest, so that the pull of the third one alone tells how far they may move: the multipliers of

@@ -59,11 +59,17 @@ TEST_F(Halving, LeavesStepsThatSucceedAlone) {
 
 /// A million parts may take longer than anyone waits; a whole step is finished.
 TEST_F(Halving, IsEndedByASignalBetweenParts) {
-  HalvingStepper<double> halving = stepper([](double, double size) { return size > 1.0 / 4; });
   HalvingStepper<double> whole = stepper([](double, double) { return false; });
-  interruption = SIGTERM;
+  HalvingStepper<double> in_vain = stepper([](double, double size) { return size > 1.0 / 4; });
+  HalvingStepper<double> halving = stepper([](double t, double size) {
+    if (t > 0) interruption = SIGTERM;
+    return size > 1.0 / 4;
+  });
   EXPECT_THROW(halving.step(state, 1), Interrupted);
-  EXPECT_EQ(state.q[0], 1.0 / 4);
+  EXPECT_EQ(state.q[0], 1.0 / 2);
+  tried.clear();
+  EXPECT_THROW(in_vain.step(state, 1), Interrupted);
+  EXPECT_EQ(tried, std::vector<double>{1});
   EXPECT_EQ(whole.step(state, 1), 1);
   interruption = 0;
 }
