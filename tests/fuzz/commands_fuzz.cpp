@@ -79,7 +79,8 @@ class Files {
 
   Files() = default;
   ~Files() {
-    for (const std::string& file : {text, claims}) std::filesystem::remove(file);
+    std::error_code ignored;
+    for (const std::string& file : {text, claims}) std::filesystem::remove(file, ignored);
   }
   Files(const Files&) = delete;
 
