@@ -509,10 +509,10 @@ TEST(RunCsv, HasNamesAndNumbersAndIsDescribedBesideIt) {
     EXPECT_NEAR(csv.at(n, 0), std::min(3.0 * static_cast<double>(n), 20.0) * std::acos(-1.0) / 20, 1e-14);
     for (std::size_t i = 0; i < csv.names.size(); ++i) EXPECT_TRUE(std::isfinite(csv.at(n, i)));
   }
-  EXPECT_EQ(csv.rows.back()[0], j["t"]);
+  EXPECT_EQ(j["t"], csv.rows.back()[0]);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(csv.rows.back()[1 + i], j["q"][i]);
-    EXPECT_EQ(csv.rows.back()[4 + i], j["p"][i]);
+    EXPECT_EQ(j["q"][i], csv.rows.back()[1 + i]);
+    EXPECT_EQ(j["p"][i], csv.rows.back()[4 + i]);
   }
 
   const ordered_json metadata = ordered_json::parse(text_of(path + "-metadata.json"));
