@@ -166,6 +166,13 @@ Sample sample(const Sampling& sampling, Index instance, const Vector<Mpfr>& q) {
 
 using NodePtr = std::shared_ptr<const Expression::Node>;
 
+/// Whether nothing in it varies.
+bool holds_no_variable(const NodePtr& node, const FormulaVariables& variables) {
+  if (!node) return true;
+  const bool varies = node->kind == Expression::Node::Kind::name && variables.contains(node->text);
+  return !varies && holds_no_variable(node->left, variables) && holds_no_variable(node->right, variables);
+}
+
 /// Whether a function in it may be smaller than any number of digits tells.
 bool may_vanish(const NodePtr& node) {
   using Kind = Expression::Node::Kind;
@@ -189,17 +196,15 @@ void add_weak_terms(const Expression& sum, const NodePtr& node, std::vector<Expr
 /// The equations of all instances of a formula, and of each of its terms that is not seen beside the others.
 std::vector<UncertainRow> all_rows(const FormulaUse<Mpfr>& use, const std::vector<SpaceBlock>& blocks,
                                    const Vector<Mpfr>& q) {
-  const std::set<std::string> names = use.formula.names();
-  const bool is_number =
-      std::none_of(names.begin(), names.end(), [&](const std::string& name) { return use.variables.contains(name); });
   const EffectTerm<Mpfr> whole = make_term(use);
-  const Sampling sampling(whole, blocks, use.dimension, is_number);
+  const Sampling sampling(whole, blocks, use.dimension, holds_no_variable(use.formula.root(), use.variables));
   std::vector<Expression> weak;
   add_weak_terms(use.formula, use.formula.root(), weak);
   std::vector<EffectTerm<Mpfr>> terms;
   for (const Expression& term : weak)
-    terms.push_back(make_term(FormulaUse<Mpfr>{term, use.constants, use.dimension, use.arguments, use.variables,
-                                               use.parameters, use.instances}));
+    if (!holds_no_variable(term.root(), use.variables))
+      terms.push_back(make_term(FormulaUse<Mpfr>{term, use.constants, use.dimension, use.arguments, use.variables,
+                                                 use.parameters, use.instances}));
   std::vector<UncertainRow> rows;
   std::set<std::vector<Mpfr>> seen;
   for (std::size_t n = 0; n < use.instances.size(); ++n) {
