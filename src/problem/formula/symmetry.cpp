@@ -6,7 +6,7 @@
 
 #include "hbvm/linear/null_space.hpp"
 #include "hbvm/problem/effect/execution.hpp"
-#include "scalar/expression_node.hpp"
+#include "softening.hpp"
 
 namespace hbvm {
 namespace {
@@ -23,68 +23,26 @@ class Spread {
   std::uint32_t state_ = 1;
 };
 
-/// While it lives, this thread's numbers have the widest range of exponents there is: bumps that are narrow and far
-/// away are still felt.
-class WidestRange {
- public:
-  WidestRange() {
-    mpfr_set_emin(mpfr_get_emin_min());
-    mpfr_set_emax(mpfr_get_emax_max());
-  }
-  ~WidestRange() {
-    mpfr_set_emin(least_);
-    mpfr_set_emax(greatest_);
-  }
-  WidestRange(const WidestRange&) = delete;
-
- private:
-  mpfr_exp_t least_ = mpfr_get_emin(), greatest_ = mpfr_get_emax();
-};
-
 /// The equations that one instance puts up, for its points.
 class Sampling {
  public:
-  /// \param is_number U varies with nothing
-  Sampling(const EffectTerm<Mpfr>& term, const std::vector<SpaceBlock>& blocks, Index dimension, bool is_number)
-      : term_(term), blocks_(blocks), d_(dimension), rotations_(dimension == 2 ? 1 : 3), is_number_(is_number) {}
+  Sampling(const EffectTerm<Mpfr>& term, const std::vector<SpaceBlock>& blocks, Index dimension)
+      : term_(term), blocks_(blocks), d_(dimension), rotations_(dimension == 2 ? 1 : 3) {}
 
   std::size_t rotations() const { return static_cast<std::size_t>(rotations_); }
   std::size_t columns() const { return static_cast<std::size_t>(rotations_ + d_); }
 
-  /// The equation at q; none where the gradient has no value.
-  std::optional<UncertainRow> row(Index instance, const Vector<Mpfr>& q) const {
-    Matrix<Mpfr> x(1, term_.arguments * d_);
-    for (Index a = 0; a < term_.arguments; ++a)
-      x.block(0, a * d_, 1, d_) = displaced(term_.displacement(instance, a), d_, q).transpose();
-    const Matrix<Mpfr> coefficients = term_.gradient_coefficients.row(instance);
-    Execution<Mpfr> gradient(term_.gradient, coefficients, x, 1);
-    gradient.run();
-    UncertainRow result(columns());
-    Mpfr force = 0, reach = 0;
-    for (Index a = 0; a < term_.arguments; ++a) {
-      const Vector<Mpfr> at = moved(term_.displacement(instance, a), d_, q);
-      raise_to(reach, max_norm(at));
-      const Mpfr T = translation(term_.displacement(instance, a));
-      for (Index i = 0; i < d_; ++i) {
-        const Mpfr& g = gradient.output(a * d_ + i, 0);
-        if (!is_finite(g)) return std::nullopt;
-        raise_to(force, magnitude(g));
-        result[static_cast<std::size_t>(rotations_ + i)].value += T * g;
-        for (Index k = 0; k < rotations_; ++k) result[static_cast<std::size_t>(k)].value += g * turned(k, at)[i];
-      }
+  /// The equation at q, and that of softened exponents if they are large. \return whether the gradient has a value
+  bool add_rows(Index instance, const Vector<Mpfr>& q, std::vector<UncertainRow>& rows) const {
+    const std::optional<Program<Mpfr>> softened = softened_gradient(instance, q);
+    for (const Program<Mpfr>* gradient : {&term_.gradient, softened ? &*softened : nullptr}) {
+      if (!gradient) continue;
+      std::optional<UncertainRow> found = row(*gradient, instance, q);
+      if (!found) return false;
+      rows.push_back(std::move(*found));
     }
-    force_ = force;
-    for (std::size_t j = 0; j < columns(); ++j) {
-      const Mpfr size = j < rotations() ? Mpfr(force * reach) : force;
-      result[j].error = size * sqrt(epsilon<Mpfr>());
-    }
-    return result;
+    return true;
   }
-
-  /// Whether there was a force at the last point, or U is a number.
-  bool felt() const { return force_ > 0 || is_number_; }
-  /// Its greatest component there.
-  const Mpfr& force() const { return force_; }
 
   /// What the equations of an instance depend on, where its displacements can be any vectors: its parameters, and the
   /// T_a. Nothing where they cannot.
@@ -101,6 +59,53 @@ class Sampling {
   }
 
  private:
+  /// The gradient with exponents that are not far from 0 at q. \return nothing if they are not far as it is
+  std::optional<Program<Mpfr>> softened_gradient(Index instance, const Vector<Mpfr>& q) const {
+    const Program<Mpfr> as_it_is = with_exponents_times(Mpfr(1), term_.gradient);
+    if (as_it_is.outputs() == term_.gradient.outputs()) return std::nullopt;
+    const Matrix<Mpfr> x = displacements(instance, q), coefficients = term_.gradient_coefficients.row(instance);
+    Execution<Mpfr> execution(as_it_is, coefficients, x, 1);
+    execution.run();
+    Mpfr greatest = 0;
+    for (std::size_t i = term_.gradient.outputs(); i < as_it_is.outputs(); ++i)
+      raise_to(greatest, magnitude(execution.output(static_cast<Index>(i), 0)));
+    constexpr int far = 64;
+    if (!(greatest > far && is_finite(greatest))) return std::nullopt;
+    return with_exponents_times(far / greatest, term_.gradient);
+  }
+
+  /// The equation at q, by this program of the gradient; none where it has no value.
+  std::optional<UncertainRow> row(const Program<Mpfr>& code, Index instance, const Vector<Mpfr>& q) const {
+    const Matrix<Mpfr> x = displacements(instance, q), coefficients = term_.gradient_coefficients.row(instance);
+    Execution<Mpfr> gradient(code, coefficients, x, 1);
+    gradient.run();
+    UncertainRow result(columns());
+    Mpfr force = 0, reach = 0;
+    for (Index a = 0; a < term_.arguments; ++a) {
+      const Vector<Mpfr> at = moved(term_.displacement(instance, a), d_, q);
+      raise_to(reach, max_norm(at));
+      const Mpfr T = translation(term_.displacement(instance, a));
+      for (Index i = 0; i < d_; ++i) {
+        const Mpfr& g = gradient.output(a * d_ + i, 0);
+        if (!is_finite(g)) return std::nullopt;
+        raise_to(force, magnitude(g));
+        result[static_cast<std::size_t>(rotations_ + i)].value += T * g;
+        for (Index k = 0; k < rotations_; ++k) result[static_cast<std::size_t>(k)].value += g * turned(k, at)[i];
+      }
+    }
+    for (std::size_t j = 0; j < columns(); ++j) {
+      const Mpfr size = j < rotations() ? Mpfr(force * reach) : force;
+      result[j].error = size * sqrt(epsilon<Mpfr>());
+    }
+    return result;
+  }
+
+  Matrix<Mpfr> displacements(Index instance, const Vector<Mpfr>& q) const {
+    Matrix<Mpfr> x(1, term_.arguments * d_);
+    for (Index a = 0; a < term_.arguments; ++a)
+      x.block(0, a * d_, 1, d_) = displaced(term_.displacement(instance, a), d_, q).transpose();
+    return x;
+  }
   /// T_a.
   Mpfr translation(const Displacement<Mpfr>& x) const {
     Mpfr sum = 0;
@@ -126,98 +131,32 @@ class Sampling {
   const EffectTerm<Mpfr>& term_;
   const std::vector<SpaceBlock>& blocks_;
   Index d_, rotations_;
-  bool is_number_;
-  mutable Mpfr force_ = 0;
-};
-
-/// What an instance puts up, and the greatest force at its points.
-struct Sample {
-  std::vector<UncertainRow> rows;
-  Mpfr force = 0;
 };
 
 /// Some equations more than there are unknowns, at points in a region about q where U has a gradient.
-Sample sample(const Sampling& sampling, Index instance, const Vector<Mpfr>& q) {
+void sample(const Sampling& sampling, Index instance, const Vector<Mpfr>& q, std::vector<UncertainRow>& rows) {
   constexpr int most_halvings = 60;
-  const std::size_t count = sampling.columns() + 2;
+  const std::size_t points = sampling.columns() + 2;
   const Mpfr size = max_norm(q);
   Mpfr radius = (size == 0 ? Mpfr(1) : size) / 8;
   for (int halvings = 0; halvings < most_halvings; ++halvings, radius /= 2) {
     Spread spread;
-    Sample found;
-    while (found.rows.size() < count) {
+    std::vector<UncertainRow> found;
+    bool has_values = true;
+    for (std::size_t n = 0; n < points && has_values; ++n) {
       Vector<Mpfr> near = q;
       for (Index j = 0; j < q.size(); ++j) near[j] += radius * spread.next();
-      auto row = sampling.row(instance, near);
-      if (!row || !sampling.felt()) break;
-      raise_to(found.force, sampling.force());
-      found.rows.push_back(std::move(*row));
+      has_values = sampling.add_rows(instance, near, found);
     }
-    if (found.rows.size() == count) return found;
+    if (!has_values) continue;
+    rows.insert(rows.end(), found.begin(), found.end());
+    return;
   }
-  // Nowhere around has it a gradient that is felt: nothing is said to keep it.
-  Sample nothing;
+  // Nowhere around has it a gradient: nothing is said to keep it.
   for (std::size_t j = 0; j < sampling.columns(); ++j) {
-    nothing.rows.emplace_back(sampling.columns());
-    nothing.rows.back()[j] = 1;
+    rows.emplace_back(sampling.columns());
+    rows.back()[j] = 1;
   }
-  return nothing;
-}
-
-using NodePtr = std::shared_ptr<const Expression::Node>;
-
-/// Whether nothing in it varies.
-bool holds_no_variable(const NodePtr& node, const FormulaVariables& variables) {
-  if (!node) return true;
-  const bool varies = node->kind == Expression::Node::Kind::name && variables.contains(node->text);
-  return !varies && holds_no_variable(node->left, variables) && holds_no_variable(node->right, variables);
-}
-
-/// Whether a function in it may be smaller than any number of digits tells.
-bool may_vanish(const NodePtr& node) {
-  using Kind = Expression::Node::Kind;
-  if (!node) return false;
-  const bool is_exponential =
-      node->kind == Kind::exp || node->kind == Kind::sinh || node->kind == Kind::cosh || node->kind == Kind::tanh;
-  return is_exponential || may_vanish(node->left) || may_vanish(node->right);
-}
-
-/// Those terms of a sum that may be nothing beside the others where it is looked at, and not elsewhere.
-void add_weak_terms(const Expression& sum, const NodePtr& node, std::vector<Expression>& terms) {
-  using Kind = Expression::Node::Kind;
-  if (node->kind == Kind::add || node->kind == Kind::subtract || node->kind == Kind::negate) {
-    for (const NodePtr& part : {node->left, node->right})
-      if (part) add_weak_terms(sum, part, terms);
-  } else if (node != sum.root() && may_vanish(node)) {
-    terms.push_back(sum.part(node));
-  }
-}
-
-/// The equations of all instances of a formula, and of each of its terms that is not seen beside the others.
-std::vector<UncertainRow> all_rows(const FormulaUse<Mpfr>& use, const std::vector<SpaceBlock>& blocks,
-                                   const Vector<Mpfr>& q) {
-  const EffectTerm<Mpfr> whole = make_term(use);
-  const Sampling sampling(whole, blocks, use.dimension, holds_no_variable(use.formula.root(), use.variables));
-  std::vector<Expression> weak;
-  add_weak_terms(use.formula, use.formula.root(), weak);
-  std::vector<EffectTerm<Mpfr>> terms;
-  for (const Expression& term : weak)
-    if (!holds_no_variable(term.root(), use.variables))
-      terms.push_back(make_term(FormulaUse<Mpfr>{term, use.constants, use.dimension, use.arguments, use.variables,
-                                                 use.parameters, use.instances}));
-  std::vector<UncertainRow> rows;
-  std::set<std::vector<Mpfr>> seen;
-  for (std::size_t n = 0; n < use.instances.size(); ++n) {
-    const std::vector<Mpfr> signature = sampling.signature(use.instances[n]);
-    if (!signature.empty() && !seen.insert(signature).second) continue;
-    const Sample all = sample(sampling, static_cast<Index>(n), q);
-    rows.insert(rows.end(), all.rows.begin(), all.rows.end());
-    for (const EffectTerm<Mpfr>& term : terms) {
-      const Sample part = sample(Sampling(term, blocks, use.dimension, false), static_cast<Index>(n), q);
-      if (part.force < sqrt(epsilon<Mpfr>()) * all.force) rows.insert(rows.end(), part.rows.begin(), part.rows.end());
-    }
-  }
-  return rows;
 }
 
 }  // namespace
@@ -233,21 +172,23 @@ EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<S
   std::size_t columns = 0;
   {
     const PrecisionScope many(2 * digits + 700);
-    const WidestRange widest;
+    const FormulaUse<Mpfr> exact = exactly(use);
+    const EffectTerm<Mpfr> term = make_term(exact);
+    const Sampling sampling(term, blocks, use.dimension);
+    columns = sampling.columns();
     Vector<Mpfr> start(q.size());
     for (Index j = 0; j < q.size(); ++j) start[j] = rounded_to<Mpfr>(raw(exactly(q[j])));
-    const auto rotations = static_cast<std::size_t>(use.dimension == 2 ? 1 : 3);
-    columns = rotations + static_cast<std::size_t>(use.dimension);
+    std::vector<UncertainRow> rows;
+    std::set<std::vector<Mpfr>> seen;
+    for (std::size_t n = 0; n < exact.instances.size(); ++n) {
+      const std::vector<Mpfr> signature = sampling.signature(exact.instances[n]);
+      if (signature.empty() || seen.insert(signature).second) sample(sampling, static_cast<Index>(n), start, rows);
+    }
     // What is across the motions that keep it says the same in as few equations as there can be.
     for (const UncertainRow& row :
-         null_space(null_space(all_rows(exactly(use), blocks, start), columns, rotations), columns, rotations)) {
-      // Of a force of short range they may be beyond the range of S; their sizes say nothing.
-      Mpfr greatest = 0;
-      for (const Uncertain& x : row)
-        if (!x.holds_zero()) raise_to(greatest, magnitude(x.value));
+         null_space(null_space(std::move(rows), columns, sampling.rotations()), columns, sampling.rotations())) {
       conditions.emplace_back();
-      for (const Uncertain& x : row)
-        conditions.back().push_back(exactly(x.holds_zero() ? Mpfr(0) : Mpfr(x.value / greatest)));
+      for (const Uncertain& x : row) conditions.back().push_back(exactly(x.holds_zero() ? Mpfr(0) : x.value));
     }
   }
   result.conditions.resize(static_cast<Index>(conditions.size()), static_cast<Index>(columns));

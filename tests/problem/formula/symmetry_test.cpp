@@ -62,12 +62,29 @@ TYPED_TEST(FormulaSymmetry, IsFoundFromTheFormula) {
 /// Only the digits of the scene limit what is told apart, not how weak it is.
 TYPED_TEST(FormulaSymmetry, IsBrokenByWhatIsWeak) {
   EXPECT_EQ(this->kept("1/r + 1e-200*x1"), (Names{"P_y", "P_z", "L_x"}));
-  EXPECT_EQ(this->kept("exp(-((x1 + 7)*1e7)^2)"), (Names{"P_y", "P_z", "L_x"})) << "10^15 digits below 1";
-  EXPECT_EQ(this->kept("exp(-((x1 + 7)*1e12)^2)"), (Names{})) << "beyond all exponents";
-  EXPECT_EQ(this->kept("1/r - exp(-((x1 + 7)*1e7)^2)"), (Names{"P_y", "P_z", "L_x"})) << "beside another";
-  EXPECT_EQ(this->kept("1/r + exp(-1e9*r)/r"), (Names{"P_x", "P_y", "P_z", "L_x", "L_y", "L_z"}));
-  EXPECT_EQ(this->kept("k/2"), (Names{"P_x", "P_y", "P_z", "L_x", "L_y", "L_z"}));
   EXPECT_EQ(this->kept("(x1^2 + y1^2)/3 + (z1*2)^2/12"), (Names{"L_x", "L_y", "L_z"})) << "equal, if not as rounded";
+}
+
+/// A narrow bump or a steep wall that is far from the start, and in no number of digits seen from there.
+TYPED_TEST(FormulaSymmetry, IsBrokenByWhatIsFarAway) {
+  EXPECT_EQ(this->kept("r^2 + exp(-((x1 - x2 - 5)/1e-3)^2)"), (Names{"P_x", "P_y", "P_z", "L_x"}));
+  EXPECT_EQ(this->kept("exp(-((x1 - 5)/1e-8)^2)"), (Names{"P_y", "P_z", "L_x"})) << "too small for a number";
+  EXPECT_EQ(this->kept("exp(-((x1 + 7)*1e7)^2)"), (Names{"P_y", "P_z", "L_x"})) << "10^15 digits below 1";
+  EXPECT_EQ(this->kept("exp(-((x1 + 7)*1e12)^2)"), (Names{"P_y", "P_z", "L_x"})) << "beyond all exponents";
+  EXPECT_EQ(this->kept("1/r - exp(-((x1 + 7)*1e7)^2)"), (Names{"P_y", "P_z", "L_x"})) << "beside another";
+  EXPECT_EQ(this->kept("k*(r^2 - exp(-((x1 + 7)*1e7)^2))"), (Names{"P_y", "P_z", "L_x"})) << "within a product";
+  EXPECT_EQ(this->kept("r^2 + tanh((z1 - 1/2)/1e-5)"), (Names{"P_x", "P_y", "L_z"}));
+  EXPECT_EQ(this->kept("r^2 + 1/cosh((z1 - 1/2)/1e-4) + exp(-(y1/1e-9))"), (Names{"P_x"}));
+}
+
+/// And kept by one that is symmetric itself.
+TYPED_TEST(FormulaSymmetry, IsKeptByWhatIsFarAway) {
+  const Names all{"P_x", "P_y", "P_z", "L_x", "L_y", "L_z"};
+  EXPECT_EQ(this->kept("exp(-(r/1e-8)^2) + exp(-r/1e-5)/r"), all);
+  EXPECT_EQ(this->kept("1/r + exp(-1e9*r)/r"), all);
+  EXPECT_EQ(this->kept("k/2"), all);
+  EXPECT_EQ(this->kept("exp(-(x1^2 + y1^2)*1e14)*exp(-z1^2*1e14)"), (Names{"L_x", "L_y", "L_z"}));
+  EXPECT_EQ(this->kept("z1 + exp(-(x1^2 + y1^2)/1e-12)"), (Names{"L_z"}));
 }
 
 /// About an axis whose direction has no short digits.

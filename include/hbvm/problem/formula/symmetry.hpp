@@ -11,7 +11,9 @@ namespace hbvm {
 ///
 ///     w . sum_a x_a x dU/dx_a + t . sum_a T_a dU/dx_a,
 ///
-/// which is evaluated at some points near q in so many digits that a part of U of 10^-300 beside another counts.
+/// which is evaluated at some points near q in so many digits that a part of U of 10^-300 beside another counts. A
+/// part that is far less there, such as a narrow bump far away, counts as well: it is evaluated once more with
+/// exponents near 0.
 /// \param blocks of the problem
 template <Scalar S>
 EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<SpaceBlock>& blocks, const Vector<S>& q);
