@@ -19,6 +19,7 @@ ELSEWHERE = {
     "tests/run --dev solver": "builds the library in another way: minutes",
     "tests/run --turn": "builds all in other ways: half an hour",
     "tests/mutants/run": "builds the program for each of its changes: an hour",
+    "tests/baseline/run build/release/hbvm > before.txt": "compares two programs: minutes",
     "studies/speed/run": "builds; measures for minutes what no other work may disturb",
     "studies/speed/before": "builds an older commit",
     "studies/reference/run": "makes all references of the store: many minutes",
