@@ -1,4 +1,4 @@
-#include "hbvm/csv_line.hpp"
+#include "csv_line.hpp"
 
 namespace hbvm {
 

@@ -1,4 +1,4 @@
-#include "hbvm/nearest.hpp"
+#include "nearest.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 
 #include <fstream>
 

@@ -1,4 +1,4 @@
-#include "hbvm/write_file.hpp"
+#include "write_file.hpp"
 
 #include <fstream>
 

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "hbvm/scalar/text.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 

@@ -1,4 +1,4 @@
-#include "hbvm/basis/gauss_legendre.hpp"
+#include "basis/gauss_legendre.hpp"
 
 #include <algorithm>
 #include <bit>

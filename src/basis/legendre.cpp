@@ -1,8 +1,8 @@
-#include "hbvm/basis/legendre.hpp"
+#include "basis/legendre.hpp"
 
 #include <cmath>
 
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

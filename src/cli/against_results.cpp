@@ -9,12 +9,12 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "hbvm/analysis/against.hpp"
+#include "compare/against.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/interruption.hpp"
-#include "hbvm/read_file.hpp"
-#include "hbvm/report/csvw.hpp"
+#include "interruption.hpp"
 #include "progress_bar.hpp"
+#include "read_file.hpp"
+#include "report/csvw.hpp"
 #include "signals.hpp"
 #include "written.hpp"
 

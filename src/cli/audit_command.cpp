@@ -8,20 +8,20 @@
 #include <memory>
 #include <optional>
 
+#include "audit/audit.hpp"
+#include "audit/claims.hpp"
+#include "audit/report.hpp"
 #include "commands.hpp"
-#include "hbvm/analysis/audit/audit.hpp"
-#include "hbvm/analysis/audit/claims.hpp"
-#include "hbvm/analysis/audit/report.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/method/method_spec.hpp"
-#include "hbvm/method/read_tableau.hpp"
-#include "hbvm/report/csvw.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/step/registry.hpp"
-#include "hbvm/step/tableau_method.hpp"
 #include "hbvm/version.hpp"
-#include "hbvm/write_file.hpp"
 #include "long_work.hpp"
+#include "method/method_spec.hpp"
+#include "method/read_tableau.hpp"
+#include "report/csvw.hpp"
+#include "scalar/literal.hpp"
+#include "step/registry.hpp"
+#include "step/tableau_method.hpp"
+#include "write_file.hpp"
 
 namespace hbvm {
 namespace {

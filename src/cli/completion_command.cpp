@@ -2,7 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "commands.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "scene/scene.hpp"
 #include "words.hpp"
 
 namespace hbvm {

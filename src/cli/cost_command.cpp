@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "hbvm/analysis/cost/cost_methods.hpp"
-#include "hbvm/analysis/cost/cost_report.hpp"
-#include "hbvm/analysis/cost/measuring_system.hpp"
-#include "hbvm/analysis/cost/planner.hpp"
-#include "hbvm/interruption.hpp"
-#include "hbvm/report/csvw.hpp"
+#include "cost/cost_methods.hpp"
+#include "cost/cost_report.hpp"
+#include "cost/measuring_system.hpp"
+#include "cost/planner.hpp"
 #include "hbvm/version.hpp"
-#include "hbvm/write_file.hpp"
+#include "interruption.hpp"
 #include "long_work.hpp"
+#include "report/csvw.hpp"
 #include "signals.hpp"
+#include "write_file.hpp"
 #include "written.hpp"
 
 namespace hbvm {

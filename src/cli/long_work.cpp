@@ -6,8 +6,8 @@
 #include <map>
 #include <thread>
 
+#include "file_lock.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/file_lock.hpp"
 #include "written.hpp"
 
 namespace hbvm {

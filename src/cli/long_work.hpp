@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/analysis/cells.hpp"
+#include "long_work/cells.hpp"
 #include "progress_bar.hpp"
 
 namespace hbvm {

@@ -5,10 +5,10 @@
 
 #include "commands.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/interruption.hpp"
-#include "hbvm/nearest.hpp"
-#include "hbvm/reference/taylor_method.hpp"
 #include "hbvm/version.hpp"
+#include "interruption.hpp"
+#include "nearest.hpp"
+#include "reference/taylor_method.hpp"
 #include "words.hpp"
 
 namespace {

@@ -4,10 +4,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "basis/gauss_legendre.hpp"
 #include "commands.hpp"
-#include "hbvm/basis/gauss_legendre.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/scalar/with_scalar.hpp"
+#include "scalar/text.hpp"
+#include "scalar/with_scalar.hpp"
 
 namespace hbvm {
 namespace {

@@ -2,9 +2,9 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "hbvm/report/folder_report.hpp"
 #include "hbvm/version.hpp"
-#include "hbvm/write_file.hpp"
+#include "report/folder_report.hpp"
+#include "write_file.hpp"
 #include "written.hpp"
 
 namespace hbvm {

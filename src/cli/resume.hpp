@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "hbvm/integrate/checkpoint.hpp"
+#include "integrate/checkpoint.hpp"
 
 namespace hbvm {
 

@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "hbvm/analysis/run/describe.hpp"
-#include "hbvm/analysis/run/run_figure.hpp"
-#include "hbvm/scalar/with_scalar.hpp"
-#include "hbvm/scene/project.hpp"
-#include "hbvm/scene/with_start.hpp"
+#include "run/describe.hpp"
+#include "run/run_figure.hpp"
+#include "scalar/with_scalar.hpp"
+#include "scene/project.hpp"
+#include "scene/with_start.hpp"
 #include "written.hpp"
 
 namespace hbvm {

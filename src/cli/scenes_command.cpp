@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 

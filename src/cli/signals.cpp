@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-#include "hbvm/interruption.hpp"
+#include "interruption.hpp"
 
 namespace hbvm {
 

@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "hbvm/analysis/stability/collection.hpp"
-#include "hbvm/analysis/stability/report.hpp"
-#include "hbvm/analysis/stability/stability.hpp"
+#include "hard_cases/collection.hpp"
+#include "hard_cases/report.hpp"
+#include "hard_cases/stability.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/report/csvw.hpp"
 #include "hbvm/version.hpp"
-#include "hbvm/write_file.hpp"
 #include "long_work.hpp"
+#include "report/csvw.hpp"
+#include "write_file.hpp"
 
 namespace hbvm {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "hbvm/analysis/study/study.hpp"
 #include "long_work.hpp"
+#include "study/study.hpp"
 #include "written.hpp"
 
 namespace hbvm {

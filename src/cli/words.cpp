@@ -1,7 +1,7 @@
 #include "words.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/nearest.hpp"
+#include "nearest.hpp"
 
 namespace hbvm {
 

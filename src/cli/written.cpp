@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "hbvm/error.hpp"
-#include "hbvm/write_file.hpp"
+#include "write_file.hpp"
 
 namespace hbvm {
 

@@ -3,8 +3,8 @@ include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hbvm)
 set(made ${CMAKE_CURRENT_BINARY_DIR}/install)
 
-install(TARGETS hbvm EXPORT hbvmTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY include/hbvm DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS hbvm hbvm_core EXPORT hbvmTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/hbvm ${public_headers}/hbvm DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT hbvmTargets NAMESPACE hbvm:: DESTINATION ${package_folder})
 configure_package_config_file(src/install/hbvmConfig.cmake.in ${made}/hbvmConfig.cmake
                               INSTALL_DESTINATION ${package_folder})

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/checkpoint.hpp"
+#include "integrate/checkpoint.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "hbvm/checksum.hpp"
-#include "hbvm/clock.hpp"
+#include "checksum.hpp"
+#include "clock.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 
 namespace hbvm {
 namespace {

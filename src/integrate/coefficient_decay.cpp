@@ -1,6 +1,6 @@
-#include "hbvm/integrate/coefficient_decay.hpp"
+#include "integrate/coefficient_decay.hpp"
 
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

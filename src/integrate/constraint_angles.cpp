@@ -1,10 +1,10 @@
-#include "hbvm/integrate/constraint_angles.hpp"
+#include "integrate/constraint_angles.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,6 +1,6 @@
-#include "hbvm/integrate/constraint_drift.hpp"
+#include "integrate/constraint_drift.hpp"
 
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

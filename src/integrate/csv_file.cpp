@@ -1,4 +1,4 @@
-#include "hbvm/integrate/csv_file.hpp"
+#include "integrate/csv_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "file_lock.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/file_lock.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,6 +1,6 @@
-#include "hbvm/integrate/drift.hpp"
+#include "integrate/drift.hpp"
 
-#include "hbvm/scalar/text.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 

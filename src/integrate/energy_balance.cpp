@@ -1,7 +1,7 @@
-#include "hbvm/integrate/energy_balance.hpp"
+#include "integrate/energy_balance.hpp"
 
-#include "hbvm/linear/product.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/product.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

@@ -1,9 +1,9 @@
-#include "hbvm/integrate/energy_change.hpp"
+#include "integrate/energy_change.hpp"
 
 #include <vector>
 
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/binary_exponent.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

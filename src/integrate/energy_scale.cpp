@@ -1,4 +1,4 @@
-#include "hbvm/integrate/energy_scale.hpp"
+#include "integrate/energy_scale.hpp"
 
 namespace hbvm {
 

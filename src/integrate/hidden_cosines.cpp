@@ -1,9 +1,9 @@
-#include "hbvm/integrate/hidden_cosines.hpp"
+#include "integrate/hidden_cosines.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,13 +1,13 @@
-#include "hbvm/integrate/integrate.hpp"
+#include "integrate/integrate.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <optional>
 
-#include "hbvm/clock.hpp"
-#include "hbvm/interruption.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "clock.hpp"
+#include "interruption.hpp"
+#include "problem/point.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 

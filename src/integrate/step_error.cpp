@@ -1,4 +1,4 @@
-#include "hbvm/integrate/step_error.hpp"
+#include "integrate/step_error.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,9 +1,9 @@
-#include "hbvm/integrate/time_grid.hpp"
+#include "integrate/time_grid.hpp"
 
 #include <cmath>
 
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

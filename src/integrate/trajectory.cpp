@@ -1,10 +1,10 @@
-#include "hbvm/integrate/trajectory.hpp"
+#include "integrate/trajectory.hpp"
 
 #include <ostream>
 
-#include "hbvm/csv_line.hpp"
-#include "hbvm/integrate/output_state.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "csv_line.hpp"
+#include "integrate/output_state.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

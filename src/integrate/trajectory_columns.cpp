@@ -1,6 +1,6 @@
-#include "hbvm/integrate/trajectory_columns.hpp"
+#include "integrate/trajectory_columns.hpp"
 
-#include "hbvm/scene/coordinate_names.hpp"
+#include "scene/coordinate_names.hpp"
 
 namespace hbvm {
 namespace {

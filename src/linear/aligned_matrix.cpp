@@ -1,4 +1,4 @@
-#include "hbvm/linear/aligned_matrix.hpp"
+#include "linear/aligned_matrix.hpp"
 
 #include <gmp.h>
 

@@ -1,12 +1,12 @@
-#include "hbvm/linear/aligned_series.hpp"
+#include "linear/aligned_series.hpp"
 
 #include <gmp.h>
 
 #include <algorithm>
 
-#include "hbvm/scalar/in_place.hpp"
 #include "linear/limb_products.hpp"
 #include "linear/limb_sum.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "hbvm/linear/index.hpp"
+#include "linear/index.hpp"
 
 namespace hbvm {
 

@@ -1,4 +1,4 @@
-#include "hbvm/linear/inverse_diagonal.hpp"
+#include "linear/inverse_diagonal.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "hbvm/linear/lu.hpp"
+#include "linear/lu.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "hbvm/linear/constant_count.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/constant_count.hpp"
 #include "linear/dense_lu.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/scalar/mpfr.hpp"
+#include "scalar/mpfr.hpp"
 
 namespace hbvm {
 

@@ -1,4 +1,4 @@
-#include "hbvm/linear/null_space.hpp"
+#include "linear/null_space.hpp"
 
 #include <optional>
 

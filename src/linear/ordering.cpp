@@ -1,4 +1,4 @@
-#include "hbvm/linear/ordering.hpp"
+#include "linear/ordering.hpp"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/cuthill_mckee_ordering.hpp>

@@ -1,9 +1,9 @@
-#include "hbvm/linear/parity_matrix.hpp"
+#include "linear/parity_matrix.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

@@ -1,9 +1,9 @@
-#include "hbvm/linear/product.hpp"
+#include "linear/product.hpp"
 
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/linear/constant_count.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/arrays.hpp"
+#include "linear/constant_count.hpp"
 #include "linear/mpfr_dot.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,11 +1,11 @@
-#include "hbvm/method/decimals.hpp"
+#include "method/decimals.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <random>
 #include <vector>
 
-#include "hbvm/scalar/literal.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

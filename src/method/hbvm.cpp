@@ -1,14 +1,14 @@
-#include "hbvm/method/hbvm.hpp"
+#include "method/hbvm.hpp"
 
 #include <cmath>
 
-#include "hbvm/basis/gauss_legendre.hpp"
-#include "hbvm/basis/legendre.hpp"
+#include "basis/gauss_legendre.hpp"
+#include "basis/legendre.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/linear/in_double.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/in_double.hpp"
+#include "linear/product.hpp"
 #include "linear/rounded.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/method/hbvm_name.hpp"
+#include "method/hbvm_name.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,8 @@
-#include "hbvm/method/order_conditions.hpp"
+#include "method/order_conditions.hpp"
 
 #include <algorithm>
 
-#include "hbvm/linear/product.hpp"
+#include "linear/product.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,11 +1,11 @@
-#include "hbvm/method/perturbation.hpp"
+#include "method/perturbation.hpp"
 
 #include <cmath>
 #include <utility>
 
-#include "hbvm/basis/legendre.hpp"
+#include "basis/legendre.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

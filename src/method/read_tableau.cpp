@@ -1,8 +1,8 @@
-#include "hbvm/method/read_tableau.hpp"
+#include "method/read_tableau.hpp"
 
 #include <filesystem>
 
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 #include "toml/toml_table.hpp"
 
 namespace hbvm {

@@ -1,7 +1,7 @@
-#include "hbvm/method/runge_kutta.hpp"
+#include "method/runge_kutta.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

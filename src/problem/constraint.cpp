@@ -1,8 +1,8 @@
-#include "hbvm/problem/constraint.hpp"
+#include "problem/constraint.hpp"
 
 #include <algorithm>
 
-#include "hbvm/problem/effect/trace.hpp"
+#include "problem/effect/trace.hpp"
 
 namespace hbvm {
 

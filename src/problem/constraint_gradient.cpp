@@ -1,11 +1,11 @@
-#include "hbvm/problem/constraint_gradient.hpp"
+#include "problem/constraint_gradient.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "hbvm/linear/constant_count.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/constant_count.hpp"
 #include "problem/mass_block.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

@@ -1,9 +1,9 @@
-#include "hbvm/problem/curvature.hpp"
+#include "problem/curvature.hpp"
 
 #include <algorithm>
 
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/arrays.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

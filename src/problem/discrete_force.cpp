@@ -1,7 +1,7 @@
-#include "hbvm/problem/discrete_force.hpp"
+#include "problem/discrete_force.hpp"
 
-#include "hbvm/clock.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "clock.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

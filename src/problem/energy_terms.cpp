@@ -1,6 +1,6 @@
-#include "hbvm/problem/energy_terms.hpp"
+#include "problem/energy_terms.hpp"
 
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

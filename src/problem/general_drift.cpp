@@ -1,4 +1,4 @@
-#include "hbvm/problem/general_drift.hpp"
+#include "problem/general_drift.hpp"
 
 namespace hbvm {
 

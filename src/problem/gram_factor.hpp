@@ -1,8 +1,8 @@
 #pragma once
 
-#include "hbvm/linear/lu.hpp"
-#include "hbvm/linear/ordering.hpp"
-#include "hbvm/problem/constraint_gradient.hpp"
+#include "linear/lu.hpp"
+#include "linear/ordering.hpp"
+#include "problem/constraint_gradient.hpp"
 
 namespace hbvm {
 

@@ -1,8 +1,8 @@
-#include "hbvm/problem/in_double.hpp"
+#include "problem/in_double.hpp"
 
 #include <cstdlib>
 
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "scalar/binary_exponent.hpp"
 
 namespace hbvm {
 template <Scalar S>

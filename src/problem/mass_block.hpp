@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hbvm/problem/mass_matrix.hpp"
+#include "problem/mass_matrix.hpp"
 
 namespace hbvm {
 

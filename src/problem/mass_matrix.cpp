@@ -1,8 +1,8 @@
-#include "hbvm/problem/mass_matrix.hpp"
+#include "problem/mass_matrix.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/product.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,11 +1,11 @@
-#include "hbvm/problem/momenta.hpp"
+#include "problem/momenta.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "hbvm/linear/null_space.hpp"
+#include "linear/null_space.hpp"
 #include "symmetry_conditions.hpp"
 
 namespace hbvm {

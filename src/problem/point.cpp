@@ -1,7 +1,7 @@
-#include "hbvm/problem/point.hpp"
+#include "problem/point.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/linear/product.hpp"
+#include "linear/product.hpp"
 #include "problem/gram_factor.hpp"
 
 namespace hbvm {

@@ -1,10 +1,10 @@
-#include "hbvm/problem/potential.hpp"
+#include "problem/potential.hpp"
 
 #include <utility>
 
-#include "hbvm/clock.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "clock.hpp"
+#include "linear/arrays.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

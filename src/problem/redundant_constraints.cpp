@@ -1,8 +1,8 @@
-#include "hbvm/problem/redundant_constraints.hpp"
+#include "problem/redundant_constraints.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/linear/lu.hpp"
-#include "hbvm/linear/product.hpp"
+#include "linear/lu.hpp"
+#include "linear/product.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/problem/regularity.hpp"
+#include "problem/regularity.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "hbvm/linear/lu.hpp"
-#include "hbvm/problem/constraint_gradient.hpp"
+#include "linear/lu.hpp"
+#include "problem/constraint_gradient.hpp"
 #include "problem/gram_factor.hpp"
 #include "problem/mass_block.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/linear/null_space.hpp"
-#include "hbvm/problem/problem.hpp"
+#include "linear/null_space.hpp"
+#include "problem/problem.hpp"
 
 namespace hbvm {
 

@@ -1,12 +1,12 @@
-#include "hbvm/reference/agreement.hpp"
+#include "reference/agreement.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "hbvm/problem/momenta.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "problem/momenta.hpp"
+#include "problem/point.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,12 +1,12 @@
-#include "hbvm/reference/effort.hpp"
+#include "reference/effort.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "hbvm/clock.hpp"
-#include "hbvm/reference/taylor.hpp"
+#include "clock.hpp"
+#include "reference/taylor.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,9 +1,9 @@
-#include "hbvm/reference/exact_end.hpp"
+#include "reference/exact_end.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/method/hbvm.hpp"
-#include "hbvm/reference/taylor.hpp"
 #include "hbvm_walk.hpp"
+#include "method/hbvm.hpp"
+#include "reference/taylor.hpp"
 
 namespace hbvm {
 

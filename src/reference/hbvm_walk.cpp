@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/log2_of.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "scalar/log2_of.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

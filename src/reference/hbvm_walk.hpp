@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "between/force_bounds.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/reference/closed_form/closed_form.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "problem/point.hpp"
+#include "reference/closed_form/closed_form.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 

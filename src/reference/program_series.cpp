@@ -1,10 +1,10 @@
-#include "hbvm/reference/program_series.hpp"
+#include "reference/program_series.hpp"
 
 #include <algorithm>
 #include <optional>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

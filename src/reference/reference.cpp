@@ -1,4 +1,4 @@
-#include "hbvm/reference/reference.hpp"
+#include "reference/reference.hpp"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,15 @@
 #include <future>
 #include <mutex>
 
-#include "hbvm/checksum.hpp"
-#include "hbvm/clock.hpp"
-#include "hbvm/reference/agreement.hpp"
-#include "hbvm/reference/closed_form/closed_form.hpp"
-#include "hbvm/reference/effort.hpp"
-#include "hbvm/reference/reference_motion.hpp"
-#include "hbvm/reference/route_run.hpp"
-#include "hbvm/reference/taylor.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "checksum.hpp"
+#include "clock.hpp"
+#include "reference/agreement.hpp"
+#include "reference/closed_form/closed_form.hpp"
+#include "reference/effort.hpp"
+#include "reference/reference_motion.hpp"
+#include "reference/route_run.hpp"
+#include "reference/taylor.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

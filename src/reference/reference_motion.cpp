@@ -1,10 +1,10 @@
-#include "hbvm/reference/reference_motion.hpp"
+#include "reference/reference_motion.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "hbvm/basis/legendre.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "basis/legendre.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 

@@ -1,10 +1,10 @@
-#include "hbvm/reference/route_legs.hpp"
+#include "reference/route_legs.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/reference/route_run.hpp"
+#include "reference/route_run.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <limits>
 #include <utility>
 
-#include "hbvm/clock.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/reference/reference_motion.hpp"
-#include "hbvm/reference/taylor.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "clock.hpp"
 #include "hbvm_walk.hpp"
+#include "problem/point.hpp"
+#include "reference/reference_motion.hpp"
+#include "reference/taylor.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/reference/store.hpp"
+#include "reference/store.hpp"
 
 #include <fmt/format.h>
 

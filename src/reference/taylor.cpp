@@ -1,4 +1,4 @@
-#include "hbvm/reference/taylor.hpp"
+#include "reference/taylor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 
 #include "between/force_bounds.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/reference/reference_motion.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "linear/arrays.hpp"
+#include "linear/product.hpp"
+#include "reference/reference_motion.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

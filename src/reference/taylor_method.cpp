@@ -1,11 +1,11 @@
-#include "hbvm/reference/taylor_method.hpp"
+#include "reference/taylor_method.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/interruption.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/reference/taylor.hpp"
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/step/registry.hpp"
+#include "interruption.hpp"
+#include "linear/arrays.hpp"
+#include "reference/taylor.hpp"
+#include "scalar/in_place.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/report/figure.hpp"
+#include "report/figure.hpp"
 
 namespace hbvm {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hbvm/csv_line.hpp"
+#include "csv_line.hpp"
 #include "hbvm/error.hpp"
 
 namespace hbvm {

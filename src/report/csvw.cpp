@@ -1,9 +1,9 @@
-#include "hbvm/report/csvw.hpp"
+#include "report/csvw.hpp"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "hbvm/write_file.hpp"
+#include "write_file.hpp"
 
 namespace hbvm {
 namespace {

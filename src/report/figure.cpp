@@ -1,12 +1,12 @@
-#include "hbvm/report/figure.hpp"
+#include "report/figure.hpp"
 
 #include <cstdio>
 #include <cstdlib>
 
 #include "figure_layout.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/read_file.hpp"
-#include "hbvm/write_file.hpp"
+#include "read_file.hpp"
+#include "write_file.hpp"
 
 namespace hbvm {
 namespace {

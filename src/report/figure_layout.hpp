@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "axis_range.hpp"
-#include "hbvm/report/figure.hpp"
+#include "report/figure.hpp"
 
 namespace hbvm {
 

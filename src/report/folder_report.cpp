@@ -1,4 +1,4 @@
-#include "hbvm/report/folder_report.hpp"
+#include "report/folder_report.hpp"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 
 #include "csv_table.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/read_file.hpp"
-#include "hbvm/report/csvw.hpp"
 #include "html.hpp"
 #include "inline_svg.hpp"
 #include "json_facts.hpp"
 #include "markdown.hpp"
+#include "read_file.hpp"
+#include "report/csvw.hpp"
 #include "report_parts.hpp"
 
 namespace hbvm {

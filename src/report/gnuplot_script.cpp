@@ -5,7 +5,7 @@
 
 #include "figure_layout.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/report/figure.hpp"
+#include "report/figure.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,8 @@
-#include "hbvm/report/table.hpp"
+#include "report/table.hpp"
 
 #include <algorithm>
 
-#include "hbvm/csv_line.hpp"
+#include "csv_line.hpp"
 
 namespace hbvm {
 namespace {

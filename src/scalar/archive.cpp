@@ -1,4 +1,4 @@
-#include "hbvm/scalar/archive.hpp"
+#include "scalar/archive.hpp"
 
 #include <charconv>
 #include <memory>

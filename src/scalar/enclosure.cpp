@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "expression_node.hpp"
-#include "hbvm/scalar/expression.hpp"
+#include "scalar/expression.hpp"
 
 namespace hbvm {
 

@@ -1,4 +1,4 @@
-#include "hbvm/scalar/expression.hpp"
+#include "scalar/expression.hpp"
 
 #include <array>
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "expression_node.hpp"
-#include "hbvm/nearest.hpp"
+#include "nearest.hpp"
 
 namespace hbvm {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "hbvm/scalar/expression.hpp"
+#include "scalar/expression.hpp"
 
 namespace hbvm {
 

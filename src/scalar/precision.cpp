@@ -1,9 +1,9 @@
-#include "hbvm/scalar/precision.hpp"
+#include "scalar/precision.hpp"
 
 #include <charconv>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/quad.hpp"
+#include "scalar/quad.hpp"
 
 namespace hbvm {
 

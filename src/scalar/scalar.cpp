@@ -1,4 +1,4 @@
-#include "hbvm/scalar/scalar.hpp"
+#include "scalar/scalar.hpp"
 
 #include <algorithm>
 #include <cmath>

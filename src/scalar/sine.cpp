@@ -1,4 +1,4 @@
-#include "hbvm/scalar/sine.hpp"
+#include "scalar/sine.hpp"
 
 #include <gmp.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hbvm/scalar/big_float.hpp"
+#include "scalar/big_float.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/scalar/text.hpp"
+#include "scalar/text.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "hbvm/scene/assemble.hpp"
+#include "scene/assemble.hpp"
 
 #include <fmt/format.h>
 
@@ -9,19 +9,19 @@
 #include <optional>
 #include <set>
 
-#include "hbvm/problem/constraint_gradient.hpp"
-#include "hbvm/problem/effect/use.hpp"
-#include "hbvm/problem/formula/quadratic.hpp"
-#include "hbvm/problem/formula/symmetry.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/problem/regularity.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/scalar/working_digits.hpp"
-#include "hbvm/scene/second_moment.hpp"
+#include "problem/constraint_gradient.hpp"
+#include "problem/effect/use.hpp"
+#include "problem/formula/quadratic.hpp"
+#include "problem/formula/symmetry.hpp"
+#include "problem/point.hpp"
+#include "problem/regularity.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/text.hpp"
+#include "scalar/working_digits.hpp"
 #include "scene/formula_binding.hpp"
 #include "scene/nearest_position.hpp"
 #include "scene/own_precision.hpp"
+#include "scene/second_moment.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/scene/coordinate_names.hpp"
+#include "scene/coordinate_names.hpp"
 
 namespace hbvm {
 

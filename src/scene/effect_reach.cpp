@@ -1,4 +1,4 @@
-#include "hbvm/scene/effect_reach.hpp"
+#include "scene/effect_reach.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "hbvm/problem/formula/use.hpp"
-#include "hbvm/scene/formula_names.hpp"
+#include "problem/formula/use.hpp"
+#include "scene/formula_names.hpp"
 
 namespace hbvm {
 

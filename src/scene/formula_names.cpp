@@ -1,8 +1,8 @@
-#include "hbvm/scene/formula_names.hpp"
+#include "scene/formula_names.hpp"
 
 #include <functional>
 
-#include "hbvm/nearest.hpp"
+#include "nearest.hpp"
 #include "scalar/expression_node.hpp"
 
 namespace hbvm {

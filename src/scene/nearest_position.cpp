@@ -1,10 +1,10 @@
 #include "scene/nearest_position.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/linear/lu.hpp"
-#include "hbvm/problem/constraint_gradient.hpp"
-#include "hbvm/problem/point.hpp"
+#include "linear/lu.hpp"
+#include "problem/constraint_gradient.hpp"
 #include "problem/gram_factor.hpp"
+#include "problem/point.hpp"
 
 namespace hbvm {
 

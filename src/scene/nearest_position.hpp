@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/problem/problem.hpp"
+#include "problem/problem.hpp"
 
 namespace hbvm {
 

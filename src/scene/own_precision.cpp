@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hbvm/scalar/literal.hpp"
 #include "scalar/expression_node.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

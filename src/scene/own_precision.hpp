@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/scalar/scalar.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "scalar/scalar.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 

@@ -1,11 +1,11 @@
-#include "hbvm/scene/project.hpp"
+#include "scene/project.hpp"
 
 #include <Eigen/Geometry>
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/problem/regularity.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "problem/point.hpp"
+#include "problem/regularity.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/text.hpp"
 #include "scene/nearest_position.hpp"
 #include "scene/own_precision.hpp"
 

@@ -6,11 +6,11 @@
 #include <set>
 #include <sstream>
 
-#include "hbvm/nearest.hpp"
-#include "hbvm/problem/constraint/registry.hpp"
-#include "hbvm/problem/effect/registry.hpp"
-#include "hbvm/scene/formula_names.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "nearest.hpp"
+#include "problem/constraint/registry.hpp"
+#include "problem/effect/registry.hpp"
+#include "scene/formula_names.hpp"
+#include "scene/scene.hpp"
 #include "toml/toml_table.hpp"
 
 namespace hbvm {

@@ -1,10 +1,10 @@
-#include "hbvm/scene/second_moment.hpp"
+#include "scene/second_moment.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/scalar.hpp"
+#include "scalar/scalar.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/scene/sketch.hpp"
+#include "scene/sketch.hpp"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
-#include "hbvm/scalar/literal.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/scene/with_start.hpp"
+#include "scene/with_start.hpp"
 
 #include <algorithm>
 

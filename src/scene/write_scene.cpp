@@ -1,5 +1,5 @@
-#include "hbvm/problem/constraint/registry.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "problem/constraint/registry.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/solver/automatic.hpp"
+#include "solver/automatic.hpp"
 
 namespace hbvm {
 

@@ -1,12 +1,12 @@
-#include "hbvm/solver/continuation.hpp"
+#include "solver/continuation.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "hbvm/basis/legendre.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "basis/legendre.hpp"
+#include "linear/arrays.hpp"
+#include "linear/product.hpp"
+#include "scalar/binary_exponent.hpp"
 
 namespace hbvm {
 

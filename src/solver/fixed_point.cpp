@@ -1,10 +1,10 @@
-#include "hbvm/solver/fixed_point.hpp"
+#include "solver/fixed_point.hpp"
 
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/problem/regularity.hpp"
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/solver/roundings.hpp"
+#include "linear/arrays.hpp"
+#include "problem/regularity.hpp"
+#include "scalar/in_place.hpp"
+#include "scalar/text.hpp"
+#include "solver/roundings.hpp"
 
 namespace hbvm {
 

@@ -1,9 +1,9 @@
-#include "hbvm/solver/jacobian.hpp"
+#include "solver/jacobian.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "scalar/binary_exponent.hpp"
 
 namespace hbvm {
 namespace {

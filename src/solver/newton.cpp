@@ -1,12 +1,12 @@
-#include "hbvm/solver/newton.hpp"
+#include "solver/newton.hpp"
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/solver/roundings.hpp"
+#include "linear/arrays.hpp"
+#include "scalar/binary_exponent.hpp"
+#include "solver/roundings.hpp"
 
 namespace hbvm {
 namespace {

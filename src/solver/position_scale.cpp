@@ -1,6 +1,6 @@
-#include "hbvm/solver/position_scale.hpp"
+#include "solver/position_scale.hpp"
 
-#include "hbvm/linear/arrays.hpp"
+#include "linear/arrays.hpp"
 
 namespace hbvm {
 

@@ -1,9 +1,9 @@
-#include "hbvm/solver/root_check.hpp"
+#include "solver/root_check.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "scalar/binary_exponent.hpp"
 
 namespace hbvm {
 

@@ -1,13 +1,13 @@
-#include "hbvm/solver/simplified_newton.hpp"
+#include "solver/simplified_newton.hpp"
 
 #include <cmath>
 
-#include "hbvm/interruption.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/solver/roundings.hpp"
+#include "interruption.hpp"
+#include "linear/arrays.hpp"
+#include "scalar/binary_exponent.hpp"
+#include "scalar/in_place.hpp"
+#include "scalar/text.hpp"
+#include "solver/roundings.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/solver/solver_kind.hpp"
+#include "solver/solver_kind.hpp"
 
 #include <array>
 #include <string>

@@ -1,9 +1,9 @@
-#include "hbvm/solver/stage_equations.hpp"
+#include "solver/stage_equations.hpp"
 
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/linear/constant_count.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/arrays.hpp"
+#include "linear/constant_count.hpp"
+#include "linear/product.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 namespace {

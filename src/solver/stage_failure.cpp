@@ -1,4 +1,4 @@
-#include "hbvm/solver/stage_failure.hpp"
+#include "solver/stage_failure.hpp"
 
 namespace hbvm {
 

@@ -1,8 +1,8 @@
-#include "hbvm/solver/stage_solver.hpp"
+#include "solver/stage_solver.hpp"
 
-#include "hbvm/solver/automatic.hpp"
-#include "hbvm/solver/fixed_point.hpp"
-#include "hbvm/solver/newton.hpp"
+#include "solver/automatic.hpp"
+#include "solver/fixed_point.hpp"
+#include "solver/newton.hpp"
 
 namespace hbvm {
 

@@ -1,16 +1,16 @@
-#include "hbvm/solver/stopping_rule.hpp"
+#include "solver/stopping_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "hbvm/interruption.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/linear/constant_count.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "interruption.hpp"
+#include "linear/arrays.hpp"
+#include "linear/constant_count.hpp"
+#include "scalar/binary_exponent.hpp"
+#include "scalar/in_place.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

@@ -3,13 +3,13 @@
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 #include <charconv>
 
-#include "hbvm/interruption.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/step/odeint_methods.hpp"
-#include "hbvm/step/reduced_stepper.hpp"
+#include "interruption.hpp"
+#include "linear/arrays.hpp"
 #include "odeint_number.hpp"
+#include "scalar/binary_exponent.hpp"
+#include "scalar/text.hpp"
+#include "step/odeint_methods.hpp"
+#include "step/reduced_stepper.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/step/composition.hpp"
+#include "step/composition.hpp"
 
 #include <charconv>
 
 #include "copy_state.hpp"
-#include "hbvm/step/registry.hpp"
 #include "linear/rounded.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

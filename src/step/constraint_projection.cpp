@@ -1,8 +1,8 @@
-#include "hbvm/step/constraint_projection.hpp"
+#include "step/constraint_projection.hpp"
 
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "linear/arrays.hpp"
+#include "scalar/in_place.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 

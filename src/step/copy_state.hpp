@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/step/state.hpp"
+#include "scalar/in_place.hpp"
+#include "step/state.hpp"
 
 namespace hbvm {
 

@@ -1,10 +1,10 @@
-#include "hbvm/step/halving_stepper.hpp"
+#include "step/halving_stepper.hpp"
 
 #include <algorithm>
 #include <optional>
 
 #include "copy_state.hpp"
-#include "hbvm/interruption.hpp"
+#include "interruption.hpp"
 
 namespace hbvm {
 

@@ -1,9 +1,9 @@
-#include "hbvm/step/hbvm_method.hpp"
+#include "step/hbvm_method.hpp"
 
 #include <algorithm>
 
-#include "hbvm/problem/effect/trace.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "problem/effect/trace.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 

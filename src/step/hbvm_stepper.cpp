@@ -1,7 +1,7 @@
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "step/hbvm_stepper.hpp"
 
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/step/add_compensated.hpp"
+#include "scalar/in_place.hpp"
+#include "step/add_compensated.hpp"
 
 namespace hbvm {
 

@@ -1,13 +1,13 @@
-#include "hbvm/step/lobatto.hpp"
+#include "step/lobatto.hpp"
 
 #include <charconv>
 
+#include "basis/legendre.hpp"
 #include "copy_state.hpp"
-#include "hbvm/basis/legendre.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/method/hbvm_name.hpp"
+#include "linear/arrays.hpp"
+#include "linear/product.hpp"
 #include "linear/rounded.hpp"
+#include "method/hbvm_name.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/scalar/scalar.hpp"
+#include "scalar/scalar.hpp"
 
 namespace hbvm {
 

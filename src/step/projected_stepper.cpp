@@ -1,12 +1,12 @@
-#include "hbvm/step/projected_stepper.hpp"
+#include "step/projected_stepper.hpp"
 
 #include <algorithm>
 
 #include "copy_state.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/step/add_compensated.hpp"
-#include "hbvm/step/hbvm_method.hpp"
+#include "linear/arrays.hpp"
+#include "scalar/text.hpp"
+#include "step/add_compensated.hpp"
+#include "step/hbvm_method.hpp"
 
 namespace hbvm {
 

@@ -1,6 +1,6 @@
-#include "hbvm/step/quadrature_defect.hpp"
+#include "step/quadrature_defect.hpp"
 
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

@@ -1,9 +1,9 @@
-#include "hbvm/step/raising_stepper.hpp"
+#include "step/raising_stepper.hpp"
 
 #include <algorithm>
 
 #include "copy_state.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 

@@ -1,7 +1,7 @@
-#include "hbvm/step/rattle.hpp"
+#include "step/rattle.hpp"
 
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/scalar/in_place.hpp"
+#include "linear/arrays.hpp"
+#include "scalar/in_place.hpp"
 
 namespace hbvm {
 

@@ -1,10 +1,10 @@
-#include "hbvm/step/reduced_stepper.hpp"
+#include "step/reduced_stepper.hpp"
 
 #include <algorithm>
 
 #include "copy_state.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/step/add_compensated.hpp"
+#include "linear/arrays.hpp"
+#include "step/add_compensated.hpp"
 
 namespace hbvm {
 

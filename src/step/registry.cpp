@@ -1,18 +1,18 @@
-#include "hbvm/step/registry.hpp"
+#include "step/registry.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "hbvm/method/method_spec.hpp"
-#include "hbvm/nearest.hpp"
-#include "hbvm/step/composition.hpp"
-#include "hbvm/step/energy_momentum.hpp"
-#include "hbvm/step/hbvm_method.hpp"
-#include "hbvm/step/lobatto.hpp"
-#include "hbvm/step/odeint_methods.hpp"
-#include "hbvm/step/projected_stepper.hpp"
-#include "hbvm/step/rattle.hpp"
-#include "hbvm/step/tableau_method.hpp"
+#include "method/method_spec.hpp"
+#include "nearest.hpp"
+#include "step/composition.hpp"
+#include "step/energy_momentum.hpp"
+#include "step/hbvm_method.hpp"
+#include "step/lobatto.hpp"
+#include "step/odeint_methods.hpp"
+#include "step/projected_stepper.hpp"
+#include "step/rattle.hpp"
+#include "step/tableau_method.hpp"
 
 namespace hbvm {
 

@@ -1,9 +1,9 @@
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/step/odeint_methods.hpp"
-#include "hbvm/step/reduced_stepper.hpp"
+#include "linear/arrays.hpp"
+#include "step/odeint_methods.hpp"
+#include "step/reduced_stepper.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/step/runge_kutta_stepper.hpp"
+#include "step/runge_kutta_stepper.hpp"
 
 #include "copy_state.hpp"
-#include "hbvm/linear/arrays.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/step/stage_iteration.hpp"
+#include "linear/arrays.hpp"
+#include "linear/product.hpp"
+#include "scalar/in_place.hpp"
+#include "step/stage_iteration.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,11 +1,11 @@
-#include "hbvm/step/tableau_method.hpp"
+#include "step/tableau_method.hpp"
 
 #include <algorithm>
 
-#include "hbvm/method/decimals.hpp"
-#include "hbvm/method/order_conditions.hpp"
-#include "hbvm/method/read_tableau.hpp"
-#include "hbvm/method/symmetry_defect.hpp"
+#include "method/decimals.hpp"
+#include "method/order_conditions.hpp"
+#include "method/read_tableau.hpp"
+#include "method/symmetry_defect.hpp"
 
 namespace hbvm {
 namespace {

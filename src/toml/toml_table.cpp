@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hbvm/nearest.hpp"
+#include "nearest.hpp"
 #include "toml/toml_flaw.hpp"
 
 namespace hbvm {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hbvm/scalar/expression.hpp"
+#include "scalar/expression.hpp"
 
 namespace hbvm {
 

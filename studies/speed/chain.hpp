@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hbvm/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm::speed {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "chain.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/write_file.hpp"
+#include "problem/point.hpp"
 #include "raw_cost.hpp"
+#include "write_file.hpp"
 
 namespace hbvm::speed {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "hbvm/linear/lu.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/problem/constraint_gradient.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "linear/lu.hpp"
+#include "linear/product.hpp"
+#include "problem/constraint_gradient.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
 
 namespace {
 

@@ -12,9 +12,9 @@
 
 #include "groups.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/report/figure.hpp"
-#include "hbvm/report/table.hpp"
 #include "hbvm/version.hpp"
+#include "report/figure.hpp"
+#include "report/table.hpp"
 
 #ifndef HBVM_FLAGS
 #define HBVM_FLAGS "unknown"

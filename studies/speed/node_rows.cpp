@@ -1,8 +1,8 @@
 #include <arb_hypgeom.h>
 #include <fmt/format.h>
 
+#include "basis/gauss_legendre.hpp"
 #include "groups.hpp"
-#include "hbvm/basis/gauss_legendre.hpp"
 #include "raw_cost.hpp"
 
 namespace hbvm::speed {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/linear/operation_counts.hpp"
+#include "linear/operation_counts.hpp"
 #include "timing.hpp"
 
 namespace hbvm::speed {

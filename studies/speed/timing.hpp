@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "hbvm/clock.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
-#include "hbvm/step/rattle.hpp"
+#include "clock.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_stepper.hpp"
+#include "step/rattle.hpp"
 
 namespace hbvm::speed {
 

@@ -2,15 +2,15 @@
 
 #include <cstdlib>
 
-#include "hbvm/integrate/watched_stepper.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/step/halving_stepper.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
-#include "hbvm/step/raising_stepper.hpp"
-#include "hbvm/step/rattle.hpp"
-#include "hbvm/step/registry.hpp"
-#include "hbvm/step/runge_kutta_stepper.hpp"
+#include "integrate/watched_stepper.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
+#include "step/halving_stepper.hpp"
+#include "step/hbvm_stepper.hpp"
+#include "step/raising_stepper.hpp"
+#include "step/rattle.hpp"
+#include "step/registry.hpp"
+#include "step/runge_kutta_stepper.hpp"
 
 // Counts every allocation of the program: Eigen, MPFR and the standard library come down to malloc.
 #ifndef __SANITIZE_ADDRESS__

@@ -1,13 +1,13 @@
-#include "hbvm/basis/gauss_legendre.hpp"
+#include "basis/gauss_legendre.hpp"
 
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/with_scalar.hpp"
 #include "printing.hpp"
 #include "scalar/arb.hpp"
+#include "scalar/with_scalar.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/basis/legendre.hpp"
+#include "basis/legendre.hpp"
 
 #include <cmath>
 
-#include "hbvm/basis/gauss_legendre.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "basis/gauss_legendre.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "checksum.hpp"
 #include "cli/program.hpp"
-#include "hbvm/checksum.hpp"
 
 namespace hbvm {
 namespace {

@@ -3,12 +3,12 @@
 #include <random>
 #include <thread>
 
+#include "checksum.hpp"
 #include "cli/json.hpp"
 #include "cli/program.hpp"
-#include "hbvm/checksum.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/with_scalar.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/with_scalar.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
+#include "basis/gauss_legendre.hpp"
 #include "cli/json.hpp"
 #include "cli/program.hpp"
-#include "hbvm/basis/gauss_legendre.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/scalar/with_scalar.hpp"
+#include "scalar/text.hpp"
+#include "scalar/with_scalar.hpp"
 
 namespace hbvm {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.hpp"
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 #include "verification/sources.hpp"
 
 namespace hbvm {

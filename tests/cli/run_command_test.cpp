@@ -8,13 +8,13 @@
 
 #include "cli/json.hpp"
 #include "cli/program.hpp"
-#include "hbvm/csv_line.hpp"
-#include "hbvm/integrate/drift.hpp"
-#include "hbvm/integrate/output_state.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/scalar/with_scalar.hpp"
+#include "csv_line.hpp"
+#include "integrate/drift.hpp"
+#include "integrate/output_state.hpp"
 #include "integrate/runs.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/text.hpp"
+#include "scalar/with_scalar.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,6 +1,6 @@
 #include "cli/program.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "scalar/literal.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 namespace {

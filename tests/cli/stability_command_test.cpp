@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include "checksum.hpp"
 #include "cli/program.hpp"
-#include "hbvm/checksum.hpp"
 
 namespace hbvm {
 namespace {

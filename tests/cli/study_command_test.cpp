@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.hpp"
-#include "hbvm/csv_line.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "csv_line.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

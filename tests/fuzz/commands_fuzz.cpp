@@ -22,9 +22,9 @@
 
 #include "cli/commands.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/interruption.hpp"
-#include "hbvm/reference/taylor_method.hpp"
-#include "hbvm/write_file.hpp"
+#include "interruption.hpp"
+#include "reference/taylor_method.hpp"
+#include "write_file.hpp"
 
 namespace hbvm {
 namespace {

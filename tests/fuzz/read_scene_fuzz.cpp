@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 namespace {

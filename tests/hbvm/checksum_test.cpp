@@ -1,4 +1,4 @@
-#include "hbvm/checksum.hpp"
+#include "checksum.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hbvm/clock.hpp"
+#include "clock.hpp"
 
 #include <gtest/gtest.h>
 

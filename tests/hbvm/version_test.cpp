@@ -4,7 +4,7 @@
 
 #include <regex>
 
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/write_file.hpp"
+#include "write_file.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include "hbvm/error.hpp"
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,19 +1,19 @@
-#include "hbvm/integrate/checkpoint.hpp"
+#include "integrate/checkpoint.hpp"
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "hbvm/checksum.hpp"
+#include "checksum.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/integrate/drift.hpp"
-#include "hbvm/integrate/momentum_drift.hpp"
-#include "hbvm/integrate/trajectory.hpp"
-#include "hbvm/interruption.hpp"
-#include "hbvm/step/backward_stepper.hpp"
+#include "integrate/drift.hpp"
+#include "integrate/momentum_drift.hpp"
 #include "integrate/runs.hpp"
+#include "integrate/trajectory.hpp"
+#include "interruption.hpp"
 #include "printing.hpp"
+#include "step/backward_stepper.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm {

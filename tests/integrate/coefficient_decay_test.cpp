@@ -1,7 +1,7 @@
-#include "hbvm/integrate/coefficient_decay.hpp"
+#include "integrate/coefficient_decay.hpp"
 
-#include "hbvm/integrate/watched_stepper.hpp"
 #include "integrate/runs.hpp"
+#include "integrate/watched_stepper.hpp"
 #include "printing.hpp"
 
 namespace hbvm {

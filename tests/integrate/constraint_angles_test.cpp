@@ -1,9 +1,9 @@
-#include "hbvm/integrate/constraint_angles.hpp"
+#include "integrate/constraint_angles.hpp"
 
-#include "hbvm/scalar/literal.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,8 @@
-#include "hbvm/integrate/constraint_drift.hpp"
+#include "integrate/constraint_drift.hpp"
 
-#include "hbvm/scalar/literal.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

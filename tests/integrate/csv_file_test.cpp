@@ -1,4 +1,4 @@
-#include "hbvm/integrate/csv_file.hpp"
+#include "integrate/csv_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

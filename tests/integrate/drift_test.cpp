@@ -1,4 +1,4 @@
-#include "hbvm/integrate/drift.hpp"
+#include "integrate/drift.hpp"
 
 #include "integrate/runs.hpp"
 #include "printing.hpp"

@@ -1,6 +1,6 @@
-#include "hbvm/integrate/energy_balance.hpp"
+#include "integrate/energy_balance.hpp"
 
-#include "hbvm/integrate/drift.hpp"
+#include "integrate/drift.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 

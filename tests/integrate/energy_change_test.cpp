@@ -1,4 +1,4 @@
-#include "hbvm/integrate/energy_change.hpp"
+#include "integrate/energy_change.hpp"
 
 #include <gtest/gtest.h>
 

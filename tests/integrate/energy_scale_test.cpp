@@ -1,9 +1,9 @@
-#include "hbvm/integrate/energy_scale.hpp"
+#include "integrate/energy_scale.hpp"
 
 #include <cmath>
 
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/hidden_cosines.hpp"
+#include "integrate/hidden_cosines.hpp"
 
 #include "integrate/runs.hpp"
 #include "printing.hpp"

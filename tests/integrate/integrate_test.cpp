@@ -1,9 +1,9 @@
-#include "hbvm/integrate/integrate.hpp"
+#include "integrate/integrate.hpp"
 
-#include "hbvm/clock.hpp"
-#include "hbvm/problem/point.hpp"
+#include "clock.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm {

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/momentum_drift.hpp"
+#include "integrate/momentum_drift.hpp"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/output_state.hpp"
+#include "integrate/output_state.hpp"
 
 #include "integrate/runs.hpp"
 #include "printing.hpp"

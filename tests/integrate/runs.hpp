@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "hbvm/integrate/integrate.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "integrate/integrate.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 

@@ -1,7 +1,7 @@
-#include "hbvm/integrate/time_grid.hpp"
+#include "integrate/time_grid.hpp"
 
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/integrate/trajectory_columns.hpp"
+#include "integrate/trajectory_columns.hpp"
 
 #include <gtest/gtest.h>
 

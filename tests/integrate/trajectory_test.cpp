@@ -1,10 +1,10 @@
-#include "hbvm/integrate/trajectory.hpp"
+#include "integrate/trajectory.hpp"
 
 #include <sstream>
 
-#include "hbvm/integrate/output_state.hpp"
-#include "hbvm/integrate/trajectory_columns.hpp"
+#include "integrate/output_state.hpp"
 #include "integrate/runs.hpp"
+#include "integrate/trajectory_columns.hpp"
 #include "printing.hpp"
 #include "verification/models.hpp"
 

@@ -1,8 +1,8 @@
-#include "hbvm/linear/aligned_matrix.hpp"
+#include "linear/aligned_matrix.hpp"
 
-#include "hbvm/linear/product.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "linear/product.hpp"
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -1,9 +1,9 @@
-#include "hbvm/linear/aligned_series.hpp"
+#include "linear/aligned_series.hpp"
 
 #include <limits>
 
-#include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "hbvm/linear/matrix.hpp"
+#include "linear/matrix.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 

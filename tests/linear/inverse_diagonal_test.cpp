@@ -1,6 +1,6 @@
-#include "hbvm/linear/inverse_diagonal.hpp"
+#include "linear/inverse_diagonal.hpp"
 
-#include "hbvm/linear/lu.hpp"
+#include "linear/lu.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 

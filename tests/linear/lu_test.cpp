@@ -1,4 +1,4 @@
-#include "hbvm/linear/lu.hpp"
+#include "linear/lu.hpp"
 
 #include "printing.hpp"
 #include "scalar/random_values.hpp"

@@ -1,4 +1,4 @@
-#include "hbvm/linear/matrix.hpp"
+#include "linear/matrix.hpp"
 
 #include "printing.hpp"
 

@@ -1,7 +1,7 @@
-#include "hbvm/linear/null_space.hpp"
+#include "linear/null_space.hpp"
 
-#include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -1,4 +1,4 @@
-#include "hbvm/linear/operation_counts.hpp"
+#include "linear/operation_counts.hpp"
 
 #include <gtest/gtest.h>
 

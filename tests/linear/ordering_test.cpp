@@ -1,4 +1,4 @@
-#include "hbvm/linear/ordering.hpp"
+#include "linear/ordering.hpp"
 
 #include <gtest/gtest.h>
 

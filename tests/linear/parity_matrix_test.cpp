@@ -1,6 +1,6 @@
-#include "hbvm/linear/parity_matrix.hpp"
+#include "linear/parity_matrix.hpp"
 
-#include "hbvm/method/hbvm.hpp"
+#include "method/hbvm.hpp"
 #include "printing.hpp"
 
 namespace hbvm {

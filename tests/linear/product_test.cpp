@@ -1,7 +1,7 @@
-#include "hbvm/linear/product.hpp"
+#include "linear/product.hpp"
 
-#include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -1,4 +1,4 @@
-#include "hbvm/method/decimals.hpp"
+#include "method/decimals.hpp"
 
 #include "method/tableaux.hpp"
 

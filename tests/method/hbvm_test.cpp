@@ -1,13 +1,13 @@
-#include "hbvm/method/hbvm.hpp"
+#include "method/hbvm.hpp"
 
 #include <cmath>
 #include <tuple>
 #include <vector>
 
-#include "hbvm/basis/gauss_legendre.hpp"
+#include "basis/gauss_legendre.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -1,4 +1,4 @@
-#include "hbvm/method/method_spec.hpp"
+#include "method/method_spec.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "hbvm/method/order_conditions.hpp"
+#include "method/order_conditions.hpp"
 
 #include <limits>
 
 #include "hbvm/error.hpp"
-#include "hbvm/method/symmetry_defect.hpp"
+#include "method/symmetry_defect.hpp"
 #include "method/tableaux.hpp"
 
 namespace hbvm {

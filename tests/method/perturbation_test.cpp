@@ -1,13 +1,13 @@
-#include "hbvm/method/perturbation.hpp"
+#include "method/perturbation.hpp"
 
 #include <functional>
 #include <set>
 #include <vector>
 
-#include "hbvm/basis/legendre.hpp"
+#include "basis/legendre.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

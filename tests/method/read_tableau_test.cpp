@@ -1,4 +1,4 @@
-#include "hbvm/method/read_tableau.hpp"
+#include "method/read_tableau.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 
 #include "hbvm/error.hpp"
-#include "hbvm/method/order_conditions.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "method/order_conditions.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

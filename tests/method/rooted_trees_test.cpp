@@ -1,4 +1,4 @@
-#include "hbvm/method/rooted_trees.hpp"
+#include "method/rooted_trees.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hbvm/method/runge_kutta.hpp"
+#include "method/runge_kutta.hpp"
 
 #include "hbvm/error.hpp"
 #include "method/tableaux.hpp"

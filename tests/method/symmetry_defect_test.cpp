@@ -1,4 +1,4 @@
-#include "hbvm/method/symmetry_defect.hpp"
+#include "method/symmetry_defect.hpp"
 
 #include "method/tableaux.hpp"
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/method/hbvm.hpp"
-#include "hbvm/method/order_conditions.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "method/hbvm.hpp"
+#include "method/order_conditions.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 

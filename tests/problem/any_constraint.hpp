@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/problem/constraint.hpp"
+#include "problem/constraint.hpp"
 #include "problem/dense.hpp"
 #include "scalar/random_values.hpp"
 

@@ -1,4 +1,4 @@
-#include "hbvm/problem/constraint_gradient.hpp"
+#include "problem/constraint_gradient.hpp"
 
 #include <set>
 

@@ -1,4 +1,4 @@
-#include "hbvm/problem/constraint.hpp"
+#include "problem/constraint.hpp"
 
 #include "printing.hpp"
 #include "problem/dense.hpp"

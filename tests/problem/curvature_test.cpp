@@ -1,10 +1,10 @@
-#include "hbvm/problem/curvature.hpp"
+#include "problem/curvature.hpp"
 
 #include <set>
 
-#include "hbvm/problem/effect/use.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
+#include "problem/effect/use.hpp"
 
 namespace hbvm {
 namespace {

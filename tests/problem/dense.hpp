@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/linear/lu.hpp"
-#include "hbvm/problem/problem.hpp"
+#include "linear/lu.hpp"
+#include "problem/problem.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

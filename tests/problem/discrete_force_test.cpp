@@ -1,9 +1,9 @@
-#include "hbvm/problem/discrete_force.hpp"
+#include "problem/discrete_force.hpp"
 
-#include "hbvm/linear/product.hpp"
-#include "hbvm/scene/assemble.hpp"
+#include "linear/product.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,8 @@
-#include "hbvm/problem/energy_terms.hpp"
+#include "problem/energy_terms.hpp"
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,7 +1,7 @@
-#include "hbvm/problem/general_drift.hpp"
+#include "problem/general_drift.hpp"
 
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,11 +1,11 @@
-#include "hbvm/problem/in_double.hpp"
+#include "problem/in_double.hpp"
 
-#include "hbvm/problem/effect/use.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
+#include "problem/effect/use.hpp"
+#include "problem/point.hpp"
+#include "scalar/binary_exponent.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

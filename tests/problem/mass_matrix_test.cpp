@@ -1,4 +1,4 @@
-#include "hbvm/problem/mass_matrix.hpp"
+#include "problem/mass_matrix.hpp"
 
 #include "hbvm/error.hpp"
 #include "printing.hpp"

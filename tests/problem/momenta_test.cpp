@@ -1,14 +1,14 @@
-#include "hbvm/problem/momenta.hpp"
+#include "problem/momenta.hpp"
 
 #include <Eigen/SVD>
 
-#include "hbvm/problem/effect/use.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/text.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 #include "problem/any_constraint.hpp"
+#include "problem/effect/use.hpp"
+#include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
+#include "scalar/text.hpp"
+#include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {

@@ -1,10 +1,10 @@
-#include "hbvm/problem/point.hpp"
+#include "problem/point.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/use.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
+#include "problem/effect/use.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

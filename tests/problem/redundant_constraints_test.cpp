@@ -1,10 +1,10 @@
-#include "hbvm/problem/redundant_constraints.hpp"
+#include "problem/redundant_constraints.hpp"
 
 #include <utility>
 
-#include "hbvm/problem/regularity.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
+#include "problem/regularity.hpp"
 
 namespace hbvm {
 namespace {

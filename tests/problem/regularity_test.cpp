@@ -1,11 +1,11 @@
-#include "hbvm/problem/regularity.hpp"
+#include "problem/regularity.hpp"
 
 #include <cmath>
 #include <numeric>
 
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,8 @@
 #include "problem/symmetry_conditions.hpp"
 
-#include "hbvm/problem/effect/use.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
+#include "problem/effect/use.hpp"
 
 namespace hbvm {
 namespace {

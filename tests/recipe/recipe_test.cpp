@@ -1,8 +1,8 @@
 // The README's "A new effect", with the two lines it asks for: compiled in place of the library's own list of effects.
 #include <gtest/gtest.h>
 
-#include "hbvm/problem/effect/use.hpp"
-#include "hbvm/problem/potential.hpp"
+#include "problem/effect/use.hpp"
+#include "problem/potential.hpp"
 
 namespace hbvm {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "hbvm/problem/effect/interaction.hpp"
+#include "problem/effect/interaction.hpp"
 
 namespace hbvm {
 

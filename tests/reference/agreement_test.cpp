@@ -1,13 +1,13 @@
-#include "hbvm/reference/agreement.hpp"
+#include "reference/agreement.hpp"
 
 #include <limits>
 
-#include "hbvm/method/perturbation.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "method/perturbation.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scalar/literal.hpp"
+#include "scene/scene.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,7 +1,7 @@
-#include "hbvm/reference/effort.hpp"
+#include "reference/effort.hpp"
 
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/reference/exact_end.hpp"
+#include "reference/exact_end.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

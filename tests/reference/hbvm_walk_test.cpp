@@ -1,11 +1,11 @@
 #include "reference/hbvm_walk.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/method/hbvm.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
+#include "method/hbvm.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

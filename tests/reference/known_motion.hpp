@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hbvm/error.hpp"
-#include "hbvm/reference/closed_form/closed_form.hpp"
+#include "reference/closed_form/closed_form.hpp"
 
 namespace hbvm {
 

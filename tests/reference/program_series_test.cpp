@@ -1,11 +1,11 @@
-#include "hbvm/reference/program_series.hpp"
+#include "reference/program_series.hpp"
 
 #include <functional>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/trace.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "problem/effect/trace.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

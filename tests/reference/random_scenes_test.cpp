@@ -5,13 +5,13 @@
 #include <map>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/reference/reference.hpp"
-#include "hbvm/reference/taylor.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
 #include "reference/random_scene.hpp"
+#include "reference/reference.hpp"
+#include "reference/taylor.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,14 +1,14 @@
-#include "hbvm/reference/reference_motion.hpp"
+#include "reference/reference_motion.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
 #include "reference/wire_motion.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

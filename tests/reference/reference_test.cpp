@@ -1,10 +1,10 @@
-#include "hbvm/reference/reference.hpp"
+#include "reference/reference.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/reference/agreement.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "reference/agreement.hpp"
 #include "reference/known_motion.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/reference/route_legs.hpp"
+#include "reference/route_legs.hpp"
 
 #include <map>
 #include <mutex>
 
-#include "hbvm/reference/reference.hpp"
 #include "printing.hpp"
+#include "reference/reference.hpp"
 
 namespace hbvm {
 namespace {

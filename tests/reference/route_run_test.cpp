@@ -1,8 +1,8 @@
-#include "hbvm/reference/route_run.hpp"
+#include "reference/route_run.hpp"
 
-#include "hbvm/reference/taylor.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "reference/taylor.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

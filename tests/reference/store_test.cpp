@@ -1,11 +1,11 @@
-#include "hbvm/reference/store.hpp"
+#include "reference/store.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/momenta.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/momenta.hpp"
+#include "problem/point.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

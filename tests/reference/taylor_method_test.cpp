@@ -1,15 +1,15 @@
-#include "hbvm/reference/taylor_method.hpp"
+#include "reference/taylor_method.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <csignal>
 
-#include "hbvm/interruption.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/registry.hpp"
+#include "interruption.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,11 +1,11 @@
-#include "hbvm/reference/taylor.hpp"
+#include "reference/taylor.hpp"
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
 #include "reference/known_motion.hpp"
 #include "reference/wire_motion.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

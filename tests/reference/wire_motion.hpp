@@ -4,7 +4,7 @@
 #include <string>
 
 #include "hbvm/error.hpp"
-#include "hbvm/linear/matrix.hpp"
+#include "linear/matrix.hpp"
 
 namespace hbvm {
 

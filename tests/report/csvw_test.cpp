@@ -1,11 +1,11 @@
-#include "hbvm/report/csvw.hpp"
+#include "report/csvw.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "hbvm/error.hpp"
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/report/figure.hpp"
+#include "report/figure.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "hbvm/error.hpp"
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,11 +1,11 @@
-#include "hbvm/report/folder_report.hpp"
+#include "report/folder_report.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
 #include "hbvm/error.hpp"
-#include "hbvm/write_file.hpp"
+#include "write_file.hpp"
 
 namespace hbvm {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hbvm/error.hpp"
-#include "hbvm/report/figure.hpp"
+#include "report/figure.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,8 @@
-#include "hbvm/report/table.hpp"
+#include "report/table.hpp"
 
 #include <gtest/gtest.h>
 
-#include "hbvm/report/figure.hpp"
+#include "report/figure.hpp"
 
 namespace hbvm {
 namespace {

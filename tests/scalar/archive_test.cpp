@@ -1,4 +1,4 @@
-#include "hbvm/scalar/archive.hpp"
+#include "scalar/archive.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "hbvm/scalar/big_float.hpp"
-#include "hbvm/scalar/scalar.hpp"
 #include "scalar/arb.hpp"
+#include "scalar/big_float.hpp"
+#include "scalar/scalar.hpp"
 
 namespace hbvm {
 

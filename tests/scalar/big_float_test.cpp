@@ -1,10 +1,10 @@
-#include "hbvm/scalar/big_float.hpp"
+#include "scalar/big_float.hpp"
 
 #include <gtest/gtest.h>
 
 #include <utility>
 
-#include "hbvm/scalar/mpfr.hpp"
+#include "scalar/mpfr.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "scalar/binary_exponent.hpp"
 
 #include "printing.hpp"
 

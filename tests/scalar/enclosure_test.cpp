@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "hbvm/scalar/expression.hpp"
-#include "hbvm/scalar/scalar.hpp"
 #include "scalar/arb.hpp"
+#include "scalar/expression.hpp"
+#include "scalar/scalar.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,8 @@
-#include "hbvm/scalar/expression.hpp"
+#include "scalar/expression.hpp"
 
 #include <gtest/gtest.h>
 
-#include "hbvm/scalar/literal.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

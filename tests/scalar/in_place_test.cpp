@@ -1,7 +1,7 @@
-#include "hbvm/scalar/in_place.hpp"
+#include "scalar/in_place.hpp"
 
-#include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

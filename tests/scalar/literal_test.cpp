@@ -1,4 +1,4 @@
-#include "hbvm/scalar/literal.hpp"
+#include "scalar/literal.hpp"
 
 #include <cmath>
 #include <cstdlib>

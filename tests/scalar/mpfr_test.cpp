@@ -1,11 +1,11 @@
-#include "hbvm/scalar/mpfr.hpp"
+#include "scalar/mpfr.hpp"
 
 #include <cmath>
 #include <stdexcept>
 #include <thread>
 
-#include "hbvm/scalar/quad.hpp"
 #include "printing.hpp"
+#include "scalar/quad.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/scalar/precision.hpp"
+#include "scalar/precision.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <random>
 
-#include "hbvm/linear/matrix.hpp"
+#include "linear/matrix.hpp"
 
 namespace hbvm {
 

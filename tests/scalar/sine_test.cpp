@@ -1,11 +1,11 @@
-#include "hbvm/scalar/sine.hpp"
+#include "scalar/sine.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <string>
 
-#include "hbvm/scalar/big_float.hpp"
+#include "scalar/big_float.hpp"
 
 namespace hbvm {
 namespace {

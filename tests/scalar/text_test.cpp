@@ -1,4 +1,4 @@
-#include "hbvm/scalar/text.hpp"
+#include "scalar/text.hpp"
 
 #include <quadmath.h>
 
@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

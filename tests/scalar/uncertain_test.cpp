@@ -1,4 +1,4 @@
-#include "hbvm/scalar/uncertain.hpp"
+#include "scalar/uncertain.hpp"
 
 #include "printing.hpp"
 #include "scalar/random_values.hpp"

@@ -1,9 +1,9 @@
-#include "hbvm/scalar/with_scalar.hpp"
+#include "scalar/with_scalar.hpp"
 
 #include <stdexcept>
 
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/scalar/working_digits.hpp"
+#include "scalar/working_digits.hpp"
 
 #include <gtest/gtest.h>
 

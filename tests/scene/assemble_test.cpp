@@ -1,8 +1,8 @@
-#include "hbvm/scene/assemble.hpp"
+#include "scene/assemble.hpp"
 
-#include "hbvm/problem/momenta.hpp"
-#include "hbvm/problem/point.hpp"
 #include "printing.hpp"
+#include "problem/momenta.hpp"
+#include "problem/point.hpp"
 #include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 

@@ -1,8 +1,8 @@
-#include "hbvm/scene/coordinate_names.hpp"
+#include "scene/coordinate_names.hpp"
 
 #include <gtest/gtest.h>
 
-#include "hbvm/scene/assemble.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

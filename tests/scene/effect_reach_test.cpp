@@ -1,9 +1,9 @@
-#include "hbvm/scene/effect_reach.hpp"
+#include "scene/effect_reach.hpp"
 
-#include "hbvm/problem/momenta.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/momenta.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {

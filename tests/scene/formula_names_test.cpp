@@ -1,4 +1,4 @@
-#include "hbvm/scene/formula_names.hpp"
+#include "scene/formula_names.hpp"
 
 #include "scene/formula_scene.hpp"
 

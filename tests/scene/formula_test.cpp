@@ -3,14 +3,14 @@
 #include <cstdlib>
 #include <random>
 
-#include "hbvm/problem/curvature.hpp"
-#include "hbvm/problem/discrete_force.hpp"
-#include "hbvm/problem/effect/trace.hpp"
-#include "hbvm/problem/energy_terms.hpp"
-#include "hbvm/problem/momenta.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/curvature.hpp"
+#include "problem/discrete_force.hpp"
+#include "problem/effect/trace.hpp"
+#include "problem/energy_terms.hpp"
+#include "problem/momenta.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
 #include "scene/formula_scene.hpp"
 #include "scene/joined_bodies.hpp"
 

@@ -1,6 +1,6 @@
 #include <random>
 
-#include "hbvm/scene/assemble.hpp"
+#include "scene/assemble.hpp"
 #include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 

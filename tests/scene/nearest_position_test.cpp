@@ -1,8 +1,8 @@
 #include "scene/nearest_position.hpp"
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {

@@ -1,4 +1,4 @@
-#include "hbvm/scene/project.hpp"
+#include "scene/project.hpp"
 
 #include "printing.hpp"
 #include "scene/joined_bodies.hpp"

@@ -1,9 +1,9 @@
 #include <fstream>
 
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/scene.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 #include "scene/joined_bodies.hpp"
+#include "scene/scene.hpp"
 #include "scene/scene_text.hpp"
 
 namespace hbvm {

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "scalar/literal.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 

@@ -1,4 +1,4 @@
-#include "hbvm/scene/second_moment.hpp"
+#include "scene/second_moment.hpp"
 
 #include "hbvm/error.hpp"
 #include "printing.hpp"

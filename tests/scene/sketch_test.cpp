@@ -1,10 +1,10 @@
-#include "hbvm/scene/sketch.hpp"
+#include "scene/sketch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "hbvm/scene/assemble.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,7 +1,7 @@
-#include "hbvm/scene/with_start.hpp"
+#include "scene/with_start.hpp"
 
-#include "hbvm/scene/project.hpp"
 #include "printing.hpp"
+#include "scene/project.hpp"
 
 namespace hbvm {
 namespace {

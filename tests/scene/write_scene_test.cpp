@@ -1,6 +1,6 @@
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
 #include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 

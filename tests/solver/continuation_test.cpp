@@ -1,8 +1,8 @@
-#include "hbvm/solver/continuation.hpp"
+#include "solver/continuation.hpp"
 
-#include "hbvm/basis/legendre.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "basis/legendre.hpp"
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -1,4 +1,4 @@
-#include "hbvm/solver/extrapolation.hpp"
+#include "solver/extrapolation.hpp"
 
 #include "printing.hpp"
 

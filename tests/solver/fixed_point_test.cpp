@@ -1,12 +1,12 @@
-#include "hbvm/solver/fixed_point.hpp"
+#include "solver/fixed_point.hpp"
 
 #include <cmath>
 
-#include "hbvm/integrate/integrate.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "integrate/integrate.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

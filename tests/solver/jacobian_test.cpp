@@ -1,11 +1,11 @@
-#include "hbvm/solver/jacobian.hpp"
+#include "solver/jacobian.hpp"
 
 #include <random>
 
-#include "hbvm/problem/in_double.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
 #include "printing.hpp"
+#include "problem/in_double.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 namespace {

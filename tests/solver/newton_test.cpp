@@ -1,12 +1,12 @@
-#include "hbvm/solver/newton.hpp"
+#include "solver/newton.hpp"
 
-#include "hbvm/integrate/drift.hpp"
-#include "hbvm/integrate/integrate.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "integrate/drift.hpp"
+#include "integrate/integrate.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/solver/position_scale.hpp"
+#include "solver/position_scale.hpp"
 
 #include "printing.hpp"
 #include "problem/dense.hpp"

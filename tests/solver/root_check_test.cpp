@@ -1,8 +1,8 @@
-#include "hbvm/solver/root_check.hpp"
+#include "solver/root_check.hpp"
 
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

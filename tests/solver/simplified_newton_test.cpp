@@ -1,13 +1,13 @@
-#include "hbvm/solver/simplified_newton.hpp"
+#include "solver/simplified_newton.hpp"
 
 #include <csignal>
 
-#include "hbvm/interruption.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/step/state.hpp"
+#include "interruption.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
+#include "step/state.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,8 @@
-#include "hbvm/solver/solver_counts.hpp"
+#include "solver/solver_counts.hpp"
 
 #include <gtest/gtest.h>
 
-#include "hbvm/scene/assemble.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,13 +1,13 @@
-#include "hbvm/solver/stage_equations.hpp"
+#include "solver/stage_equations.hpp"
 
-#include "hbvm/basis/gauss_legendre.hpp"
-#include "hbvm/basis/legendre.hpp"
-#include "hbvm/linear/product.hpp"
-#include "hbvm/method/hbvm_name.hpp"
-#include "hbvm/problem/in_double.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
+#include "basis/gauss_legendre.hpp"
+#include "basis/legendre.hpp"
+#include "linear/product.hpp"
+#include "method/hbvm_name.hpp"
 #include "printing.hpp"
+#include "problem/in_double.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
 #include "solver/stage_formulas.hpp"
 
 namespace hbvm {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/basis/gauss_legendre.hpp"
-#include "hbvm/solver/stage_equations.hpp"
+#include "basis/gauss_legendre.hpp"
+#include "solver/stage_equations.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm {

@@ -1,10 +1,10 @@
-#include "hbvm/solver/stage_solver.hpp"
+#include "solver/stage_solver.hpp"
 
-#include "hbvm/integrate/integrate.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "integrate/integrate.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
 #include "solver/stage_formulas.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,13 +1,13 @@
-#include "hbvm/solver/stopping_rule.hpp"
+#include "solver/stopping_rule.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <functional>
 
-#include "hbvm/interruption.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "interruption.hpp"
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 
 namespace hbvm {
 namespace {

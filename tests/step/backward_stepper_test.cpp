@@ -1,4 +1,4 @@
-#include "hbvm/step/backward_stepper.hpp"
+#include "step/backward_stepper.hpp"
 
 #include "integrate/runs.hpp"
 #include "printing.hpp"

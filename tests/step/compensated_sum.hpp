@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "hbvm/linear/matrix.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "linear/matrix.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 

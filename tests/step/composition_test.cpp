@@ -1,14 +1,14 @@
-#include "hbvm/step/composition.hpp"
+#include "step/composition.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/rattle.hpp"
-#include "hbvm/step/registry.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
+#include "step/rattle.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

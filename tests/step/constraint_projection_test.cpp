@@ -1,10 +1,10 @@
-#include "hbvm/step/constraint_projection.hpp"
+#include "step/constraint_projection.hpp"
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 namespace {

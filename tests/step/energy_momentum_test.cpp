@@ -1,14 +1,14 @@
-#include "hbvm/step/energy_momentum.hpp"
+#include "step/energy_momentum.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hbvm/problem/momenta.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/registry.hpp"
 #include "printing.hpp"
+#include "problem/momenta.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

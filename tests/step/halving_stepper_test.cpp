@@ -1,11 +1,11 @@
-#include "hbvm/step/halving_stepper.hpp"
+#include "step/halving_stepper.hpp"
 
 #include <csignal>
 
-#include "hbvm/interruption.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "interruption.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

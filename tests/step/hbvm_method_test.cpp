@@ -1,10 +1,10 @@
-#include "hbvm/step/hbvm_method.hpp"
+#include "step/hbvm_method.hpp"
 
 #include <set>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,7 +1,7 @@
-#include "hbvm/step/hbvm_stepper.hpp"
+#include "step/hbvm_stepper.hpp"
 
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
 #include "solver/stage_formulas.hpp"
 #include "step/compensated_sum.hpp"
 

@@ -1,16 +1,16 @@
-#include "hbvm/step/lobatto.hpp"
+#include "step/lobatto.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hbvm/method/order_conditions.hpp"
-#include "hbvm/method/runge_kutta.hpp"
-#include "hbvm/method/symmetry_defect.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/registry.hpp"
+#include "method/order_conditions.hpp"
+#include "method/runge_kutta.hpp"
+#include "method/symmetry_defect.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,13 +1,13 @@
-#include "hbvm/step/projected_stepper.hpp"
+#include "step/projected_stepper.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/registry.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

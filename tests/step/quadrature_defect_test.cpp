@@ -1,8 +1,8 @@
-#include "hbvm/step/quadrature_defect.hpp"
+#include "step/quadrature_defect.hpp"
 
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/step/raising_stepper.hpp"
+#include "step/raising_stepper.hpp"
 
-#include "hbvm/integrate/drift.hpp"
-#include "hbvm/integrate/energy_scale.hpp"
-#include "hbvm/problem/general_drift.hpp"
-#include "hbvm/scene/assemble.hpp"
+#include "integrate/drift.hpp"
+#include "integrate/energy_scale.hpp"
 #include "printing.hpp"
+#include "problem/general_drift.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

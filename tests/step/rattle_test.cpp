@@ -1,10 +1,10 @@
-#include "hbvm/step/rattle.hpp"
+#include "step/rattle.hpp"
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

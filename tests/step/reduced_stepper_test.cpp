@@ -1,9 +1,9 @@
-#include "hbvm/step/reduced_stepper.hpp"
+#include "step/reduced_stepper.hpp"
 
 #include <gtest/gtest.h>
 
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,13 +1,13 @@
-#include "hbvm/step/registry.hpp"
+#include "step/registry.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_method.hpp"
-#include "hbvm/step/tableau_method.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_method.hpp"
+#include "step/tableau_method.hpp"
 
 namespace hbvm {
 namespace {

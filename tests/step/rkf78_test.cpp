@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/odeint_methods.hpp"
-#include "hbvm/step/registry.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scene/assemble.hpp"
+#include "step/odeint_methods.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,13 +1,13 @@
-#include "hbvm/step/runge_kutta_stepper.hpp"
+#include "step/runge_kutta_stepper.hpp"
 
 #include <cmath>
 
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
 #include "step/compensated_sum.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

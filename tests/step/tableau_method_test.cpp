@@ -1,10 +1,10 @@
-#include "hbvm/step/tableau_method.hpp"
+#include "step/tableau_method.hpp"
 
 #include <set>
 
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
 #include "method/tableaux.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 namespace {

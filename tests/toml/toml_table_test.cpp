@@ -1,8 +1,8 @@
 #include "toml/toml_table.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "hbvm/analysis/simulate.hpp"
-#include "hbvm/problem/effect/registry.hpp"
+#include "problem/effect/registry.hpp"
+#include "run/simulate.hpp"
 
 namespace hbvm {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "hbvm/integrate/drift.hpp"
-#include "hbvm/reference/reference.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_method.hpp"
-#include "hbvm/step/registry.hpp"
+#include "integrate/drift.hpp"
 #include "printing.hpp"
+#include "reference/reference.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
+#include "step/hbvm_method.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

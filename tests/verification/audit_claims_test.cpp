@@ -4,9 +4,9 @@
 #include <fstream>
 #include <random>
 
-#include "hbvm/analysis/audit/audit.hpp"
-#include "hbvm/step/hbvm_method.hpp"
-#include "hbvm/step/tableau_method.hpp"
+#include "audit/audit.hpp"
+#include "step/hbvm_method.hpp"
+#include "step/tableau_method.hpp"
 
 namespace hbvm {
 namespace {

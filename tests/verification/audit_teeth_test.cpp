@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "analysis/audit/cell.hpp"
-#include "hbvm/analysis/audit/audit.hpp"
-#include "hbvm/step/hbvm_method.hpp"
+#include "audit/audit.hpp"
+#include "audit/cell.hpp"
+#include "step/hbvm_method.hpp"
 
 namespace hbvm {
 namespace {

@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
-#include "hbvm/analysis/audit/claim.hpp"
-#include "hbvm/read_file.hpp"
+#include "audit/claim.hpp"
+#include "read_file.hpp"
 #include "verification/cpp_text.hpp"
 #include "verification/sources.hpp"
 
@@ -55,8 +55,7 @@ std::vector<Entry> read_index() {
     Entry entry{cells[0], cells[1], {}};
     for (const std::string& file : split(cells[3].substr(0, cells[3].find(" |")), ", ")) {
       if (file == "–") continue;
-      const bool whole = file.starts_with("src/") || file.starts_with("studies/");
-      entry.files.push_back(whole ? file : "include/hbvm/" + file);
+      entry.files.push_back(file.starts_with("studies/") ? file : "src/" + file);
     }
     entries.push_back(entry);
   }

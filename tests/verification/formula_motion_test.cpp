@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/step/hbvm_method.hpp"
-#include "hbvm/step/registry.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "scalar/binary_exponent.hpp"
+#include "scene/assemble.hpp"
 #include "scene/formula_scene.hpp"
+#include "step/hbvm_method.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm {
 namespace {

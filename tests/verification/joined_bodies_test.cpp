@@ -1,8 +1,8 @@
 #include "scene/joined_bodies.hpp"
 
-#include "hbvm/integrate/drift.hpp"
-#include "hbvm/integrate/momentum_drift.hpp"
-#include "hbvm/integrate/output_state.hpp"
+#include "integrate/drift.hpp"
+#include "integrate/momentum_drift.hpp"
+#include "integrate/output_state.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 #include "scene/scene_text.hpp"

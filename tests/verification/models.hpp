@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/linear/matrix.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "linear/matrix.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/read_file.hpp"
+#include "read_file.hpp"
 #include "verification/sources.hpp"
 
 namespace hbvm {
@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 struct Change {
   std::string name, file, before, after, reason;
 
-  /// "step" for src/step/rattle.cpp and include/hbvm/step/backward_stepper.hpp, "." for src/read_file.cpp.
+  /// "step" for src/step/rattle.cpp and src/step/backward_stepper.hpp, "." for src/read_file.cpp.
   std::string folder() const {
-    const fs::path path = fs::path(file).lexically_relative(file.starts_with("src/") ? "src" : "include/hbvm");
+    const fs::path path = fs::path(file).lexically_relative("src");
     return path.has_parent_path() ? path.begin()->string() : ".";
   }
 };

@@ -1,7 +1,7 @@
 #include <map>
 
-#include "hbvm/integrate/drift.hpp"
-#include "hbvm/integrate/output_state.hpp"
+#include "integrate/drift.hpp"
+#include "integrate/output_state.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 #include "verification/models.hpp"

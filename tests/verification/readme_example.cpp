@@ -1,7 +1,7 @@
 #include <iostream>
 
-#include "hbvm/analysis/simulate.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "hbvm/core/run/simulate.hpp"
+#include "hbvm/core/scalar/text.hpp"
 
 int main() {
   using namespace hbvm;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <random>
 
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
-#include "hbvm/step/hbvm_stepper.hpp"
 #include "printing.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
+#include "step/hbvm_stepper.hpp"
 
 namespace hbvm {
 namespace {

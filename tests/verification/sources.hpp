@@ -11,7 +11,7 @@ namespace hbvm {
 
 inline const std::filesystem::path project = HBVM_SOURCE_DIR;
 
-/// A C++ file of include/hbvm, src or tests. `folder` is the one below: "problem" for src/problem/effect/trace.cpp.
+/// A C++ file of src, include or tests. `folder` is the one below: "problem" for src/problem/effect/trace.cpp.
 struct Source {
   std::filesystem::path path;
   std::string folder, text;
@@ -39,10 +39,6 @@ inline std::vector<Source> sources_in(const char* root) {
 }
 
 /// Of the library and the program.
-inline std::vector<Source> sources() {
-  std::vector<Source> result = sources_in("include/hbvm");
-  for (Source& source : sources_in("src")) result.push_back(std::move(source));
-  return result;
-}
+inline std::vector<Source> sources() { return sources_in("src"); }
 
 }  // namespace hbvm

@@ -11,23 +11,21 @@ namespace {
 /// Sources, by their path in src without the ending, whose tests have another name, and why.
 const std::map<std::string, std::string>& exceptions() {
   static const std::map<std::string, std::string> reasons{
-      {"analysis/audit/audit_figure",
+      {"audit/audit_figure",
        "thousands of steps with 50 digits, ten times over; interval_ladder_test holds its errors"},
-      {"analysis/audit/sensitivity", "the floors it gives decide auditor_test, round_off_test and both ladders' tests"},
-      {"analysis/stability/figures", "runs of 2^20 steps; measure_test and walk_test hold what it shows"},
-      {"analysis/study/conservation_study", "a kind of study: study_test runs one with right and wrong figures"},
-      {"analysis/study/halving_study", "likewise"},
-      {"analysis/study/long_run_study", "likewise"},
-      {"analysis/study/study_figure", "study_test looks at the files it writes"},
+      {"audit/sensitivity", "the floors it gives decide auditor_test, round_off_test and both ladders' tests"},
+      {"hard_cases/figures", "runs of 2^20 steps; measure_test and walk_test hold what it shows"},
+      {"study/conservation_study", "a kind of study: study_test runs one with right and wrong figures"},
+      {"study/halving_study", "likewise"},
+      {"study/long_run_study", "likewise"},
+      {"study/study_figure", "study_test looks at the files it writes"},
       {"problem/effect/cpp_text", "of the generator: what it prints is compiled, and kernel_test runs it"},
       {"problem/effect/generate/effect_kernels", "the generator's main program"}};
   return reasons;
 }
 
 /// The commands are tested as a user has them, and the families of hard cases are cases themselves.
-bool is_tested_by_running(const std::string& folder) {
-  return folder == "cli" || folder == "analysis/stability/family";
-}
+bool is_tested_by_running(const std::string& folder) { return folder == "cli" || folder == "hard_cases/family"; }
 
 struct Place {
   std::string folder, name;
@@ -52,7 +50,9 @@ std::vector<Place> files(const char* root, const std::string& ending) {
 /// tests/X/Z/Y_test.cpp or tests/X/Y_test.cpp for src/X/Z/Y.cpp; tests/hbvm/Y_test.cpp for src/Y.cpp.
 bool is_of(const Place& test, const Place& source) {
   if (test.name != source.name) return false;
-  return source.folder.empty() ? test.folder == "hbvm" : (source.folder + "/").starts_with(test.folder + "/");
+  if (source.folder.empty()) return test.folder == "hbvm";
+  if (source.folder == "run") return test.folder == "runs";  // tests/run is the script
+  return (source.folder + "/").starts_with(test.folder + "/");
 }
 
 TEST(Sources, HaveTestsOfTheirName) {

@@ -1,4 +1,4 @@
-#include "hbvm/problem/effect/compile.hpp"
+#include "problem/effect/compile.hpp"
 
 #include "hbvm/error.hpp"
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/kernel.hpp"
+#include "problem/effect/kernel.hpp"
 
 namespace hbvm {
 namespace {

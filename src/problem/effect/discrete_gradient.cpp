@@ -1,11 +1,11 @@
-#include "hbvm/problem/effect/discrete_gradient.hpp"
+#include "problem/effect/discrete_gradient.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <string>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/trace.hpp"
+#include "problem/effect/trace.hpp"
 
 namespace hbvm {
 namespace {

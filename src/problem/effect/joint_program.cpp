@@ -1,4 +1,4 @@
-#include "hbvm/problem/effect/joint_program.hpp"
+#include "problem/effect/joint_program.hpp"
 
 #include <algorithm>
 #include <map>

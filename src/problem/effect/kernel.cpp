@@ -1,4 +1,4 @@
-#include "hbvm/problem/effect/kernel.hpp"
+#include "problem/effect/kernel.hpp"
 
 #include "problem/effect/kernel_table.hpp"
 

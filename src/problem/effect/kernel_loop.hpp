@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hbvm/linear/constant_count.hpp"
-#include "hbvm/problem/effect/kernel.hpp"
+#include "linear/constant_count.hpp"
+#include "problem/effect/kernel.hpp"
 
 namespace hbvm {
 

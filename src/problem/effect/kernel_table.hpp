@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "hbvm/problem/effect/kernel.hpp"
+#include "problem/effect/kernel.hpp"
 
 namespace hbvm {
 

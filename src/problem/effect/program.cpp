@@ -1,11 +1,11 @@
-#include "hbvm/problem/effect/program.hpp"
+#include "problem/effect/program.hpp"
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "hbvm/scalar/in_place.hpp"
-#include "hbvm/scalar/sine.hpp"
+#include "scalar/in_place.hpp"
+#include "scalar/sine.hpp"
 
 namespace hbvm {
 

@@ -1,6 +1,6 @@
-#include "hbvm/problem/effect/term.hpp"
+#include "problem/effect/term.hpp"
 
-#include "hbvm/linear/in_double.hpp"
+#include "linear/in_double.hpp"
 
 namespace hbvm {
 namespace {

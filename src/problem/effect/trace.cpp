@@ -1,4 +1,4 @@
-#include "hbvm/problem/effect/trace.hpp"
+#include "problem/effect/trace.hpp"
 
 #include <algorithm>
 #include <cmath>

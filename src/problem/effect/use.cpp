@@ -1,10 +1,10 @@
-#include "hbvm/problem/effect/use.hpp"
+#include "problem/effect/use.hpp"
 
 #include <cmath>
 #include <optional>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/compile.hpp"
+#include "problem/effect/compile.hpp"
 
 namespace hbvm {
 namespace {

@@ -5,14 +5,14 @@
 #include <optional>
 #include <unordered_map>
 
-#include "hbvm/problem/effect/interaction.hpp"
-#include "hbvm/problem/formula/use.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "problem/effect/interaction.hpp"
+#include "problem/formula/use.hpp"
 #include "scalar/expression_node.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 
-/// The value of a formula over a number type T: the scalars S themselves, or Traced<S>. Parts without variables are
+/// The value of a formula over a number type T: the scalars S themselves, or `Traced<S>`. Parts without variables are
 /// numbers, right to the last bit of S. Whole powers are products, those of halves have a root; other powers are
 /// exp(b log a).
 ///

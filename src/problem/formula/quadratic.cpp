@@ -1,10 +1,10 @@
-#include "hbvm/problem/formula/quadratic.hpp"
+#include "problem/formula/quadratic.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <set>
 
-#include "hbvm/problem/effect/execution.hpp"
+#include "problem/effect/execution.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/problem/effect/program.hpp"
-#include "hbvm/scalar/mpfr.hpp"
+#include "problem/effect/program.hpp"
+#include "scalar/mpfr.hpp"
 
 namespace hbvm {
 

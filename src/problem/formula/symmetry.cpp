@@ -1,11 +1,11 @@
-#include "hbvm/problem/formula/symmetry.hpp"
+#include "problem/formula/symmetry.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <set>
 
-#include "hbvm/linear/null_space.hpp"
-#include "hbvm/problem/effect/execution.hpp"
+#include "linear/null_space.hpp"
+#include "problem/effect/execution.hpp"
 #include "softening.hpp"
 
 namespace hbvm {

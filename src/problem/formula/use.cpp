@@ -1,8 +1,8 @@
-#include "hbvm/problem/formula/use.hpp"
+#include "problem/formula/use.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/compile.hpp"
-#include "hbvm/problem/effect/execution.hpp"
+#include "problem/effect/compile.hpp"
+#include "problem/effect/execution.hpp"
 #include "problem/formula/evaluation.hpp"
 
 namespace hbvm {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/scalar/mpfr.hpp"
 #include "scalar/arb.hpp"
+#include "scalar/mpfr.hpp"
 
 namespace hbvm {
 

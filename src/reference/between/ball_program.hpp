@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/problem/effect/program.hpp"
 #include "loop.hpp"
+#include "problem/effect/program.hpp"
 
 namespace hbvm {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hbvm/scalar/log2_of.hpp"
+#include "scalar/log2_of.hpp"
 
 namespace hbvm {
 namespace {

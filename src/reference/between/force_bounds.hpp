@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ball_program.hpp"
-#include "hbvm/problem/problem.hpp"
+#include "problem/problem.hpp"
 
 namespace hbvm {
 

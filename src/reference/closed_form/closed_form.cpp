@@ -1,13 +1,13 @@
-#include "hbvm/reference/closed_form/closed_form.hpp"
+#include "reference/closed_form/closed_form.hpp"
 
 #include <algorithm>
 #include <numbers>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/point.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scalar/text.hpp"
+#include "problem/point.hpp"
 #include "reference/closed_form/recognition.hpp"
+#include "scalar/binary_exponent.hpp"
+#include "scalar/text.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/reference/closed_form/elliptic.hpp"
+#include "reference/closed_form/elliptic.hpp"
 
 namespace hbvm {
 

@@ -1,12 +1,12 @@
-#include "hbvm/reference/closed_form/elliptic.hpp"
+#include "reference/closed_form/elliptic.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
 #include "reference/closed_form/rounds.hpp"
+#include "scalar/binary_exponent.hpp"
 
 namespace hbvm {
 namespace {

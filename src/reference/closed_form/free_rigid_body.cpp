@@ -1,4 +1,4 @@
-#include "hbvm/reference/closed_form/elliptic.hpp"
+#include "reference/closed_form/elliptic.hpp"
 #include "reference/closed_form/rigid_shape.hpp"
 
 namespace hbvm {

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "hbvm/error.hpp"
-#include "hbvm/reference/closed_form/elliptic.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
+#include "reference/closed_form/elliptic.hpp"
 #include "reference/closed_form/recognition.hpp"
 #include "reference/closed_form/rounds.hpp"
+#include "scalar/binary_exponent.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/reference/closed_form/elliptic.hpp"
+#include "reference/closed_form/elliptic.hpp"
 #include "reference/closed_form/recognition.hpp"
 #include "reference/closed_form/symmetric_eigen.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "hbvm/problem/effect/execution.hpp"
+#include "problem/effect/execution.hpp"
 
 namespace hbvm {
 namespace {

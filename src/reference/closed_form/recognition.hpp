@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "hbvm/reference/closed_form/closed_form.hpp"
+#include "reference/closed_form/closed_form.hpp"
 
 namespace hbvm {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hbvm/interruption.hpp"
+#include "interruption.hpp"
 
 namespace hbvm {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "hbvm/reference/closed_form/elliptic.hpp"
 #include "reference/closed_form/cubic_motion.hpp"
+#include "reference/closed_form/elliptic.hpp"
 #include "reference/closed_form/recognition.hpp"
 
 namespace hbvm {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hbvm/linear/matrix.hpp"
+#include "linear/matrix.hpp"
 
 namespace hbvm {
 

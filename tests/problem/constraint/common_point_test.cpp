@@ -1,4 +1,4 @@
-#include "hbvm/problem/constraint/common_point.hpp"
+#include "problem/constraint/common_point.hpp"
 
 #include "problem/constraint/form_test.hpp"
 

@@ -1,4 +1,4 @@
-#include "hbvm/problem/constraint/displacement_product.hpp"
+#include "problem/constraint/displacement_product.hpp"
 
 #include "problem/constraint/form_test.hpp"
 

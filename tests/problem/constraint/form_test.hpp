@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hbvm/problem/constraint.hpp"
 #include "printing.hpp"
+#include "problem/constraint.hpp"
 
 namespace hbvm {
 

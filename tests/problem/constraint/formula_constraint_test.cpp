@@ -1,13 +1,13 @@
-#include "hbvm/problem/constraint/formula_constraint.hpp"
+#include "problem/constraint/formula_constraint.hpp"
 
-#include "hbvm/problem/constraint_gradient.hpp"
-#include "hbvm/problem/curvature.hpp"
-#include "hbvm/problem/effect/trace.hpp"
-#include "hbvm/problem/in_double.hpp"
-#include "hbvm/scalar/binary_exponent.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/constraint_gradient.hpp"
+#include "problem/curvature.hpp"
+#include "problem/effect/trace.hpp"
+#include "problem/in_double.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,9 +1,9 @@
-#include "hbvm/problem/constraint/hinge.hpp"
+#include "problem/constraint/hinge.hpp"
 
 #include <Eigen/LU>
 
-#include "hbvm/problem/constraint.hpp"
 #include "printing.hpp"
+#include "problem/constraint.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

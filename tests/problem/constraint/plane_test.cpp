@@ -1,4 +1,4 @@
-#include "hbvm/problem/constraint/plane.hpp"
+#include "problem/constraint/plane.hpp"
 
 #include "problem/constraint/form_test.hpp"
 

@@ -1,4 +1,4 @@
-#include "hbvm/problem/constraint/quadric.hpp"
+#include "problem/constraint/quadric.hpp"
 
 #include "problem/constraint/form_test.hpp"
 

@@ -1,9 +1,9 @@
-#include "hbvm/problem/constraint/registry.hpp"
+#include "problem/constraint/registry.hpp"
 
-#include "hbvm/problem/constraint_gradient.hpp"
-#include "hbvm/problem/curvature.hpp"
 #include "printing.hpp"
 #include "problem/any_constraint.hpp"
+#include "problem/constraint_gradient.hpp"
+#include "problem/curvature.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/problem/constraint/rod.hpp"
+#include "problem/constraint/rod.hpp"
 
 #include "problem/constraint/form_test.hpp"
 

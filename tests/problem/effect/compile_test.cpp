@@ -1,8 +1,8 @@
-#include "hbvm/problem/effect/compile.hpp"
+#include "problem/effect/compile.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/execution.hpp"
 #include "printing.hpp"
+#include "problem/effect/execution.hpp"
 
 namespace hbvm {
 namespace {

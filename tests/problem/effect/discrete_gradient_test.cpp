@@ -1,11 +1,11 @@
-#include "hbvm/problem/effect/discrete_gradient.hpp"
+#include "problem/effect/discrete_gradient.hpp"
 
 #include <functional>
 
-#include "hbvm/problem/effect/execution.hpp"
-#include "hbvm/problem/effect/use.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "problem/effect/execution.hpp"
+#include "problem/effect/use.hpp"
+#include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

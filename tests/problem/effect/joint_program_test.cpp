@@ -1,11 +1,11 @@
-#include "hbvm/problem/effect/joint_program.hpp"
+#include "problem/effect/joint_program.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "hbvm/problem/effect/trace.hpp"
 #include "printing.hpp"
+#include "problem/effect/trace.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -1,10 +1,10 @@
-#include "hbvm/problem/effect/kernel.hpp"
+#include "problem/effect/kernel.hpp"
 
 #include <gtest/gtest.h>
 
-#include "hbvm/problem/effect/use.hpp"
-#include "hbvm/scene/assemble.hpp"
-#include "hbvm/scene/scene.hpp"
+#include "problem/effect/use.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm {
 namespace {

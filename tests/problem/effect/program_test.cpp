@@ -1,11 +1,11 @@
-#include "hbvm/problem/effect/program.hpp"
+#include "problem/effect/program.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "hbvm/scalar/binary_exponent.hpp"
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

@@ -1,8 +1,8 @@
-#include "hbvm/problem/effect/term.hpp"
+#include "problem/effect/term.hpp"
 
-#include "hbvm/problem/effect/execution.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "problem/effect/execution.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,10 +1,10 @@
-#include "hbvm/problem/effect/trace.hpp"
+#include "problem/effect/trace.hpp"
 
 #include <cmath>
 #include <optional>
 
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
 namespace hbvm {

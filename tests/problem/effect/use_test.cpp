@@ -1,4 +1,4 @@
-#include "hbvm/problem/effect/use.hpp"
+#include "problem/effect/use.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <tuple>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/potential.hpp"
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scalar/with_scalar.hpp"
 #include "printing.hpp"
+#include "problem/potential.hpp"
+#include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
+#include "scalar/with_scalar.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,9 +1,9 @@
-#include "hbvm/problem/formula/quadratic.hpp"
+#include "problem/formula/quadratic.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/constraint.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "problem/constraint.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

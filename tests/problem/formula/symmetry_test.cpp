@@ -1,8 +1,8 @@
-#include "hbvm/problem/formula/symmetry.hpp"
+#include "problem/formula/symmetry.hpp"
 
-#include "hbvm/problem/momenta.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "problem/momenta.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

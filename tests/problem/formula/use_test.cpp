@@ -1,12 +1,12 @@
-#include "hbvm/problem/formula/use.hpp"
+#include "problem/formula/use.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/execution.hpp"
-#include "hbvm/problem/effect/trace.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "problem/effect/execution.hpp"
+#include "problem/effect/trace.hpp"
 #include "problem/formula/random_formula.hpp"
 #include "scalar/ball.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

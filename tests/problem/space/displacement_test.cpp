@@ -1,4 +1,4 @@
-#include "hbvm/problem/space/displacement.hpp"
+#include "problem/space/displacement.hpp"
 
 #include "printing.hpp"
 #include "scalar/random_values.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
-#include "hbvm/problem/effect/trace.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "problem/effect/trace.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "hbvm/scalar/literal.hpp"
-#include "hbvm/scene/assemble.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
+#include "scene/assemble.hpp"
 
 namespace hbvm {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "hbvm/basis/legendre.hpp"
-#include "hbvm/scalar/literal.hpp"
+#include "basis/legendre.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

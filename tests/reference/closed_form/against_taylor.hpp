@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "hbvm/problem/point.hpp"
-#include "hbvm/reference/closed_form/closed_form.hpp"
-#include "hbvm/reference/taylor.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "problem/point.hpp"
+#include "reference/closed_form/closed_form.hpp"
+#include "reference/taylor.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 

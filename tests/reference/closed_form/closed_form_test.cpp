@@ -1,9 +1,9 @@
-#include "hbvm/reference/closed_form/closed_form.hpp"
+#include "reference/closed_form/closed_form.hpp"
 
-#include "hbvm/reference/store.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
+#include "reference/store.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,4 +1,4 @@
-#include "hbvm/reference/closed_form/elliptic.hpp"
+#include "reference/closed_form/elliptic.hpp"
 
 #include <boost/math/special_functions/ellint_rf.hpp>
 #include <boost/math/special_functions/ellint_rj.hpp>
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "hbvm/error.hpp"
-#include "hbvm/scalar/literal.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm {
 namespace {

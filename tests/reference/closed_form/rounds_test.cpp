@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "hbvm/interruption.hpp"
+#include "interruption.hpp"
 
 namespace hbvm {
 namespace {

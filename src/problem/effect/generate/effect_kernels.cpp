@@ -10,9 +10,9 @@
 #include <set>
 
 #include "hbvm/error.hpp"
-#include "hbvm/problem/effect/joint_program.hpp"
-#include "hbvm/problem/effect/kernel.hpp"
-#include "hbvm/problem/effect/use.hpp"
+#include "problem/effect/joint_program.hpp"
+#include "problem/effect/kernel.hpp"
+#include "problem/effect/use.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "audit/claim.hpp"
+#include "method/runge_kutta.hpp"
+
+namespace hbvm {
+
+enum class Extent {
+  quick,  ///< s = 1, 2, 3 and the smaller problems: about a minute
+  full    ///< s = 1 .. 8, all problems, and s = 12 and 20 with 200 digits
+};
+
+/// The paper's statements and those that are known beyond it, each with the label of the theorem, corollary or remark
+/// it belongs to (an error bound "O(h^r)" is claimed "at least"; "exactly" only where the leading term is known not to
+/// vanish).
+std::vector<Claim> paper_claims(Extent extent);
+
+/// Of HBVM(k, s) with r nodes for constraints that are not quadratic: the same orders of all components, symmetry, H at
+/// 2k and g at 2r or, where g is a polynomial of degree d and r >= d s/2, to round-off; angular momentum for k = r = s.
+/// s = 1 .. 6, and 8 with 200 digits, for Extent::full; s = 1 and 2 else.
+std::vector<Claim> general_claims(Extent extent);
+
+/// What a Runge-Kutta method must show on the problems without constraints: the order that its author states (if none,
+/// that which its conditions show to ten digits, as a look in double would have it), the order of the energy error, and
+/// symmetry and conservation of angular momentum if its coefficients say so to ten digits.
+std::vector<Claim> tableau_claims(const Tableau& tableau);
+
+/// What a method of the registry says of itself, on scenes with constraints and without: the orders of its components,
+/// what it keeps to round-off, and at which order it loses what it does not keep. \throws InputError for hbvm:auto,S
+std::vector<Claim> method_claims(const MethodPtr& method);
+
+/// Claims written in TOML, an array of tables [[claim]] with
+///
+///     quantity = "raw p"          what name_of gives: "q", "H", "g", "hidden" …
+///     problem = "double_pendulum" a scene, by name or file
+///     method = "hbvm:3,2"         what parse_method reads, or a file with a tableau
+///     rate = "2*s"                an expression of the method's k and s; or "round-off"
+///     form = "exactly"            "at least" if absent
+///     over = "step"               "interval" if absent
+///     degenerate = true           if it speaks of a motion that says nothing of the method, a relative equilibrium
+///     perturb = { part = "node", i = 1, j = 1, hat = false, relative = "1e-25" }
+///                                 optional: node, weight, integral, X or legendre, counted from 1
+///
+/// Files are looked for beside the claims' file first.
+/// \throws InputError with file, line and what is wrong
+std::vector<Claim> read_claims(const std::string& path);
+
+}  // namespace hbvm

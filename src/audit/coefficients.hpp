@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "audit/claim.hpp"
+#include "method/decimals.hpp"
+#include "method/runge_kutta.hpp"
+
+namespace hbvm {
+
+/// To how many decimal digits a condition is met, and to how many it must be: to all that are looked at, or, where the
+/// numbers of a tableau are decimals, to those that a unit in their last digit leaves.
+struct Met {
+  int seen = 0, due = 0;
+  bool holds() const { return seen >= due; }
+};
+
+/// How far the coefficients of a method meet the conditions they should, as seen in `digits` of them.
+class CoefficientCheck {
+ public:
+  /// Whether there is something to look at.
+  static bool is_for(const Method& method);
+  /// \throws InputError for coefficients without a value
+  CoefficientCheck(const Claim& subject, int digits);
+
+  /// Of a tableau with decimals no more than these can show.
+  int digits() const { return digits_; }
+  const std::optional<Decimals>& decimals() const { return decimals_; }
+  /// Of HBVM(k, s), B(2k), C(s), D, X_s, W and symmetry.
+  int definition() const { return definition_; }
+  /// Of a tableau, all conditions up to an order: of the rooted trees to max_tree_order, beyond that B, C and D by
+  /// Butcher's theorem.
+  Met order(int p) const;
+  /// The order that its conditions show to so many digits, and the one that they show.
+  int order_to(int digits) const;
+  int order_found() const;
+  /// The greatest p, q and r of conditions B(p), C(q) and D(r) that are met.
+  int B_found() const { return found(seen_.B, due_.B); }
+  int C_found() const { return found(seen_.C, due_.C); }
+  int D_found() const { return found(seen_.D, due_.D); }
+  Met symplecticity() const { return {seen_.symplecticity, due_.symplecticity}; }
+  Met symmetry() const { return {seen_.symmetry, due_.symmetry}; }
+  Met row_sums() const { return {seen_.C.front(), due_.C.front()}; }
+
+ private:
+  /// log2 of defects, and digits; those of orders, and powers, 1, 2, ... are of all up to there.
+  struct Defects {
+    std::vector<double> trees, B, C, D;
+    double symplecticity = 0, symmetry = 0;
+    /// By how much those of this method, near the other, differ, at most so far.
+    void raise_by_change(const RungeKutta<Mpfr>& method, const RungeKutta<Mpfr>& other);
+  };
+  struct Digits {
+    std::vector<int> trees, B, C, D;
+    int symplecticity = 0, symmetry = 0;
+  };
+  void look_at(const Tableau& tableau);
+  Digits digits_of(const Defects& defects) const;
+  int decimal_digits(double log2_defect) const;
+  int order_by_parts(const Digits& digits, int p) const;
+  static int found(const std::vector<int>& seen, const std::vector<int>& due);
+
+  int digits_;
+  std::optional<Decimals> decimals_;
+  int definition_ = 0;
+  Digits seen_, due_;
+};
+
+}  // namespace hbvm

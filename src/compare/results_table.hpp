@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/against.hpp"
+#include "scalar/expression.hpp"
+#include "scalar/scalar.hpp"
+
+namespace hbvm {
+
+/// The lines of a file of results, cell by cell: names, then numbers; those that begin with # are comments.
+struct ResultsTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> cells;
+  std::vector<std::size_t> lines;
+
+  /// \throws InputError, with the line, for one without numbers, with names that stand twice, or lines of other lengths
+  explicit ResultsTable(const ResultsFile& file);
+};
+
+/// What the quantities of a scene are in a table: columns of their names, or expressions of the map.
+class ResultsColumns {
+ public:
+  /// "t", or a name of q, p or velocity.
+  struct Reading {
+    std::string ours;
+    Expression expression;  ///< c0, c1, ... are the columns
+  };
+
+  /// Both must outlive this. \throws InputError for a map that cannot be read, without a time, or with nothing else
+  ResultsColumns(const AgainstRequest& request, const ResultsFile& file, const ResultsTable& rows);
+
+  const std::vector<Reading>& readings() const { return readings_; }
+  const std::vector<std::string>& positions() const { return positions_; }
+  const std::vector<std::string>& momenta() const { return momenta_; }
+  const std::vector<std::string>& velocities() const { return velocities_; }
+  const Reading* find(const std::string& ours) const;
+
+  /// In the digits of the scope. \throws InputError with line and column
+  Mpfr value(const Reading& reading, std::size_t row) const;
+  /// What a cell says, if the quantity is one column; else its value as a text.
+  std::string text(const Reading& reading, std::size_t row) const;
+
+ private:
+  void read_map(const AgainstRequest& request);
+  Expression number(std::size_t row, std::size_t column) const;
+  std::string own_name(const std::string& theirs) const;
+
+  const ResultsFile& file_;
+  const ResultsTable& rows_;
+  std::vector<std::string> positions_, momenta_, velocities_;
+  std::vector<Reading> readings_;
+};
+
+}  // namespace hbvm

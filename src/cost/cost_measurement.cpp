@@ -1,0 +1,79 @@
+#include "cost/cost_cell.hpp"
+#include "long_work/json.hpp"
+
+namespace hbvm {
+namespace {
+
+OrderedJson json_of(const CostErrors& errors) {
+  return {{"q", json_number(errors.q)}, {"p", json_number(errors.p)}, {"lambda", json_number(errors.lambda)}};
+}
+
+CostErrors cost_errors_of(const OrderedJson& json) {
+  return {number_of(json.at("q")), number_of(json.at("p")), number_of(json.at("lambda"))};
+}
+
+OrderedJson json_of(const AccountLine& line) {
+  return {{"name", line.name},
+          {"kind", static_cast<int>(line.kind)},
+          {"operations", line.operations.total()},
+          {"seconds", json_number(line.seconds)}};
+}
+
+}  // namespace
+
+std::string to_result(const CostMeasurement& m) {
+  if (!m.failure.empty()) return dumped({{"method", m.method}, {"failure", m.failure}}, -1);
+  OrderedJson json{{"method", m.method},
+                   {"failure", ""},
+                   {"errors", json_of(m.errors)},
+                   {"raw", json_of(m.raw)},
+                   {"at_reference", m.at_reference},
+                   {"sweeps", m.sweeps},
+                   {"evaluations", m.evaluations},
+                   {"operations", m.operations},
+                   {"operations_in_double", m.operations_in_double},
+                   {"bytes", m.bytes},
+                   {"seconds", m.seconds},
+                   {"spread", m.spread},
+                   {"calibration", m.calibration},
+                   {"repetitions", m.repetitions},
+                   {"disturbed", m.disturbed},
+                   {"setup_seconds", m.setup_seconds},
+                   {"account_steps", m.account_steps}};
+  json["account"] = OrderedJson::array();
+  for (const AccountLine& line : m.account) json["account"].push_back(json_of(line));
+  return dumped(json, -1);
+}
+
+CostMeasurement read_cost_measurement(const std::string& text) {
+  return read_json(text, "a run of known cost", [](const OrderedJson& json) {
+    CostMeasurement m;
+    m.method = json.at("method");
+    m.failure = json.at("failure");
+    if (!m.failure.empty()) return m;
+    m.errors = cost_errors_of(json.at("errors"));
+    m.raw = cost_errors_of(json.at("raw"));
+    m.at_reference = json.at("at_reference");
+    m.sweeps = json.at("sweeps");
+    m.evaluations = json.at("evaluations");
+    m.operations = json.at("operations");
+    m.operations_in_double = json.at("operations_in_double");
+    m.bytes = json.at("bytes");
+    m.seconds = json.at("seconds");
+    m.spread = json.at("spread");
+    m.calibration = json.at("calibration");
+    m.repetitions = json.at("repetitions");
+    m.disturbed = json.at("disturbed");
+    m.setup_seconds = json.at("setup_seconds");
+    m.account_steps = json.at("account_steps");
+    for (const OrderedJson& entry : json.at("account")) {
+      AccountLine line{entry.at("name"), static_cast<AccountLine::Kind>(entry.at("kind").get<int>())};
+      line.operations.add(Op::multiply, static_cast<Index>(entry.at("operations").get<std::uint64_t>()));
+      line.seconds = number_of(entry.at("seconds"));
+      m.account.push_back(std::move(line));
+    }
+    return m;
+  });
+}
+
+}  // namespace hbvm

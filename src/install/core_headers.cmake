@@ -1,0 +1,41 @@
+# The headers of hbvm_core for those who write a method, an effect, a constraint or a loop of their own: these roots and
+# all that they include, below OUTPUT/hbvm/core, where they name one another by that path. In src each stands beside its
+# source and is named from src.
+set(core_roots scalar/text.hpp scene/assemble.hpp step/hbvm_method.hpp step/registry.hpp integrate/time_grid.hpp
+    run/simulate.hpp)
+
+function(make_core_headers source output)
+  set(open ${core_roots})
+  set(made "")
+  while(open)
+    list(POP_FRONT open header)
+    if(header IN_LIST made)
+      continue()
+    endif()
+    list(APPEND made ${header})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source}/${header})
+    file(READ ${source}/${header} text)
+    string(REGEX MATCHALL "#include \"[^\"]+\"" includes "${text}")
+    foreach(include ${includes})
+      string(REGEX REPLACE "#include \"([^\"]+)\"" "\\1" named "${include}")
+      if(named MATCHES "^hbvm/")
+        string(REPLACE "#include \"${named}\"" "#include <${named}>" text "${text}") # one of include
+        continue()
+      endif()
+      set(included ${named})
+      cmake_path(GET header PARENT_PATH folder)
+      if(EXISTS ${source}/${folder}/${named})
+        cmake_path(SET included NORMALIZE "${folder}/${named}")
+      endif()
+      list(APPEND open ${included})
+      string(REPLACE "#include \"${named}\"" "#include <hbvm/core/${included}>" text "${text}")
+    endforeach()
+    file(CONFIGURE OUTPUT ${output}/hbvm/core/${header} CONTENT "${text}" @ONLY)
+  endwhile()
+  # A header that is no longer needed goes.
+  file(GLOB_RECURSE there RELATIVE ${output}/hbvm/core ${output}/hbvm/core/*)
+  list(REMOVE_ITEM there ${made})
+  foreach(header ${there})
+    file(REMOVE ${output}/hbvm/core/${header})
+  endforeach()
+endfunction()

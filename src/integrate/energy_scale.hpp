@@ -1,0 +1,33 @@
+#pragma once
+
+#include "integrate/observer.hpp"
+#include "problem/energy_terms.hpp"
+
+namespace hbvm {
+
+/// What an energy error is to be compared with: maxima over the mesh of the size of the terms of H, and of what its
+/// round-off is proportional to.
+template <Scalar S>
+class EnergyScale final : public Observer<S> {
+ public:
+  explicit EnergyScale(const Problem<S>& problem) : terms_(problem) {}
+  void observe(const Snapshot<S>& snapshot) override;
+  void remember(Archive& archive) override { archive(size_, round_off_size_); }
+
+  const S& size() const { return size_; }
+
+  /// The energy error that rounding explains: in every step and every evaluation of H, epsilon times what H is
+  /// sensitive to; steps, and the terms of its sum, add as independent errors do (Brouwer's law), twice over:
+  /// 2 sqrt(steps + terms).
+  S round_off(long steps) const;
+
+ private:
+  EnergyTerms<S> terms_;
+  S size_ = 0, round_off_size_ = 0;
+};
+
+#define HBVM_DECLARE(S) extern template class EnergyScale<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "hbvm/error.hpp"
+#include "linear/matrix.hpp"
+#include "scalar/archive.hpp"
+
+namespace hbvm {
+
+/// The solution at one mesh point. `lambda` is (lagmul) of the step that ends there; at n = 0 that of the exact state,
+/// (Theorem lamex).
+template <Scalar S>
+struct Snapshot {
+  long n = 0;
+  S t;
+  Vector<S> q, p, lambda;
+};
+
+/// Looks at every mesh point, in order. What it throws ends the integration.
+template <Scalar S>
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void observe(const Snapshot<S>& snapshot) = 0;
+  /// All that it gathered, for a run that goes on from a checkpoint.
+  virtual void remember(Archive&) { throw InputError("--checkpoint: something that looks at this run cannot be kept"); }
+};
+
+}  // namespace hbvm

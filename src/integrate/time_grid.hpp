@@ -1,0 +1,38 @@
+#pragma once
+
+#include "scalar/expression.hpp"
+#include "scalar/scalar.hpp"
+
+namespace hbvm {
+
+enum class Direction { forward, backward };
+
+/// Mesh points t_n = until n / N, n = 0..N, and their opposites for a run back in time. They are computed, never
+/// accumulated.
+template <Scalar S>
+class TimeGrid {
+ public:
+  static constexpr long max_steps = 1'000'000'000'000;
+
+  /// N = round(until/step).
+  /// \throws InputError unless step and until are positive, |N step - until| <= 4 epsilon until and N <= max_steps
+  TimeGrid(const Expression& step, const Expression& until, const Constants& constants = {},
+           Direction direction = Direction::forward);
+
+  const S& step() const { return step_; }
+  const S& until() const { return until_; }
+  Direction direction() const { return direction_; }
+  long steps() const { return steps_; }
+  S time(long n) const;
+
+ private:
+  S step_, until_;
+  Direction direction_;
+  long steps_ = 0;
+};
+
+#define HBVM_DECLARE(S) extern template class TimeGrid<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

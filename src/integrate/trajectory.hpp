@@ -1,0 +1,41 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "integrate/observer.hpp"
+#include "problem/point.hpp"
+#include "problem/redundant_constraints.hpp"
+
+namespace hbvm {
+
+/// Writes every `every`-th mesh point and the last as a line of comma-separated decimals that read back exactly:
+/// t, q, p, (lagmul), the output state's p and multiplier, H - H_0, and the max-norms of g and of the hidden
+/// constraint. Multipliers are those of all constraints, redundant ones included. The first line has the names of the
+/// columns.
+template <Scalar S>
+class Trajectory final : public Observer<S> {
+ public:
+  /// \param columns the names, of trajectory_columns()
+  Trajectory(const Problem<S>& problem, std::ostream& out, long every, long steps,
+             const std::vector<std::string>& columns);
+  void observe(const Snapshot<S>& snapshot) override;
+  /// What `out` holds is its owner's to remember.
+  void remember(Archive& archive) override { archive(H0_); }
+
+ private:
+  const Problem<S>& problem_;
+  Point<S> point_;
+  RedundantConstraints<S> redundant_;
+  std::ostream& out_;
+  long every_, steps_;
+  std::vector<std::string> columns_;
+  S H0_;
+};
+
+#define HBVM_DECLARE(S) extern template class Trajectory<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

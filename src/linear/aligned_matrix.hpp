@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "linear/matrix.hpp"
+
+namespace hbvm {
+
+/// A matrix that multiplies many vectors, its entries as whole multiples of one unit far below the last digit of the
+/// largest: then a product of a row with a vector, brought to one unit as well, is one of whole numbers. They need
+/// neither be shifted nor rounded one by one, which takes as long as to multiply them up to some hundred digits.
+///
+/// Errors of a sum are those of one rounding, and for each product of `l` limbs l 2^-(bits + guard_bits) of the largest
+/// of the matrix and of the vector.
+class AlignedMatrix {
+ public:
+  static constexpr int guard_bits = 16;
+
+  AlignedMatrix() = default;
+  /// Of numbers of the working precision, which times() is to be called in.
+  explicit AlignedMatrix(const Matrix<Mpfr>& a);
+
+  /// r = a x, where x_l stands at x[l * stride].
+  /// \return false, with r unchanged, if it does not apply: numbers that are not finite or of another length, or so
+  /// long that the product itself is all that counts
+  bool times(Mpfr* r, const Mpfr* x, Index stride);
+
+ private:
+  using Limb = unsigned long;
+  /// |x| / 2^exponent, cut to limbs_ limbs, from the lowest on.
+  void align(Limb* to, mpfr_srcptr x, long exponent) const;
+
+  Index rows_ = 0, columns_ = 0;
+  long bits_ = 0, limbs_ = 0, exponent_ = 0;  ///< of the largest entry
+  std::vector<Limb> entries_;                 ///< row by row
+  std::vector<signed char> signs_;            ///< 0 of an entry that is 0
+  std::vector<Limb> x_, sum_;                 ///< scratch
+  std::vector<signed char> x_signs_;
+};
+
+}  // namespace hbvm

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "linear/index.hpp"
+#include "scalar/scalar.hpp"
+
+namespace hbvm {
+
+/// The diagonal of the inverse of a symmetric positive definite matrix with all entries a_ij, |i - j| > b, zero, by
+/// A = L D L^T without pivoting and, from the last row to the first, what A^-1 = D^-1 L^-1 + (I - L^T) A^-1 says of the
+/// entries within the band (Takahashi, Fagan and Chin 1973). It takes O(n b^2) operations, and storage is kept.
+///
+/// In a Gram matrix of unit vectors the entry a of that diagonal is 1/sin^2 of the angle between vector a and the span
+/// of all the others.
+template <Scalar S>
+class InverseDiagonal {
+ public:
+  /// An n x n matrix of zeros, to be filled by entry(); half_bandwidth is cut to n - 1.
+  void resize(Index n, Index half_bandwidth);
+  void set_zero();
+  Index size() const { return n_; }
+
+  /// a_ij for 0 <= i - j <= half_bandwidth. compute() overwrites them all.
+  S& entry(Index i, Index j) { return a_[static_cast<std::size_t>(i - j + j * (b_ + 1))]; }
+
+  /// \return false if a pivot is not positive: the matrix is singular to working precision
+  [[nodiscard]] bool compute();
+
+  /// (A^-1)_ii, after compute().
+  const S& operator[](Index i) const { return inverse_[static_cast<std::size_t>(i * (b_ + 1))]; }
+
+ private:
+  S& inverse(Index i, Index j) { return inverse_[static_cast<std::size_t>(i - j + j * (b_ + 1))]; }
+
+  Index n_ = 0, b_ = 0;
+  std::vector<S> a_, inverse_;  // column j holds rows j .. j + b
+};
+
+#define HBVM_DECLARE(S) extern template class InverseDiagonal<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

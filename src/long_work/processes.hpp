@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "long_work/cells.hpp"
+
+namespace hbvm {
+
+/// How a cell ended that ran in a process of its own.
+struct ProcessEnd {
+  std::string text;     ///< its result
+  std::string failure;  ///< if it has none: a crash, an exception, or no end in its time
+  double cpu_seconds = 0;
+};
+
+/// Runs cells in so many processes at a time, each of which is ended after its seconds of processor time: one that
+/// crashes takes no other with it. To be called while the program has a single thread.
+/// \param seconds of a cell, by its place; \param result made of how it ended
+CellRunner in_processes(const std::vector<WorkCell>& cells, int jobs, std::function<double(std::size_t)> seconds,
+                        std::function<std::string(std::size_t, const ProcessEnd&)> result);
+
+}  // namespace hbvm

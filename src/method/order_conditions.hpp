@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "method/rooted_trees.hpp"
+#include "method/runge_kutta.hpp"
+
+namespace hbvm {
+
+/// How far the method is from each order: entry p - 1 is the largest |sum_i b_i Phi_i(t) - 1/gamma(t)| over the trees
+/// t of order p, where Phi_i([t_1 .. t_n]) = prod_k sum_j A_ij Phi_j(t_k) (Hairer, Norsett, Wanner: Solving Ordinary
+/// Differential Equations I, theorem II.2.13). These are the conditions of autonomous systems: c is not used, and
+/// condition_C(method, 1) tells how far it is from the row sums of A.
+/// \throws InputError unless 0 <= max_order <= max_tree_order
+template <Scalar S>
+std::vector<S> order_defects(const RungeKutta<S>& method, int max_order);
+
+/// With their signs, and times gamma(t): sum_i gamma(t) b_i Phi_i(t) - 1 for each tree of order p in entry p - 1.
+template <Scalar S>
+std::vector<std::vector<S>> order_residuals(const RungeKutta<S>& method, int max_order);
+
+/// The largest defects of Butcher's simplifying assumptions (the same, section IV.5 of volume II); 0 if p, q or r is:
+///
+///     B(p): sum_i b_i c_i^(n-1) = 1/n,                        n <= p
+///     C(q): sum_j A_ij c_j^(n-1) = c_i^n / n,                 n <= q, all i
+///     D(r): sum_i b_i c_i^(n-1) A_ij = b_j (1 - c_j^n) / n,   n <= r, all j
+template <Scalar S>
+S condition_B(const RungeKutta<S>& method, int p);
+template <Scalar S>
+S condition_C(const RungeKutta<S>& method, int q);
+template <Scalar S>
+S condition_D(const RungeKutta<S>& method, int r);
+
+/// The order that the conditions show when defects up to the tolerance count as 0: by the trees as far as
+/// max_tree_order; a higher one by Butcher's theorem, as min(p, 2 q + 2, q + r + 1) for B(p), C(q) and D(r).
+template <Scalar S>
+int order(const RungeKutta<S>& method, const S& tolerance);
+
+#define HBVM_DECLARE(S)                                                                      \
+  extern template std::vector<S> order_defects<S>(const RungeKutta<S>&, int);                \
+  extern template std::vector<std::vector<S>> order_residuals<S>(const RungeKutta<S>&, int); \
+  extern template S condition_B<S>(const RungeKutta<S>&, int);                               \
+  extern template S condition_C<S>(const RungeKutta<S>&, int);                               \
+  extern template S condition_D<S>(const RungeKutta<S>&, int);                               \
+  extern template int order<S>(const RungeKutta<S>&, const S&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linear/matrix.hpp"
+#include "scalar/expression.hpp"
+
+namespace hbvm {
+
+/// A Runge-Kutta method as its author writes it, as exact text: s x s, s and s entries.
+struct Tableau {
+  std::string name;
+  std::vector<std::vector<Expression>> A;  ///< row by row
+  std::vector<Expression> b, c;
+  std::optional<int> order;        ///< that its author claims
+  std::optional<int> digits = {};  ///< to which its author gives the numbers that are decimals
+
+  int stages() const { return static_cast<int>(b.size()); }
+};
+
+/// The same in one precision: K_i = f(t_0 + c_i h, y_0 + h sum_j A_ij K_j), y_1 = y_0 + h sum_i b_i K_i.
+template <Scalar S>
+struct RungeKutta {
+  Matrix<S> A;
+  Vector<S> b, c;
+
+  int stages() const { return static_cast<int>(b.size()); }
+};
+
+/// Every entry is rounded once.
+/// \throws InputError naming the entry, "A[2][1]" (from 1), that has no value; if A is not s x s, b and c not s long,
+///         or s < 1
+template <Scalar S>
+RungeKutta<S> make_runge_kutta(const Tableau& tableau);
+
+#define HBVM_DECLARE(S) extern template RungeKutta<S> make_runge_kutta<S>(const Tableau&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

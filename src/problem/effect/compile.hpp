@@ -1,0 +1,21 @@
+#pragma once
+
+#include "problem/effect/term.hpp"
+#include "problem/effect/trace.hpp"
+
+namespace hbvm {
+
+/// Fills in the programs of a term, for U and its first and second derivatives by the inputs, with their coefficients,
+/// and what follows from the trace: degree and constant_force. `values` has the parameters of each instance.
+/// \throws InputError if that takes more operations than anyone writes by hand
+template <Scalar S>
+void compile(Trace<S>& trace, typename Trace<S>::Id U, std::size_t inputs, std::size_t parameters,
+             const std::vector<std::vector<S>>& values, EffectTerm<S>& term);
+
+#define HBVM_DECLARE(S)                                                                       \
+  extern template void compile<S>(Trace<S>&, typename Trace<S>::Id, std::size_t, std::size_t, \
+                                  const std::vector<std::vector<S>>&, EffectTerm<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "problem/effect/registry.hpp"
+#include "problem/effect/term.hpp"
+#include "problem/effect/trace.hpp"
+
+namespace hbvm {
+
+/// The numbers of one use of an effect: its keys, and for each body or pair its parameters in the order mass matrix
+/// (on_each_body only), masses (two for pairs, else one), charges (two, or one and the centre's).
+template <Scalar S>
+struct EffectUse {
+  std::string kind;
+  Index dimension = 0;
+  std::map<std::string, S, std::less<>> numbers;
+  std::map<std::string, std::vector<S>, std::less<>> vectors;
+  struct Instance {
+    Displacement<S> x;
+    Matrix<S> mass_matrix;  ///< d x d
+    S masses[2] = {S(0), S(0)};
+    S charges[2] = {S(0), S(0)};
+  };
+  std::vector<Instance> instances;
+};
+
+/// Evaluates the effect's formula once on Traced values and compiles U and dU/dx.
+template <Scalar S>
+EffectTerm<S> make_term(const EffectUse<S>& use);
+
+#define HBVM_DECLARE(S) extern template EffectTerm<S> make_term<S>(const EffectUse<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

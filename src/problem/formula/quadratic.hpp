@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "problem/constraint/registry.hpp"
+#include "problem/formula/use.hpp"
+
+namespace hbvm {
+
+/// The form that g is where its trace has a degree of 2 at most, its coefficients right to the last bit whatever
+/// cancels in the formula: |x|^2 - c for a sum x of positions with the weights 1 and -1 is a Rod, n.q - c of one body a
+/// Plane, and anything else a Quadric. No form if g is not quadratic. \param use of one instance
+template <Scalar S>
+std::optional<ConstraintForms<S>> quadratic_form(const FormulaUse<S>& use);
+
+#define HBVM_DECLARE(S) extern template std::optional<ConstraintForms<S>> quadratic_form<S>(const FormulaUse<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

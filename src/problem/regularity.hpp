@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "problem/problem.hpp"
+
+namespace hbvm {
+
+/// A constraint whose gradient at some q is sum_b x_b grad g_b over others, so that (regular) does not hold.
+template <Scalar S>
+struct Dependence {
+  Index constraint;
+  std::vector<Index> others;  ///< none if the gradient vanishes
+  /// nabla^2 g (v, v) - sum_b x_b nabla^2 g_b (v, v): the second derivative of g along a motion with velocity v that
+  /// fulfils the others; and a bound of its round-off.
+  S bending, round_off;
+};
+
+template <Scalar S>
+struct Independence {
+  std::vector<Index> kept;  ///< ascending
+  std::vector<Dependence<S>> redundant;
+  /// Of the constraint nearest to a combination of others before it, among those kept: the square of the sine of the
+  /// angle between them in the metric M^-1, 1 if there is none.
+  S square_of_sine = 1;
+  Index nearest = -1;
+  std::vector<Index> near;
+};
+
+/// The constraints that are independent at q, judged by Cholesky's method on the Gram matrix grad g^T M^-1 grad g in
+/// more than twice the working digits: what is dependent but for the rounding of the coordinates counts as dependent.
+/// Of dependent ones those are kept that stand best apart from one another.
+/// \param rounding the relative one of the coordinates
+template <Scalar S>
+Independence<S> find_independent(const Problem<S>& problem, const Vector<S>& q, const Vector<S>& v,
+                                 const S& rounding = epsilon<S>());
+
+/// Moves the redundant constraints of a problem without any aside.
+template <Scalar S>
+void set_aside(Problem<S>& problem, const Independence<S>& independence);
+
+/// Ratio of the largest to the smallest eigenvalue of the Gram matrix at q, in double; 1 without constraints.
+template <Scalar S>
+double gram_condition(const Problem<S>& problem, const Vector<S>& q);
+
+/// The same with every gradient normalised, in the metric M^-1: of the angles between them alone.
+template <Scalar S>
+double angle_condition(const Problem<S>& problem, const Vector<S>& q);
+
+#define HBVM_DECLARE(S)                                                                                      \
+  extern template Independence<S> find_independent<S>(const Problem<S>&, const Vector<S>&, const Vector<S>&, \
+                                                      const S&);                                             \
+  extern template void set_aside<S>(Problem<S>&, const Independence<S>&);                                    \
+  extern template double gram_condition<S>(const Problem<S>&, const Vector<S>&);                             \
+  extern template double angle_condition<S>(const Problem<S>&, const Vector<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "method/hbvm_name.hpp"
+#include "reference/route_legs.hpp"
+
+namespace hbvm {
+
+/// What one route found, and how, in the digits of its scope.
+struct RouteRun {
+  std::string settings;
+  double cpu_seconds = 0;
+  std::vector<ExactPoint> points;
+};
+
+/// Called with the part of the time that is done.
+using RouteProgress = std::function<void(double)>;
+
+/// What a route is to find: the states at times that ascend, in the digits of the scope.
+struct RouteWork {
+  const Assembled<Mpfr>& scene;
+  const std::vector<Mpfr>& times;
+  RouteProgress progress;
+  long legs = 1;  ///< parts of the time that are kept
+  LegKeeper keeper = {};
+};
+
+/// \throws IntegrationError
+RouteRun taylor_route(const RouteWork& work);
+
+/// The states by the scene's closed form, or nothing if none is known.
+/// \throws IntegrationError
+std::optional<RouteRun> closed_form_route(const RouteWork& work);
+
+/// What a motion does to errors, and how far from the time axis its nearest singularity lies.
+struct MotionNature {
+  double digits_lost = 0;  ///< log10 of the factor by which a change of the start grows until the last time, at least 0
+  double log2_radius = 0;  ///< least radius of convergence of the Taylor series
+  double steps = 1;        ///< of a Taylor series until the last time
+  /// Parts of the time that take some hundred steps of a Taylor series each.
+  long legs() const;
+};
+
+/// The stages s of HBVM(s,s) for so many digits, at most max_s.
+int stages_of_route(double digits);
+/// With more digits HBVM has not the stages that it would need.
+inline constexpr int most_digits_of_hbvm = 20 * max_s / 9;
+
+/// The states by HBVM(s,s) with so many digits right, by steps that it chooses itself: see HbvmWalk.
+/// \throws IntegrationError
+RouteRun hbvm_route(const RouteWork& work, double digits);
+
+/// From two motions at low precision, the start of one changed a little. Where the change has grown so far that it
+/// tells no more, its rate until then is taken for that of all the time, and the radius for the least. \param progress
+/// is called with the part of the time that is done, and may throw to end the work \throws IntegrationError
+MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times, const RouteProgress& progress);
+
+}  // namespace hbvm

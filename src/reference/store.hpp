@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/reference.hpp"
+
+namespace hbvm {
+
+/// A reference with what made it.
+struct StoredReference {
+  Reference reference;
+  std::string version, date;
+};
+
+/// As a TOML file: the scene's name and hash, the routes' settings, version and date, and each time with its numbers as
+/// texts of as many digits as are certain.
+std::string to_toml(const StoredReference& stored);
+
+/// What such a file says; `name` is for messages.
+/// \throws InputError with the line where it is none, or holds what is no number
+StoredReference read_reference(const std::string& toml, const std::string& name);
+
+/// Name and text of each reference compiled in.
+const std::vector<std::pair<std::string, std::string>>& shipped_references();
+
+/// A shipped reference at one time.
+struct FoundReference {
+  std::string name;
+  int digits = 0;
+  ReferenceState state;
+};
+/// That of a scene that says the same, whatever its name, at exactly this time, whatever its text, with so many digits
+/// at least; of several that with the most.
+/// \throws InputError for a time without a value
+std::optional<FoundReference> find_reference(const Scene& scene, const Expression& t, int digits);
+
+/// A number that is not the same in two references.
+struct Difference {
+  std::string t, what;  ///< "q_3"
+  std::string stored, found;
+};
+/// By their texts, digit by digit; what one has and the other has not is a difference, too.
+std::vector<Difference> differences(const Reference& stored, const Reference& found);
+
+}  // namespace hbvm

@@ -1,0 +1,150 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+
+#include "linear/lu.hpp"
+#include "problem/problem.hpp"
+#include "reference/program_series.hpp"
+
+namespace hbvm {
+
+class ForceBounds;
+
+/// The motion by its Taylor series, in the digits of the scope: no quadrature, no stage equations, no basis, no
+/// iteration. In a unit of time h, about as long as the step, q' = h M^-1 p, p' = h (grad U(q) - grad g(q) lambda) and
+/// grad g is affine in q, or by a formula. Coefficient after coefficient,
+///
+///     (n+1) q_{n+1} = v_n,  v = h M^-1 p,  (n+1) p_{n+1} = h (F_n - sum_{i <= n} G_i lambda_{n-i})
+///
+/// where F is grad U, by the program of its gradient, and G = grad g by its second derivatives and values, or by the
+/// program of its gradient, too; lambda_n by
+/// coefficient n + 1 of the hidden constraint G^T v = 0,
+///
+///     G_0^T M^-1 G_0 lambda_n = G_0^T M^-1 (F_n - sum_{0 < i <= n} G_i lambda_{n-i})
+///                               + (n+1)/h^2 sum_{0 < i <= n+1} G_i^T v_{n+1-i}
+///
+/// whose matrix is factored once a step; for n = 0 that is (Theorem lamex). Order and step after Jorba and Zou
+/// (Experimental Mathematics 14, 2005): the step is so long that the last two terms are round-off of every body's
+/// position and momentum. As h is that long, coefficients fall to round-off, and so do the numbers of which
+/// convolutions consist, AlignedSeries. After each step the state is moved to the constraints and their tangent space,
+/// by round-off.
+///
+/// The coefficients tell only what is near the start of a step. So it is no longer than ForceBounds allow, which look
+/// at the forces on a circle of radius R about its start in complex time: with |F| <= M there, and F analytic inside,
+/// the terms of F from order N on add up to at most M (h/R)^N / (1 - h/R).
+class TaylorMotion {
+ public:
+  /// From (q0, p0), consistent, at t = 0. The problem must outlive it.
+  /// \throws IntegrationError if there is no series there
+  /// \param while_working is called after every coefficient, and may throw to end the work
+  TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,
+               std::function<void()> while_working = {});
+  ~TaylorMotion();
+
+  /// Of the series with so many bits.
+  static Index order_for(int bits);
+
+  /// The state at t, not before the last.
+  /// \throws IntegrationError at a singularity of the forces or of the constraints, with its time
+  /// \param after_step is called with the time after every step, and may throw to end the work
+  void advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step = {});
+  const Vector<Mpfr>& q() const { return q_; }
+  const Vector<Mpfr>& p() const { return p_; }
+  const Vector<Mpfr>& lambda() const { return lambda_; }
+
+  Index order() const { return order_; }
+  long steps() const { return steps_; }
+  /// log2 of the least radius of convergence that the coefficients of a step showed.
+  double least_radius() const { return least_radius_; }
+
+ private:
+  /// A component of grad g, which several coordinates have but for the sign: an affine form of q, or a sum of outputs
+  /// of a formula's gradient.
+  struct Form {
+    Mpfr constant;
+    std::vector<std::pair<Index, Mpfr>> terms;
+    Index constraint;
+    std::vector<std::pair<Index, int>> columns;  ///< coordinates, with the sign
+    /// Its terms are the columns times this, if it is not 0: then its velocity is its derivative over it.
+    Mpfr factor = 0;
+    AlignedSeries series, velocity;
+    struct Part {
+      std::size_t slope, output;
+      Mpfr weight;
+    };
+    std::vector<Part> parts = {};
+  };
+  /// The gradient of one instance of an effect, or of a constraint by a formula.
+  struct Slope {
+    const EffectTerm<Mpfr>& term;
+    Index instance;
+    ProgramSeries series;
+  };
+  Mpfr* q_series(Index j) { return &q_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
+  Mpfr* p_series(Index j) { return &p_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
+  Mpfr* v_series(Index j) { return &v_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
+  Mpfr* form_series(std::size_t l) { return &form_values_[l * static_cast<std::size_t>(order_ + 2)]; }
+  /// sum of the signs times v of the form's columns, the form's velocity.
+  Mpfr* form_velocity(std::size_t l) { return &form_velocities_[l * static_cast<std::size_t>(order_ + 2)]; }
+  Mpfr* lambda_series(Index a) { return &lambda_values_[static_cast<std::size_t>(a * (order_ + 2))]; }
+
+  void collect_forms();
+  std::vector<Form> affine_forms(Index constraint) const;
+  std::vector<Form> formula_forms(Index constraint);
+  Slope slope_of(const EffectTerm<Mpfr>& term, Index instance) const;
+  /// Coefficient n of a slope from those of q up to n.
+  void advance(Slope& slope, Index n);
+  void set_velocity(Index n);
+  void set_forms(Index n);
+  void factor_gram();
+  /// Brings q_0 to the constraints and p_0 to their tangent space, but for round-off there already.
+  void project();
+  void set_force(Index n);
+  void set_multipliers(Index n);
+  /// Coefficients of degree 0 from q_, p_, with the Gram matrix; then all.
+  void begin(const Vector<Mpfr>& q, const Vector<Mpfr>& p);
+  void expand(Index order);
+  /// The unit of time, from what a few coefficients at (q0, p0) show.
+  void find_unit();
+  void set_unit(double log2);
+  /// The series from start_q_, start_p_, in a unit in which they do not grow, and the step.
+  void take_up();
+  /// What some coefficients of a body's position or momentum say, as log2: `step` units that the series may take,
+  /// `radius` units of convergence, and by how much terms are larger than what it is in a unit.
+  struct Extent {
+    double step, radius, growth;
+  };
+  Extent extent(Index order);
+  /// log2 of the length of the step, at most `most`, for which the forces are bounded. \throws IntegrationError if none
+  /// is
+  double bounded_length(double most);
+  /// (G^T v)_{n+1} less G_0^T v_{n+1}, of one form.
+  void set_hidden(Mpfr& r, std::size_t l, Index n);
+  /// The series at the time tau after the step's start.
+  void evaluate(const Mpfr& tau, Vector<Mpfr>& q, Vector<Mpfr>& p);
+  /// The multiplier at q_, p_, moved to the constraints first.
+  void finish();
+
+  const Problem<Mpfr>& problem_;
+  std::function<void()> while_working_;
+  Index order_;
+  std::vector<Form> forms_;
+  std::deque<Slope> forces_, constraint_slopes_;
+  std::vector<Mpfr> q_values_, p_values_, v_values_, form_values_, form_velocities_, lambda_values_;
+  Lu<Mpfr> gram_;
+  Vector<Mpfr> F_, weighted_, rhs_, powers_;  ///< grad U less sum G_i lambda, M^-1 of it
+  Vector<Mpfr> start_q_, start_p_, q_, p_, lambda_;
+  std::vector<AlignedSeries> aligned_lambda_;
+  /// The unit of time h, log2 of it, and 1/h^2.
+  Mpfr unit_ = 1, per_square_ = 1;
+  double log2_unit_ = 0, first_log2_unit_ = 0, next_log2_unit_ = 0;
+  std::unique_ptr<ForceBounds> bounds_;
+  double next_log2_length_;  ///< what to try first
+  Mpfr start_ = 0, length_ = 0, t_ = 0, x_ = 0;
+  long steps_ = 0;
+  double least_radius_ = 0;
+};
+
+}  // namespace hbvm

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+
+#include "scene/assemble.hpp"
+#include "step/hbvm_stepper.hpp"
+#include "step/raising_stepper.hpp"
+
+namespace hbvm {
+
+/// The numbers of nodes that hbvm:auto,S stands for, and why.
+struct ChosenK {
+  int k = 0;
+  std::string reason;
+  bool exact = false;         ///< for every motion: U and g are polynomials
+  int r = 0;                  ///< of the constraints; 0, which is s, if all are quadratic
+  Raises raises = Raises::k;  ///< what may have to be raised later
+};
+
+/// Degree of U as a polynomial in q; nothing if it is none. 0 without effects.
+template <Scalar S>
+std::optional<int> degree_of_U(const Problem<S>& problem);
+
+/// For a polynomial U of degree mu the least k >= s that integrates it exactly, k >= mu s/2, (hDj). Otherwise the least
+/// k for which, at the solutions of the first 16 steps, psi_hat agrees with that of k + s to round-off; or, if with no
+/// k that many steps can be made, the one that comes farthest. Likewise r: r >= d s/2 for polynomial g of degree d, or
+/// as many nodes as k for which these steps move g by round-off, unless the name says it. \throws InputError if no k up
+/// to max_k will do, StepError if no k makes the first step
+template <Scalar S>
+ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step, SolverKind solver);
+
+/// The QuadratureDefect of the step that starts from (q, p): at most 1 if more nodes would change nothing.
+template <Scalar S>
+S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, const Vector<S>& q,
+                    const Vector<S>& p);
+
+#define HBVM_DECLARE(S)                                                                                       \
+  extern template std::optional<int> degree_of_U<S>(const Problem<S>&);                                       \
+  extern template ChosenK choose_k<S>(const Assembled<S>&, const HbvmName&, const S&, SolverKind);            \
+  extern template S quadrature_defect<S>(const Problem<S>&, int, int, const S&, SolverKind, const Vector<S>&, \
+                                         const Vector<S>&);
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace hbvm {
+
+/// What a page of a run is made of, compiled in: the files of src/run/page, scripts one after another, and the
+/// plotting library.
+struct PageParts {
+  std::string html, style, script, dygraphs_style, dygraphs;
+};
+const PageParts& page_parts();
+
+}  // namespace hbvm

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "integrate/observer.hpp"
+#include "problem/point.hpp"
+#include "problem/redundant_constraints.hpp"
+
+namespace hbvm {
+
+/// What a picture shows of a run: however long it is, at most `most` samples at equal distances and the last mesh
+/// point. Motion and multipliers are those at the samples; of the errors nothing is left out.
+struct Recording {
+  static constexpr long most = 1000;
+
+  struct Sample {
+    double t = 0;
+    std::vector<double> q, lambda;
+    /// Decimal logarithms of |H - H_0|, |g|_max and |grad g^T M^-1 p|_max, the greatest since the sample before; minus
+    /// infinity for 0. Errors of hundreds of digits are beyond the range of double, their logarithms are not.
+    double energy = 0, constraints = 0, hidden = 0;
+
+    void remember(Archive& archive) {
+      archive(t);
+      archive.sized(q);
+      archive.sized(lambda);
+      archive(energy, constraints, hidden);
+    }
+  };
+
+  long every = 1;                        ///< mesh points a sample
+  long steps = 0;                        ///< of the whole run, also if it fails on the way
+  std::vector<std::string> constraints;  ///< whose multipliers these are
+  std::vector<Sample> samples;
+};
+
+/// Whose multipliers a picture shows: constraints that keep rigid bodies rigid are many, and say little beside others.
+std::vector<std::size_t> shown_multipliers(const Recording& recording);
+
+/// Fills a recording.
+template <Scalar S>
+class MotionRecorder final : public Observer<S> {
+ public:
+  MotionRecorder(const Problem<S>& problem, long steps, Recording& recording);
+  void observe(const Snapshot<S>& snapshot) override;
+  void remember(Archive& archive) override;
+
+ private:
+  Point<S> point_;
+  RedundantConstraints<S> redundant_;
+  long steps_;
+  Recording& recording_;
+  S H0_ = 0, energy_ = 0, constraints_ = 0, hidden_ = 0;
+};
+
+#define HBVM_DECLARE(S) extern template class MotionRecorder<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

@@ -1,0 +1,204 @@
+#include "run/run.hpp"
+
+#include "integrate/energy_scale.hpp"
+#include "integrate/momentum_drift.hpp"
+#include "integrate/output_state.hpp"
+#include "integrate/trajectory.hpp"
+#include "run/simulate.hpp"
+#include "run/texts.hpp"
+#include "scalar/text.hpp"
+#include "scalar/with_scalar.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+class Progress final : public Observer<S> {
+ public:
+  Progress(const std::function<void(long, long)>& report, long steps) : report_(report), steps_(steps) {}
+  void observe(const Snapshot<S>& snapshot) override {
+    if (report_) report_(snapshot.n, steps_);
+  }
+  void remember(Archive&) override {}
+
+ private:
+  const std::function<void(long, long)>& report_;
+  long steps_;
+};
+
+/// The conserved components of the momenta that the scene names.
+template <Scalar S>
+std::vector<MomentumComponent<S>> observed_momenta(const Scene& text, const Assembled<S>& scene) {
+  const bool linear = text.observes("linear_momentum"), angular = text.observes("angular_momentum");
+  if (!linear && !angular) return {};
+  std::vector<MomentumComponent<S>> components = conserved_momenta(scene.problem);
+  std::erase_if(components, [&](const MomentumComponent<S>& c) { return c.is_linear() ? !linear : !angular; });
+  return components;
+}
+
+/// What the chosen k came to: judged by the energy over the whole run, and by the steps for which no k was enough.
+template <Scalar S>
+NodesReport report_nodes(const RunStepper<S>& stepper, const TimeGrid<S>& grid, const EnergyScale<S>& scale,
+                         const S& e_H) {
+  const NodeLog& log = stepper.nodes();
+  NodesReport report;
+  report.k = stepper.chosen()->k;
+  report.r = stepper.chosen()->r;
+  report.because = stepper.chosen()->reason;
+  for (const NodeLog::Raise& raise : log.raised)
+    report.raised.push_back({to_text(grid.time(raise.step)), raise.k, raise.r});
+  const long substeps = stepper.halving() ? stepper.halving()->substeps : 0;
+  const bool conserved = e_H <= scale.round_off(grid.steps() + substeps);
+  report.verified = conserved && log.unresolved == 0;
+  report.verdict = conserved ? "energy conserved to round-off over the run"
+                             : "energy NOT conserved: e_H = " + to_scientific(e_H, 3) + ", " +
+                                   to_scientific(S(e_H / scale.size()), 3) + " of the terms of H";
+  if (log.unresolved > 0)
+    report.verdict += std::string(conserved ? ", but" : ";") + " from t = " + to_text(grid.time(log.first_unresolved)) +
+                      " on there are steps that no number of nodes integrates to round-off: take a smaller step";
+  else if (!conserved)
+    report.verdict += "; more nodes do not help: take a smaller step";
+  return report;
+}
+
+template <Scalar S>
+HalvingReport report_halving(const HalvingLog& log, const TimeGrid<S>& grid) {
+  HalvingReport report{log.steps, log.substeps, log.depth, to_text(S(grid.step() / S(1L << log.depth))), {}};
+  if (log.steps > 0) report.first_t = to_text(grid.time(log.first_step));
+  return report;
+}
+
+/// The file of a trajectory, which a run that goes on continues.
+template <Scalar S>
+class KeptFile final : public Observer<S> {
+ public:
+  explicit KeptFile(CsvFile& file) : file_(file) {}
+  void observe(const Snapshot<S>&) override {}
+  void remember(Archive& archive) override { archive(file_); }
+
+ private:
+  CsvFile& file_;
+};
+
+/// The scene at the state that its first step is made from.
+template <Scalar S>
+Assembled<S> seen_by_stepper(const Assembled<S>& scene, Direction direction) {
+  Assembled<S> seen = scene;
+  if (direction == Direction::backward) seen.p0 = -seen.p0;
+  return seen;
+}
+
+/// What `integrate` returns. Where it fails after the motion had been lost, that is the cause, and it says so.
+template <Scalar S, class Integrate>
+Simulated<S> explained(HealthWatch<S>& health, Integrate&& integrate) {
+  try {
+    return integrate();
+  } catch (const StepError& error) {
+    const std::string lost = health.lost();
+    if (lost.empty()) throw;
+    throw StepError(error, lost);
+  } catch (const RedundancyLost& error) {
+    const std::string lost = health.lost();
+    if (lost.empty()) throw;
+    throw RedundancyLost(error.what() + ("; before, " + lost), error.constraint(), error.time());
+  } catch (const NotFinite& error) {
+    const std::string lost = health.lost();
+    if (lost.empty()) throw;
+    throw NotFinite(error.place(), lost);
+  }
+}
+
+template <Scalar S>
+RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
+  const TimeGrid<S> grid(request.step, request.until, request.scene.constants, request.direction);
+  Assembled<S> scene = assemble<S>(request.scene);
+  Course<S> course{{}, hooks.checkpoints};
+  if (request.start) {
+    course.start = evaluate(*request.start, request.scene, scene);
+    scene.q0 = course.start->q;
+    scene.p0 = course.start->p;
+  }
+  std::unique_ptr<CsvFile> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
+  RunResult result;
+  const Assembled<S> seen = seen_by_stepper(scene, request.direction);
+  RunStepper<S> stepper(seen, request.method, grid.step(), request.solver, request.on_failure);
+  result.method = stepper.method();
+
+  Progress<S> progress(hooks.progress, grid.steps());
+  std::vector<Observer<S>*> observers{&progress};
+  std::optional<Trajectory<S>> trajectory;
+  std::optional<KeptFile<S>> kept_file;
+  if (csv) {
+    const auto columns = trajectory_columns(request.scene, names_of_constraints(scene.problem));
+    if (hooks.describe_csv) hooks.describe_csv(columns);
+    trajectory.emplace(scene.problem, *csv, hooks.every, grid.steps(), names_of(columns));
+    observers.push_back(&*trajectory);
+    kept_file.emplace(*csv);
+    observers.push_back(&*kept_file);
+  }
+  std::optional<MotionRecorder<S>> recorder;
+  if (hooks.recording) observers.push_back(&recorder.emplace(scene.problem, grid.steps(), *hooks.recording));
+  MomentumDrift<S> momenta(scene.problem, observed_momenta(request.scene, scene));
+  if (!momenta.components().empty()) observers.push_back(&momenta);
+  HealthWatch<S> health(scene.problem, *result.method, grid);
+  observers.push_back(&health);
+  std::optional<ShadowedRun<S>> shadowed;
+  if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.m(), grid.steps()));
+  std::optional<EnergyScale<S>> scale;
+  if (stepper.chosen()) observers.push_back(&scale.emplace(scene.problem));
+  const Simulated<S> simulated = explained(health, [&] {
+    return simulate<S>(scene, stepper, grid, observers, request.account ? &result.account : nullptr, &health.decay(),
+                       course);
+  });
+
+  if (csv) csv->flush();
+
+  const Snapshot<S>& end = simulated.integration.end;
+  if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_H);
+  if (stepper.halving()) result.halving = report_halving(*stepper.halving(), grid);
+  result.settled = scene.settled;
+  result.step = to_text(grid.step());
+  result.until = to_text(grid.until());
+  result.t = to_text(end.t);
+  result.steps = grid.steps();
+  result.q = texts(end.q);
+  result.p = texts(end.p);
+  RedundantConstraints<S> redundant(scene.problem);
+  result.lambda = texts(redundant.multipliers(end.q, end.lambda));
+  result.q_carry = texts(simulated.state.q_carry);
+  result.p_carry = texts(simulated.state.p_carry);
+  Point<S> point(scene.problem);
+  const OutputState<S> output = output_state(point, end.q, end.p);
+  result.output_p = texts(output.p);
+  const Vector<S> output_lambda = redundant.multipliers(end.q, output.lambda);
+  result.output_lambda = texts(output_lambda);
+  result.output_delta_H = to_text(S(point.energy(end.q, output.p) - simulated.H0));
+  result.e_H = to_text(simulated.e_H);
+  result.e_g = to_text(simulated.e_g);
+  result.e_hid = to_text(simulated.e_hid);
+  result.iterations_per_step =
+      static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
+  result.health = health.report(*request.method, *result.method, stepper.halving());
+  for (const Redundancy& redundancy : scene.redundant)
+    result.health.warnings.push_back(
+        {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +
+                                      to_scientific(simulated.redundancy, 3) + " of their terms"});
+  if (shadowed) result.shadow = shadowed->compare(request, *result.method, course.start);
+  if (request.error)
+    result.error = estimate_error(request, *result.method, course.start, end.q, output.p, output_lambda);
+  result.cpu_seconds = simulated.integration.cpu_seconds;
+  if (request.scene.observes("energy"))
+    result.observables.push_back({"energy", to_text(simulated.H0), to_text(simulated.e_H)});
+  for (std::size_t i = 0; i < momenta.components().size(); ++i)
+    result.observables.push_back(
+        {momenta.components()[i].name(), to_text(momenta.initial(i)), to_text(momenta.drift(i))});
+  return result;
+}
+
+}  // namespace
+
+RunResult run(const RunRequest& request, const RunHooks& hooks) {
+  return with_scalar(request.precision, [&]<Scalar S>() { return run_in<S>(request, hooks); });
+}
+
+}  // namespace hbvm

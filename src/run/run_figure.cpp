@@ -1,0 +1,133 @@
+#include "run/run_figure.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace hbvm {
+namespace {
+
+constexpr const char* axes = "xyz";
+
+PlotPoint project(const std::array<double, 3>& x, const Projection& projection) {
+  return {x[static_cast<std::size_t>(projection.across)], x[static_cast<std::size_t>(projection.up)]};
+}
+
+/// The lines of the scene at one state.
+void add_links(Panel& panel, const Sketch& sketch, const std::vector<double>& q, const Projection& projection,
+               Polyline::Look look) {
+  for (const Sketch::Link& link : sketch.links) {
+    const Polyline::Look drawn =
+        look == Polyline::Look::solid && link.as == Sketch::Joins::spring ? Polyline::Look::faint : look;
+    panel.lines.push_back(
+        {{project(sketch.position(link.a, q), projection), project(sketch.position(link.b, q), projection)}, drawn});
+  }
+}
+
+Panel against_time(const std::string& title, const Axis& y) {
+  Panel panel;
+  panel.title = title;
+  panel.x.label = "t";
+  panel.y = y;
+  return panel;
+}
+
+Curve curve_of(const std::string& label, const Recording& recording,
+               const std::function<double(const Recording::Sample&)>& value) {
+  Curve curve{label, {}};
+  for (const Recording::Sample& sample : recording.samples) curve.points.push_back({sample.t, value(sample)});
+  return curve;
+}
+
+/// Its name, or by its number if that is too long to stand beside a panel.
+std::string label_of(const Recording& recording, std::size_t constraint) {
+  constexpr std::size_t longest = 20;
+  const std::string& name = recording.constraints[constraint];
+  return name.size() <= longest ? plain(name) : "λ_{" + std::to_string(constraint + 1) + "}";
+}
+
+Panel multipliers_panel(const Recording& recording) {
+  Panel panel = against_time("Lagrange multipliers", {"λ"});
+  for (const std::size_t i : shown_multipliers(recording))
+    panel.curves.push_back(
+        curve_of(label_of(recording, i), recording, [i](const Recording::Sample& sample) { return sample.lambda[i]; }));
+  return panel;
+}
+
+Panel errors_panel(const Recording& recording) {
+  Panel panel = against_time("Errors of energy and constraints", {"error", AxisScale::decimal});
+  panel.curves.push_back(curve_of("|H − H_0|", recording, [](const auto& sample) { return sample.energy; }));
+  if (recording.constraints.empty()) return panel;
+  panel.curves.push_back(curve_of("|g|", recording, [](const auto& sample) { return sample.constraints; }));
+  panel.curves.push_back(curve_of("hidden", recording, [](const auto& sample) { return sample.hidden; }));
+  return panel;
+}
+
+/// In the plane, or along two axes.
+std::vector<Panel> motion_panels(const Sketch& sketch, const Recording& recording, const std::string& title) {
+  std::vector<Panel> panels;
+  if (sketch.dimension == 2) {
+    panels.push_back(motion_panel(sketch, recording, {0, 1}));
+    panels.back().title = title;
+    return panels;
+  }
+  for (const Projection& seen : {Projection{0, 1}, Projection{0, 2}}) {
+    panels.push_back(motion_panel(sketch, recording, seen));
+    panels.back().title = title + ", seen along " + axes[3 - seen.across - seen.up];
+  }
+  return panels;
+}
+
+}  // namespace
+
+Panel motion_panel(const Sketch& sketch, const Recording& recording, const Projection& projection) {
+  Panel panel;
+  panel.equal_axes = true;
+  panel.x.label = axes[projection.across];
+  panel.y.label = axes[projection.up];
+  const std::vector<double>&first = recording.samples.front().q, &last = recording.samples.back().q;
+  constexpr std::size_t most_labels = 12;
+  std::size_t moving = 0;
+  for (const Sketch::Place& place : sketch.places) moving += place.has_mass ? 1 : 0;
+  for (std::size_t i = 0; i < sketch.places.size(); ++i) {
+    const Sketch::Place& place = sketch.places[i];
+    const PlotPoint at = project(sketch.position(i, last), projection);
+    const std::string label = moving <= most_labels && place.labelled ? place.name : "";
+    if (place.has_mass) {
+      Curve path;
+      for (const Recording::Sample& sample : recording.samples)
+        path.points.push_back(project(sketch.position(i, sample.q), projection));
+      panel.curves.push_back(std::move(path));
+      panel.marks.push_back({project(sketch.position(i, first), projection), Mark::Look::start, ""});
+      panel.marks.push_back({at, Mark::Look::body, label});
+    } else if (place.at.blocks.empty()) {
+      panel.marks.push_back({at, Mark::Look::fixed, label});
+    }
+    if (place.charge != 0)
+      panel.marks.push_back({at, place.charge > 0 ? Mark::Look::positive : Mark::Look::negative, ""});
+  }
+  const auto samples = static_cast<long>(recording.samples.size());
+  for (long n = 1; n <= projection.rods; ++n)
+    add_links(panel, sketch, recording.samples[static_cast<std::size_t>(n * samples / (projection.rods + 1))].q,
+              projection, Polyline::Look::faint);
+  add_links(panel, sketch, first, projection, Polyline::Look::dashed);
+  add_links(panel, sketch, last, projection, Polyline::Look::solid);
+  return panel;
+}
+
+Figure run_figure(const Sketch& sketch, const Recording& recording) {
+  Figure figure;
+  figure.panels = motion_panels(sketch, recording, "Motion");
+  if (!recording.constraints.empty()) figure.panels.push_back(multipliers_panel(recording));
+  figure.panels.push_back(errors_panel(recording));
+  return figure;
+}
+
+Figure scene_figure(const Sketch& sketch, const std::vector<double>& q) {
+  Recording start;
+  start.samples.emplace_back().q = q;
+  Figure figure;
+  figure.panels = motion_panels(sketch, start, "Start");
+  return figure;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "integrate/time_grid.hpp"
+#include "run/run_stepper.hpp"
+#include "run/start_state.hpp"
+#include "scalar/precision.hpp"
+#include "scene/scene.hpp"
+#include "solver/solver_kind.hpp"
+
+namespace hbvm {
+
+/// One run as a user asks for it.
+struct RunRequest {
+  Scene scene;
+  MethodPtr method;
+  SolverKind solver = SolverKind::automatic;
+  Expression step, until;
+  Precision precision;
+  bool account = false;  ///< measure where the time goes
+  bool shadow = false;   ///< repeat the run with 16 more digits
+  bool error = false;    ///< repeat it with more stages, too
+  OnFailure on_failure = OnFailure::stop;
+  Direction direction = Direction::forward;
+  std::optional<StartState> start = {};  ///< instead of that of the scene
+};
+
+}  // namespace hbvm

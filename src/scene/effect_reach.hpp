@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace hbvm {
+
+/// Whom an effect of a scene acts on, by names: a body, a pair or a group each, in the order of the instances of its
+/// term.
+struct EffectReach {
+  std::vector<std::vector<std::string>> on;
+};
+
+/// The bodies and rigid bodies that an effect does not act on, each with the reason: "not named".
+std::vector<std::pair<std::string, std::string>> left_out(const Scene& scene, const SceneEffect& effect,
+                                                          const EffectReach& reach);
+
+/// "'a', 'b'" or "'a'-'b', 'a'-'c', and 98 more".
+std::string to_text(const EffectReach& reach);
+
+}  // namespace hbvm

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+
+#include "solver/stage_solver.hpp"
+
+namespace hbvm {
+
+/// Chooses between two solvers, step by step: the preferred one, and the other from the step on in which that fails or
+/// needs more than `slow` sweeps; back again if the other fails.
+template <Scalar S>
+class Automatic final : public StageSolver<S> {
+ public:
+  static constexpr long slow = 25;
+
+  /// In double the fixed point is preferred, whose sweeps are cheaper; in more digits Newton.
+  Automatic(const Problem<S>& problem, const Hbvm<S>& method);
+
+  long solve(const StepStart<S>& start) override;
+  const StageUnknowns<S>& unknowns() const override { return current().unknowns(); }
+  const StepChange<S>& change() const override { return current().change(); }
+  SolverCounts counts() const override;
+  void measure_time() override;
+  void remember(Archive& archive) override;
+
+ private:
+  const StageSolver<S>& current() const { return *solvers_[static_cast<std::size_t>(used_)]; }
+  StageSolver<S>& make(int which);
+
+  const Problem<S>& problem_;
+  const Hbvm<S>& method_;
+  std::unique_ptr<StageSolver<S>> solvers_[2];
+  int used_ = 0;  ///< 0: fixed point, 1: Newton
+  long last_sweeps_ = 0;
+  bool timed_ = false;
+};
+
+#define HBVM_DECLARE(S) extern template class Automatic<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

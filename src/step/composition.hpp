@@ -1,0 +1,51 @@
+#pragma once
+
+#include "step/method.hpp"
+
+namespace hbvm {
+
+/// The step sizes, over that of the whole, of the symmetric composition of order P = 2, 4, 6, ... of a symmetric method
+/// of order 2: five steps of the composition of order P - 2, the third one backwards,
+///
+///     g, g, 1 - 4 g, g, g,   g = 1 / (4 - 4^(1/(P - 1))),
+///
+/// and so on down to order 2 (Suzuki 1990; Hairer, Lubich, Wanner: Geometric Numerical Integration, II.4, (4.5)).
+/// 5^(P/2 - 1) numbers of sum 1, computed with guard digits and rounded once.
+/// \throws InputError unless P is even and 2 <= P <= max_composition_order
+template <Scalar S>
+Vector<S> composition_steps(int order);
+
+inline constexpr int max_composition_order = 12;
+
+/// Makes a step of parts of these sizes, one after the other, by another stepper.
+template <Scalar S>
+class CompositionStepper final : public Stepper<S> {
+ public:
+  CompositionStepper(std::unique_ptr<Stepper<S>> inner, Vector<S> parts);
+
+  const Problem<S>& problem() const override { return inner_->problem(); }
+  /// \return the sweeps of all parts
+  long step(State<S>& state, const S& h) override;
+  /// Of the last part.
+  const Vector<S>& multiplier() const override { return inner_->multiplier(); }
+  SolverCounts counts() const override { return inner_->counts(); }
+  void measure_time() override { inner_->measure_time(); }
+  void remember(Archive& archive) override { archive(*inner_); }
+
+ private:
+  std::unique_ptr<Stepper<S>> inner_;
+  Vector<S> parts_;
+  State<S> before_;
+  S h_ = 0;
+};
+
+/// compose:INNER,P from "INNER,P", INNER being symmetric and of order 2: "rattle,6". \throws InputError
+MethodPtr composition_method(std::string_view arguments);
+
+#define HBVM_DECLARE(S)                                      \
+  extern template Vector<S> composition_steps<S>(int order); \
+  extern template class CompositionStepper<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

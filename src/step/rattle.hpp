@@ -1,0 +1,60 @@
+#pragma once
+
+#include "step/constraint_projection.hpp"
+#include "step/method.hpp"
+
+namespace hbvm {
+
+/// RATTLE (Andersen 1983), the symplectic method of order 2 for constrained systems:
+///
+///     p_1/2 = p_0 + h/2 (grad U(q_0) - grad g(q_0) lambda),   q_1 = q_0 + h M^-1 p_1/2,   g(q_1) = 0,
+///     p_1   = p_1/2 + h/2 (grad U(q_1) - grad g(q_1) mu),     grad g(q_1)^T M^-1 p_1 = 0.
+///
+/// lambda is found by Newton's iteration to round-off from that of the last step, mu by a linear solve. The force at
+/// the end of a step serves the next one.
+template <Scalar S>
+class Rattle final : public Stepper<S> {
+ public:
+  /// The problem must outlive it.
+  explicit Rattle(const Problem<S>& problem);
+
+  const Problem<S>& problem() const override { return problem_; }
+
+  /// \return Newton iterations for the positions
+  /// \throws StageFailure if they do not converge; the state is then as it was
+  long step(State<S>& state, const S& h) override;
+
+  /// mu of the last step.
+  const Vector<S>& multiplier() const override { return multiplier_; }
+  SolverCounts counts() const override;
+  void measure_time() override;
+  void remember(Archive& archive) override;
+
+ private:
+  /// The force at the state, and the directions in which it is constrained, unless they are there.
+  void arrive(const Vector<S>& q);
+  /// p_ = p_0 + h/2 grad U(q_0) and free_ = q_0 + h M^-1 p_, where q_1 were without constraints.
+  void kick_and_drift(const State<S>& state);
+  /// p_ += h/2 (grad U(q_1) - grad g(q_0) lambda).
+  void kick_back();
+
+  const Problem<S>& problem_;
+  S h_ = 0, half_ = 0, factor_ = 0, one_half_;  ///< h, h/2, -h^2/2
+  PotentialEvaluator<S> potential_;
+  ConstraintProjection<S> projection_;
+  Matrix<S> force_, lambda_, pull_;  // 1 x m and 1 x nu
+  Vector<S> free_, q_, p_, v_, multiplier_;
+  Vector<S> arrived_;  ///< where force_ and the directions are
+  bool started_ = false, timed_ = false;
+  PartCount kicks_{"half kicks and drift"};
+  SolverCounts earlier_;  ///< those of a run that this one continues
+};
+
+/// From no arguments. \throws InputError
+MethodPtr rattle_method(std::string_view arguments);
+
+#define HBVM_DECLARE(S) extern template class Rattle<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

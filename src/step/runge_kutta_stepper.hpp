@@ -1,0 +1,99 @@
+#pragma once
+
+#include <optional>
+
+#include "method/runge_kutta.hpp"
+#include "problem/point.hpp"
+#include "solver/extrapolation.hpp"
+#include "solver/position_scale.hpp"
+#include "step/constraint_projection.hpp"
+#include "step/stage_iteration.hpp"
+#include "step/stepper.hpp"
+
+namespace hbvm {
+
+/// What becomes of constraints.
+enum class OnConstraints {
+  drift,   ///< nothing
+  project  ///< each step ends on them
+};
+
+/// Steps of a Runge-Kutta method:
+///
+///     Q_i = q_0 + h sum_j A_ij V_j,   V_i = M^-1 P_i,                              q_1 = q_0 + h sum_i b_i V_i,
+///     P_i = p_0 + h sum_j A_ij F_j,   F_i = grad U(Q_i) - grad g(Q_i) lambda_i,    p_1 = p_0 + h sum_i b_i F_i.
+///
+/// With constraints, lambda_i = lambda(Q_i, P_i) of (Theorem lamex): the index-reduced equations, whose solutions keep
+/// g and the hidden constraints, but the method's do not, and drift away. Projected, each step ends on the constraints
+/// and in their tangent space, along grad g at its end.
+///
+/// If A is strictly lower triangular, the stages are computed one after the other. Else the P_i are found by
+/// fixed-point iteration, a sweep being V from P, Q, F, and P anew; it starts from the extrapolation of the last
+/// steps' P, and if that leads nowhere, once more from P = p0.
+///
+/// StoppingRule says when the iteration ends, from the change of P; it fails as FixedPoint does.
+template <Scalar S>
+class RungeKuttaStepper final : public Stepper<S> {
+ public:
+  /// The problem must outlive it.
+  /// \throws InputError if A is not s x s
+  RungeKuttaStepper(const Problem<S>& problem, const RungeKutta<S>& method,
+                    OnConstraints on_constraints = OnConstraints::drift);
+
+  const Problem<S>& problem() const override { return problem_; }
+  bool is_explicit() const { return explicit_; }
+
+  /// \return sweeps over the stages: 1 if the method is explicit
+  /// \throws StageFailure if the iteration fails or anything is not finite; the state is then as it was
+  long step(State<S>& state, const S& h) override;
+
+  /// That of the state the step ends with.
+  const Vector<S>& multiplier() const override { return multiplier_; }
+  SolverCounts counts() const override;
+  void measure_time() override;
+  void remember(Archive& archive) override;
+
+ private:
+  enum Part { stages, sums, pulls };
+  PartCall call(Part part) { return {parts_[part], timed_}; }
+  void describe_parts();
+
+  void stages_in_turn(const State<S>& state);
+  long solve(const State<S>& state);
+  long iterate(const State<S>& state);
+  void sweep(const State<S>& state);
+  /// Adds -grad g lambda of (Q_i, P_i) to the force on it, in row `row`.
+  void add_constraint_force(const Vector<S>& Q, const Vector<S>& P, Matrix<S>& force, Index row);
+  /// The state onto the constraints, if it is to be projected; sets the multiplier.
+  void settle(State<S>& state);
+
+  const Problem<S>& problem_;
+  S h_ = 0;  ///< of the last step
+  Matrix<S> A_;
+  bool explicit_;
+  PotentialEvaluator<S> potential_;
+  std::optional<Point<S>> point_;  ///< if there are constraints
+  std::optional<ConstraintProjection<S>> projection_;
+  Matrix<S> P_, P_before_, Q_, V_, F_;  ///< s x m
+  // One stage of an explicit method.
+  Vector<S> q_, p_, v_;
+  Matrix<S> force_;  // 1 x m
+  StageSums<S> stage_sums_;
+  Extrapolation<S> extrapolation_;  ///< of P
+  PositionScale<S> position_scale_;
+  Vector<S> positions_;
+  StoppingRule<S> rule_;
+  S t_ = 0;  // kept: creating it allocates
+  Vector<S> multiplier_;
+  Matrix<S> pull_, lane_;  // 1 x nu, 1 x m
+  State<S> before_;        ///< where a step with constraints began
+  std::vector<PartCount> parts_;
+  bool timed_ = false;
+  SolverCounts earlier_;  ///< those of a run that this one continues
+};
+
+#define HBVM_DECLARE(S) extern template class RungeKuttaStepper<S>;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

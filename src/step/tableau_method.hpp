@@ -1,0 +1,58 @@
+#pragma once
+
+#include "method/runge_kutta.hpp"
+#include "step/method.hpp"
+#include "step/runge_kutta_stepper.hpp"
+
+namespace hbvm {
+
+/// A Runge-Kutta method from a file, see RungeKuttaStepper for what it makes of constraints.
+class TableauMethod final : public MethodByTemplate<TableauMethod> {
+ public:
+  /// \param file it is from, for its name
+  TableauMethod(Tableau tableau, std::string file, OnConstraints on_constraints = OnConstraints::drift);
+
+  const Tableau& tableau() const { return tableau_; }
+  OnConstraints on_constraints() const { return on_constraints_; }
+
+  std::string text() const override;
+  std::string title() const override;
+  std::string key() const override;
+  /// That its author states, or its conditions show with 50 digits.
+  int order() const override;
+  int stages() const override { return tableau_.stages(); }
+  int terms() const override { return tableau_.stages(); }
+  /// As its coefficients show, on problems without constraints; of projected steps the constraints alone are known.
+  Kept kept() const override;
+  Constants parameters() const override;
+
+  template <Scalar S>
+  StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind solver) const;
+
+ private:
+  Tableau tableau_;
+  std::string file_;
+  OnConstraints on_constraints_;
+};
+
+/// "FILE" or "FILE+project", taken apart.
+struct TableauArguments {
+  std::string file;
+  OnConstraints on_constraints = OnConstraints::drift;
+
+  static TableauArguments parse(std::string_view text);
+};
+
+/// \throws InputError as read_tableau does
+MethodPtr tableau_method(const TableauArguments& arguments);
+MethodPtr tableau_method(std::string_view arguments);
+
+/// The method as one of these, or null.
+const TableauMethod* as_tableau(const Method& method);
+
+#define HBVM_DECLARE(S) \
+  extern template StepperMaker<S> TableauMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
+HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
+#undef HBVM_DECLARE
+
+}  // namespace hbvm

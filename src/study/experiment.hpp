@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "long_work/cells.hpp"
+#include "report/table.hpp"
+#include "scene/scene.hpp"
+#include "step/hbvm_method.hpp"
+#include "step/registry.hpp"
+#include "study/study.hpp"
+#include "toml/toml_table.hpp"
+
+namespace hbvm {
+
+/// What the parts of a study are read with. Outlives them.
+struct Experiment {
+  std::filesystem::path folder;
+  Scene scene;  ///< empty for a study of all scenes
+  Precision precision;
+  bool check;                           ///< compare with expected.csv
+  std::vector<std::string> provenance;  ///< of tables
+  std::string command;                  ///< that makes the results again
+  std::filesystem::path results;        ///< the folder that files go to
+
+  /// The key of a run: all that its result depends on. \param further of this kind of run
+  std::string key(const std::string& kind, const Scene& of, const std::string& method, const Expression& step,
+                  const Expression& until, const std::string& further) const;
+};
+
+/// What a part of a study has to run, and what it makes of the results, which stand in the same order.
+template <class Outcome>
+struct Part {
+  std::vector<WorkCell> cells;
+  std::function<Outcome(const std::vector<std::string>& results)> conclude;
+};
+
+/// What comes out: columns and groups of the table, and the comparison.
+struct Findings {
+  Table table;
+  Table full;  ///< the same with all digits, and empty cells where there is no number
+  StudyAgreement agreement;
+};
+
+/// Files that a part of a study made, and what it could not make.
+struct Drawn {
+  std::vector<std::string> files, warnings;
+};
+
+/// The kinds of a study. Each takes its own keys of study.toml.
+Part<Findings> halving_study(const Experiment& experiment, TomlTable& top);
+Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top);
+Part<Findings> conservation_study(const Experiment& experiment, TomlTable& top);
+
+/// The method that a table of study.toml names.
+inline MethodPtr stated_method(TomlTable& reader) {
+  MethodPtr method = parse_method(reader.string("method"));
+  const HbvmMethod* const hbvm = as_hbvm(*method);
+  if (hbvm && hbvm->name().is_auto()) reader.fail("a study states its k");
+  return method;
+}
+
+/// A number of the method's name, by its letter; "---" if it has none.
+inline std::string letter(const MethodPtr& method, const std::string& letter) {
+  const Constants all = method->parameters();
+  const auto place = all.find(letter);
+  return place == all.end() ? "---" : place->second.text();
+}
+
+}  // namespace hbvm

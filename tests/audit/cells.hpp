@@ -1,0 +1,32 @@
+#pragma once
+
+#include <initializer_list>
+
+#include "audit/cell.hpp"
+#include "step/hbvm_method.hpp"
+
+namespace hbvm {
+
+/// What one HBVM on one problem is asked for, from one start.
+inline Cell cell_of(const std::string& problem, HbvmName method, std::initializer_list<Quantity> quantities,
+                    Span span = Span::interval) {
+  Cell cell;
+  for (const Quantity quantity : quantities) {
+    cell.claims.push_back(make_claim("test", quantity, problem, span, Form::exactly, 0));
+    cell.claims.back().method = hbvm_of(method);
+  }
+  return cell;
+}
+
+/// Whether rungs bear out this rate, and no other whole one beside it.
+inline bool is_rate(const std::vector<Rung>& rungs, int rate) {
+  const auto verdict = [&](int predicted) {
+    Claim claim;
+    claim.form = Form::exactly;
+    claim.predicted = predicted;
+    return judge(claim, convergence_rate(rungs));
+  };
+  return verdict(rate) == Verdict::holds && verdict(rate - 1) == Verdict::fails && verdict(rate + 1) == Verdict::fails;
+}
+
+}  // namespace hbvm

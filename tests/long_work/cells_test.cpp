@@ -1,0 +1,238 @@
+#include "long_work/cells.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <atomic>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Cells : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "hbvm_cells_test_XXXXXX").string();
+    ASSERT_TRUE(mkdtemp(pattern.data()));
+    folder_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path path(const std::string& name) const { return folder_ / name; }
+  std::string text(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    std::ostringstream all;
+    all << file.rdbuf();
+    return all.str();
+  }
+
+  /// n cells whose result is their number's square, and what was run of them.
+  std::vector<WorkCell> squares(int n) {
+    std::vector<WorkCell> cells;
+    for (int i = 0; i < n; ++i)
+      cells.push_back({"cell \"" + std::to_string(i) + "\"\n", [this, i] {
+                         ++runs_;
+                         return "{\"square\":" + std::to_string(i * i) + ",\"text\":\"\\\",\\\"checksum\\\":\"}";
+                       }});
+    return cells;
+  }
+  static std::vector<std::string> keys(const std::vector<WorkCell>& cells) {
+    std::vector<std::string> keys;
+    for (const WorkCell& cell : cells) keys.push_back(cell.key);
+    return keys;
+  }
+  /// All of them by one thread.
+  std::string expected(const std::vector<WorkCell>& cells) {
+    CellStore store(path("expected"));
+    CellOptions options;
+    options.store = &store;
+    run_cells(cells, options);
+    return text("expected");
+  }
+
+  fs::path folder_;
+  std::atomic<int> runs_ = 0;
+};
+
+TEST_F(Cells, GiveTheirResultsInOrder) {
+  for (const int jobs : {1, 4}) {
+    CellOptions options;
+    options.jobs = jobs;
+    long last = -1, total = 0;
+    options.progress = [&](long done, long of) {
+      EXPECT_EQ(done, ++last);
+      total = of;
+    };
+    const auto results = run_cells(squares(50), options);
+    ASSERT_EQ(results.size(), 50u);
+    for (int i = 0; i < 50; ++i)
+      EXPECT_NE(results[static_cast<std::size_t>(i)]->find("\"square\":" + std::to_string(i * i)), std::string::npos);
+    EXPECT_EQ(last, 50);
+    EXPECT_EQ(total, 50);
+  }
+}
+
+TEST_F(Cells, AreNotRunAgain) {
+  const auto cells = squares(20);
+  CellOptions options;
+  for (int n = 0; n < 2; ++n) {
+    CellStore store(path("store"));
+    options.store = &store;
+    const auto results = run_cells(cells, options);
+    EXPECT_NE(results[3]->find("\"square\":9"), std::string::npos);
+  }
+  EXPECT_EQ(runs_, 20);
+}
+
+/// Cut off at any byte, the file is gone on from, and ends as if it had not been.
+TEST_F(Cells, GoOnFromAFileCutAnywhere) {
+  const auto cells = squares(12);
+  const std::string whole = expected(cells);
+  std::mt19937 random(7);
+  for (int n = 0; n < 40; ++n) {
+    const std::size_t length = random() % (whole.size() + 1);
+    std::ofstream(path("cut"), std::ios::binary | std::ios::trunc) << whole.substr(0, length);
+    runs_ = 0;
+    CellStore store(path("cut"));
+    CellOptions options;
+    options.store = &store;
+    options.jobs = 3;
+    run_cells(cells, options);
+    const auto lines = std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length), '\n');
+    EXPECT_LE(runs_, 12 - lines);
+    EXPECT_GE(runs_, 12 - lines - 1);
+    EXPECT_EQ(text("cut"), whole) << length;
+  }
+}
+
+/// No line with a changed byte is taken for what it was, here or in a merge.
+TEST_F(Cells, SeeDamage) {
+  const auto cells = squares(3);
+  const std::string whole = expected(cells);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (whole[i] == '\n') continue;
+    std::string damaged = whole;
+    damaged[i] = damaged[i] == 'x' ? 'y' : 'x';
+    std::ofstream(path("damaged"), std::ios::binary | std::ios::trunc) << damaged;
+    CellStore other(path("other"));
+    EXPECT_THROW(other.merge(path("damaged")), InputError) << i;
+    runs_ = 0;
+    CellStore store(path("damaged"));
+    CellOptions options;
+    options.store = &store;
+    run_cells(cells, options);
+    EXPECT_EQ(runs_, 1) << i;
+  }
+}
+
+TEST_F(Cells, OfSevenShardsMergeToTheSameFile) {
+  const auto cells = squares(50);
+  const std::string whole = expected(cells);
+  runs_ = 0;
+  CellStore merged(path("merged"));
+  for (const int i : {4, 1, 7, 2, 3, 6, 5}) {
+    const std::string name = "shard" + std::to_string(i);
+    CellStore store(path(name));
+    CellOptions options;
+    options.store = &store;
+    options.jobs = 2;
+    options.shard = Shard::parse(std::to_string(i) + "/7");
+    const auto results = run_cells(cells, options);
+    for (std::size_t c = 0; c < cells.size(); ++c) EXPECT_EQ(results[c].has_value(), options.shard.has(c));
+    merged.merge(path(name));
+  }
+  EXPECT_EQ(runs_, 50);
+  merged.put_in_order(keys(cells));
+  EXPECT_EQ(text("merged"), whole);
+}
+
+TEST_F(Cells, ThatFailEndAllAndLoseNothing) {
+  auto cells = squares(30);
+  cells[9].run = []() -> std::string { throw InputError("number nine"); };
+  CellStore store(path("store"));
+  CellOptions options;
+  options.store = &store;
+  try {
+    run_cells(cells, options);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "number nine");
+  }
+  EXPECT_EQ(runs_, 9);
+  const CellStore again(path("store"));
+  EXPECT_TRUE(again.find(cells[8].key));
+  EXPECT_FALSE(again.find(cells[9].key));
+}
+
+TEST_F(Cells, OfAnotherVersionAreNotTaken) {
+  const auto cells = squares(2);
+  std::string other = expected(cells);
+  const std::size_t place = other.find("\"version\":\"") + 11;
+  other[place] = other[place] == '9' ? '8' : '9';
+  std::ofstream(path("other"), std::ios::binary) << other;
+  runs_ = 0;
+  CellStore store(path("other"));
+  CellOptions options;
+  options.store = &store;
+  run_cells(cells, options);
+  EXPECT_EQ(runs_, 1);
+}
+
+/// A runner hands over what it likes, when it likes.
+TEST_F(Cells, CanBeRunByOtherThanThreads) {
+  const auto cells = squares(7);
+  const std::string whole = expected(cells);
+  runs_ = 0;
+  CellStore store(path("store"));
+  CellOptions options;
+  options.store = &store;
+  options.shard = Shard::parse("2/2");
+  long last = 0;
+  options.progress = [&](long done, long) { last = done; };
+  const auto results = run_cells(cells, options, [&](const std::vector<std::size_t>& open, const TakeResult& take) {
+    EXPECT_EQ(open, (std::vector<std::size_t>{1, 3, 5}));
+    for (auto i = open.rbegin(); i != open.rend(); ++i) take(*i, cells[*i].run());
+  });
+  EXPECT_EQ(last, 3);
+  EXPECT_EQ(runs_, 3);
+  for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(results[i].has_value(), i % 2 == 1);
+  options.shard = {};
+  run_cells(cells, options);
+  EXPECT_EQ(text("store"), whole);
+}
+
+TEST_F(Cells, CanBeStoredWithoutAFile) {
+  const auto cells = squares(3);
+  CellStore store;
+  CellOptions options;
+  options.store = &store;
+  for (int n = 0; n < 2; ++n) run_cells(cells, options);
+  EXPECT_EQ(runs_, 3);
+  EXPECT_NE(store.find(cells[2].key), nullptr);
+}
+
+TEST_F(Cells, RefuseFilesThatCannotBe) {
+  EXPECT_THROW(CellStore(path("no such folder") / "store"), InputError);
+  CellStore store(path("store"));
+  EXPECT_THROW(store.merge(path("absent")), InputError);
+}
+
+TEST(Shards, DivideTheCells) {
+  const Shard third = Shard::parse("3/7");
+  EXPECT_EQ(third.text(), "3/7");
+  EXPECT_TRUE(third.has(2));
+  EXPECT_TRUE(third.has(9));
+  EXPECT_FALSE(third.has(0));
+  EXPECT_TRUE(Shard().has(5));
+  for (const char* const text : {"", "3", "0/7", "8/7", "-1/7", "3/7x", "a/b", "3/", "/7", "3/99999999999"})
+    EXPECT_THROW(Shard::parse(text), InputError) << text;
+}
+
+}  // namespace
+}  // namespace hbvm

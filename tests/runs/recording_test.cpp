@@ -1,0 +1,86 @@
+#include "run/recording.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "run/simulate.hpp"
+#include "scalar/precision.hpp"
+
+namespace hbvm {
+namespace {
+
+template <Scalar S>
+Recording recorded(const std::string& name, const std::string& step, const std::string& until,
+                   std::optional<Simulated<S>>* end = nullptr) {
+  const Assembled<S> scene = assemble<S>(load_scene(name));
+  const TimeGrid<S> grid(Expression::parse(step), Expression::parse(until));
+  Recording recording;
+  MotionRecorder<S> recorder(scene.problem, grid.steps(), recording);
+  const Simulated<S> run =
+      simulate(scene, make_hbvm<S>(2, 2), SolverKind::automatic, grid, std::vector<Observer<S>*>{&recorder});
+  if (end) *end = run;
+  return recording;
+}
+
+TEST(Recording, HoldsEveryMeshPointOfAShortRun) {
+  const Recording recording = recorded<double>("double_pendulum", "1/16", "2");
+  EXPECT_EQ(recording.every, 1);
+  ASSERT_EQ(recording.samples.size(), 33u);
+  EXPECT_EQ(recording.samples[16].t, 1);
+  EXPECT_EQ(recording.constraints.size(), 2u);
+  EXPECT_EQ(recording.samples.front().lambda.size(), 2u);
+  EXPECT_EQ(recording.samples.front().energy, -INFINITY);
+}
+
+/// 2500 steps and the last one, which is no multiple of 3: the greatest errors are among those kept all the same.
+TEST(Recording, OfALongRunLeavesNoErrorOut) {
+  std::optional<Simulated<double>> run;
+  const Recording recording = recorded<double>("double_pendulum", "1/16", "156.25", &run);
+  EXPECT_EQ(recording.every, 3);
+  EXPECT_EQ(recording.samples.size(), 1u + 833 + 1);
+  EXPECT_LE(static_cast<long>(recording.samples.size()), Recording::most + 2);
+  EXPECT_EQ(recording.samples.back().t, 156.25);
+  double energy = -INFINITY, constraints = energy, hidden = energy;
+  for (const Recording::Sample& sample : recording.samples) {
+    energy = std::max(energy, sample.energy);
+    constraints = std::max(constraints, sample.constraints);
+    hidden = std::max(hidden, sample.hidden);
+  }
+  EXPECT_EQ(energy, std::log10(run->e_H));
+  EXPECT_EQ(constraints, std::log10(run->e_g));
+  EXPECT_EQ(hidden, std::log10(run->e_hid));
+}
+
+/// Errors of 10^-400 are none in double.
+TEST(Recording, ShowsErrorsBeyondTheRangeOfDouble) {
+  const PrecisionScope digits(420);
+  const Recording recording = recorded<Mpfr>("double_pendulum", "1/16", "1/2");
+  double greatest = -INFINITY;
+  for (const Recording::Sample& sample : recording.samples) greatest = std::max(greatest, sample.constraints);
+  EXPECT_LT(greatest, -410);
+  EXPECT_GT(greatest, -430);
+}
+
+TEST(Recording, IsKeptWithItsRun) {
+  const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
+  Recording first, second;
+  MotionRecorder<double> one(scene.problem, 2, first), two(scene.problem, 2, second);
+  one.observe({0, 0, scene.q0, scene.p0, Vector<double>::Zero(2)});
+  one.observe({1, 0.5, scene.q0, 2 * scene.p0, Vector<double>::Ones(2)});
+  Archive kept;
+  one.remember(kept);
+  Archive read(kept.text());
+  two.remember(read);
+  read.expect_end();
+  ASSERT_EQ(second.samples.size(), 2u);
+  EXPECT_EQ(second.samples[1].q, first.samples[1].q);
+  EXPECT_EQ(second.samples[1].lambda, first.samples[1].lambda);
+  EXPECT_EQ(second.samples[1].energy, first.samples[1].energy);
+  one.observe({2, 1, scene.q0, 3 * scene.p0, Vector<double>::Ones(2)});
+  two.observe({2, 1, scene.q0, 3 * scene.p0, Vector<double>::Ones(2)});
+  EXPECT_EQ(second.samples[2].energy, first.samples[2].energy);
+}
+
+}  // namespace
+}  // namespace hbvm

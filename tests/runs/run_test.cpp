@@ -1,0 +1,60 @@
+#include "run/run.hpp"
+
+#include "printing.hpp"
+#include "scene/assemble.hpp"
+#include "step/registry.hpp"
+#include "verification/models.hpp"
+
+namespace hbvm {
+namespace {
+
+Vector<Mpfr> numbers(const std::vector<std::string>& texts) {
+  Vector<Mpfr> result(static_cast<Index>(texts.size()));
+  for (Index i = 0; i < result.size(); ++i) result[i] = literal<Mpfr>(texts[static_cast<std::size_t>(i)]);
+  return result;
+}
+
+class RunTest : public ::testing::Test {
+ protected:
+  PrecisionScope digits{50};
+  const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
+
+  static RunResult result(const DenseModel& model, const char* method, SolverKind solver) {
+    return run({read_scene(model.scene, "model"), parse_method(method), solver, Expression::parse("1/10"),
+                Expression::parse("1/2"), Precision::parse("mpfr:50"), false},
+               {});
+  }
+};
+
+/// Its momentum is tangential, and its multiplier belongs to that momentum, not to the propagated one.
+TEST_F(RunTest, OutputStateIsTheClosedFormulas) {
+  for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
+    const RunResult found = result(model, "hbvm:2,2", SolverKind::fixed_point);
+    const Vector<Mpfr> q = numbers(found.q), p = numbers(found.p), output_p = model.tangential(q, p),
+                       output_lambda = model.multiplier(q, output_p);
+    EXPECT_GT(distance(output_p, p), literal<Mpfr>("1e-9")) << "the two states should differ visibly";
+    EXPECT_GT(distance(output_lambda, Vector<Mpfr>(model.multiplier(q, p))), literal<Mpfr>("1e-9"));
+    EXPECT_LE(distance(numbers(found.output_p), output_p), tolerance);
+    EXPECT_LE(distance(numbers(found.output_lambda), output_lambda), tolerance);
+    const Assembled<Mpfr> start = assemble<Mpfr>(read_scene(model.scene, "model"));
+    const Mpfr delta_H = model.energy(q, output_p) - model.energy(start.q0, start.p0);
+    EXPECT_LE(magnitude(Mpfr(literal<Mpfr>(found.output_delta_H) - delta_H)), tolerance);
+  }
+}
+
+/// Every solver leads to the same end, and is the one that is asked for: they take unlike numbers of sweeps.
+TEST_F(RunTest, UsesTheSolverThatIsAskedFor) {
+  const DenseModel model = ellipsoid_bead();
+  const RunResult fixed_point = result(model, "hbvm:3,2", SolverKind::fixed_point),
+                  newton = result(model, "hbvm:3,2", SolverKind::newton),
+                  papers = result(model, "hbvm:3,2", SolverKind::paper);
+  EXPECT_LT(newton.iterations_per_step, fixed_point.iterations_per_step);
+  EXPECT_LT(fixed_point.iterations_per_step, papers.iterations_per_step);
+  for (const RunResult* other : {&newton, &papers}) {
+    EXPECT_LE(distance(numbers(other->q), numbers(fixed_point.q)), tolerance);
+    EXPECT_LE(distance(numbers(other->p), numbers(fixed_point.p)), tolerance);
+  }
+}
+
+}  // namespace
+}  // namespace hbvm
