@@ -24,7 +24,7 @@ done_before = set()  # commands of pages before
 PROGRAMS = r"(?:build/release/)?hbvm|(?:studies|tests)/(?:\w+/)*(?:run|before|compare)"
 COMMAND = re.compile(rf"(?:{PROGRAMS})(?:\s|$)")
 # What starts a block of commands: one of the programs, or a shell's word.
-BLOCK = re.compile(rf"(?:(?:{PROGRAMS})(?:\s|$)|(?:cp|for|python3)\s)")
+BLOCK = re.compile(rf"(?:(?:{PROGRAMS})(?:\s|$)|(?:cp|for|python3|g\+\+)\s)")
 # "hbvm report FOLDER", "hbvm:K,S": a reader is to put something there.
 FORM = re.compile(r"(?:^|[\s/:,'\"])[A-Z]+(?:$|[\s/:,.'\"])|\.\.\.")
 

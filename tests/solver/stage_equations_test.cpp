@@ -4,11 +4,11 @@
 #include "basis/legendre.hpp"
 #include "linear/product.hpp"
 #include "method/hbvm_name.hpp"
+#include "plain_step/mechanics.hpp"
 #include "printing.hpp"
 #include "problem/in_double.hpp"
 #include "problem/point.hpp"
 #include "scene/assemble.hpp"
-#include "solver/stage_formulas.hpp"
 
 namespace hbvm {
 namespace {
@@ -27,36 +27,40 @@ class StageMaps : public ::testing::TestWithParam<std::tuple<int, int>> {
     EXPECT_LE(max_norm(Matrix<Mpfr>(a - b)), 1'000'000 * epsilon<Mpfr>() * (1 + max_norm(b))) << what;
   }
 
+  void expect_same_blocks(const Matrix<Mpfr>& a, const Vector<Mpfr>& blocks, const char* what) const {
+    expect_equal(a, rows_of(blocks, a.cols()), what);
+  }
+
   PrecisionScope digits{50};
   const int k = std::get<0>(GetParam()), s = std::get<1>(GetParam());
   const Mpfr h = Mpfr(1) / 10;
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
 };
 
-TEST_P(StageMaps, AreThePapersFormulas) {
+TEST_P(StageMaps, AreThoseOfThePlainStep) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
     StageEquations<Mpfr> equations(scene.problem, method);
-    const StageFormulas formulas(model, k, s, h);
+    const plain::Step<Mpfr> plain_step(mechanics_of(model), k, s, s, h);
     StageUnknowns<Mpfr> x = equations.make_unknowns();
     x.gamma = generic(s, model.m(), 1);
+    const Vector<Mpfr> gamma_0 = blocks_of(x.gamma);
+    const Matrix<Mpfr> G = plain_step.grad_g(plain_step.u(scene.q0, gamma_0));
 
     equations.start({scene.q0, scene.p0, h});
     equations.move(x.gamma);
     equations.forces(x.psi);
-    expect_equal(x.psi, formulas.psi(scene.q0, x.gamma), "psi");
+    expect_same_blocks(x.psi, plain_step.forces(plain_step.u_hat(scene.q0, gamma_0)), "psi");
 
     x.psi = generic(s, model.m(), 2);
     ASSERT_TRUE(equations.multipliers(x.psi, x.lambda, x.zeta));
-    expect_equal(x.zeta, formulas.zeta(scene.q0, x.gamma, x.lambda), "zeta");
+    expect_same_blocks(x.lambda, plain_step.multipliers(G, scene.p0, blocks_of(x.psi)), "lambda");
+    expect_same_blocks(x.zeta, plain_step.pulls(G, blocks_of(x.lambda)), "zeta");
 
     Matrix<Mpfr> gamma = x.gamma;
     equations.momenta(x.psi, x.zeta, gamma);
-    const Matrix<Mpfr> v = formulas.velocities(scene.p0, x.psi, x.zeta);
-    expect_equal(formulas.velocities(gamma), v, "v");
-    // (lam): with the new multipliers v is orthogonal to the gradients at the nodes of the old gamma.
-    const Matrix<Mpfr> hidden = formulas.hidden(scene.q0, x.gamma, v);
-    expect_equal(hidden, Matrix<Mpfr>::Zero(s, model.nu()), "hidden constraints at the nodes");
+    const Vector<Mpfr> v = plain_step.v(scene.p0, blocks_of(x.psi), blocks_of(x.zeta));
+    expect_same_blocks(gamma, plain_step.momenta(v), "gamma");
   }
 }
 
@@ -113,23 +117,24 @@ TEST(StepChanges, KeepWhatRoundingTakesFromTheForces) {
 }
 
 /// At unknowns that a sweep of the fixed-point iteration has made, the residual is what the next one would change.
-TEST_P(StageMaps, ResidualIsThatOfThePapersFormulas) {
+TEST_P(StageMaps, ResidualIsThatOfThePlainStep) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
     StageEquations<Mpfr> equations(scene.problem, method);
-    const StageFormulas formulas(model, k, s, h);
+    const plain::Step<Mpfr> plain_step(mechanics_of(model), k, s, s, h);
     StageUnknowns<Mpfr> x = equations.make_unknowns();
     x.gamma = generic(s, model.m(), 6);
     x.lambda = generic(s, model.nu(), 7);
     StageResidual<Mpfr> r{x.gamma, x.lambda};
     equations.start({scene.q0, scene.p0, h});
     equations.residual(x, r);
-    expect_equal(x.psi, formulas.psi(scene.q0, x.gamma), "psi");
-    expect_equal(x.zeta, formulas.zeta(scene.q0, x.gamma, x.lambda), "zeta");
-    const Matrix<Mpfr> v = formulas.velocities(x.gamma);
-    expect_equal(formulas.velocities(Matrix<Mpfr>(x.gamma - r.momentum)), formulas.velocities(scene.p0, x.psi, x.zeta),
-                 "(dispro1)");
-    expect_equal(r.constraint, formulas.hidden(scene.q0, x.gamma, v), "hidden constraints at the nodes");
+    const Vector<Mpfr> gamma = blocks_of(x.gamma), psi = blocks_of(x.psi), zeta = blocks_of(x.zeta);
+    const Matrix<Mpfr> G = plain_step.grad_g(plain_step.u(scene.q0, gamma));
+    expect_same_blocks(x.psi, plain_step.forces(plain_step.u_hat(scene.q0, gamma)), "psi");
+    expect_same_blocks(x.zeta, plain_step.pulls(G, blocks_of(x.lambda)), "zeta");
+    expect_same_blocks(r.momentum, gamma - plain_step.momenta(plain_step.v(scene.p0, psi, zeta)), "gamma, (54)");
+    const Matrix<Mpfr> v = method.P_s.lazyProduct(x.gamma);
+    expect_same_blocks(r.constraint, plain_step.hidden(G, blocks_of(v)), "hidden constraints at the nodes");
   }
 }
 

@@ -1,9 +1,8 @@
 #include "step/hbvm_stepper.hpp"
 
 #include "printing.hpp"
-#include "scene/assemble.hpp"
-#include "solver/stage_formulas.hpp"
 #include "step/compensated_sum.hpp"
+#include "verification/models.hpp"
 
 namespace hbvm {
 namespace {
@@ -11,27 +10,6 @@ namespace {
 template <Scalar S>
 Assembled<S> assembled(const std::string& toml) {
   return assemble<S>(read_scene(toml, "scene"));
-}
-
-TEST(Step, IsThePapersUpdate) {
-  const PrecisionScope digits(50);
-  const Mpfr h = Mpfr(1) / 20;
-  for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()})
-    for (const auto& [k, s] : std::vector<std::pair<int, int>>{{1, 1}, {3, 2}, {5, 3}, {4, 4}}) {
-      const Assembled<Mpfr> scene = assembled<Mpfr>(model.scene);
-      const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
-      const auto solver = make_solver(SolverKind::fixed_point, scene.problem, method);
-      solver->solve({scene.q0, scene.p0, h});
-      const auto expected = StageFormulas(model, k, s, h).step(scene.q0, scene.p0, solver->unknowns());
-
-      HbvmStepper<Mpfr> stepper(scene.problem, method, SolverKind::fixed_point);
-      State<Mpfr> state(scene.q0, scene.p0);
-      stepper.step(state, h);
-      const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
-      EXPECT_LE(max_norm(Vector<Mpfr>(state.q - expected.q)), tolerance);
-      EXPECT_LE(max_norm(Vector<Mpfr>(state.p - expected.p)), tolerance);
-      EXPECT_LE(max_norm(Vector<Mpfr>(stepper.multiplier() - expected.lambda)), tolerance);
-    }
 }
 
 TEST(Step, BackwardsLeadsBack) {
