@@ -9,7 +9,7 @@ namespace hbvm {
 /// Why a method must conserve what it is claimed to, but for round-off, whatever the motion: empty if nothing here
 /// proves it. With k nodes and a potential of degree mu,
 ///
-///     H: mu s <= 2k, (evaik); of a tableau mu <= 2 if it is symplectic, mu <= 1 from order 2 on
+///     H: mu s <= 2k, Theorem 8; of a tableau mu <= 2 if it is symplectic, mu <= 1 from order 2 on
 ///     angular momentum: k = s, or mu <= 2, where the further nodes change nothing; of a tableau if it is symplectic
 ///     g, of degree 2: always;  there and back: always; of a tableau if it is symmetric
 ///

@@ -21,7 +21,7 @@ const Witness witnesses[] = {{"modified_pendulum", true, false, false},
                              {"bead_on_ellipsoid", false, false, false},
                              {"heavy_top", false, true, true}};
 
-/// The order r of (ord2s).
+/// The order r of Theorem 5.
 int order(int s) { return s % 2 == 0 ? s : s + 1; }
 
 class List {
@@ -55,7 +55,7 @@ class List {
   std::vector<Claim> claims_;
 };
 
-/// The orders of all components. The statements for k > s are (ord2sk), (ordlamk) and (normk).
+/// The orders of all components. The statements for k > s are Theorem 9, Theorem 10 and Corollary 3.
 void orders(List& list, const Witness& witness, int k, int s) {
   const std::string further = k > s ? "k" : "";
   const int r = order(s);
@@ -100,7 +100,7 @@ void constrained(std::vector<Claim>& all, const Witness& witness, int s, int mos
   }
 }
 
-/// delta-lambda = 0, (dli0), as on any relative equilibrium: all converges with order 2s, against the closed form.
+/// delta-lambda = 0, (42), as on any relative equilibrium: all converges with order 2s, against the closed form.
 void conical(std::vector<Claim>& all, int k, int s) {
   List list("conical_pendulum", k, s);
   for (const Quantity quantity : {Q::q, Q::p}) list.rate("ord2s, dli0", quantity, Span::interval, 2 * s);

@@ -9,23 +9,23 @@ enum class Quantity {
   q,                 ///< position
   p,                 ///< momentum as it is propagated
   tangential_p,      ///< momentum of the output state, projected to the tangent space
-  lagmul,            ///< multiplier extrapolated from the nodes, (lagmul)
-  output_lambda,     ///< multiplier of the output state, (Theorem lamex)
-  delta_lambda,      ///< lambda(u(c_j h), v(c_j h)) - lambda_j at the internal nodes, (dli)
-  polynomials,       ///< u and v at eight points of a step, of (norm)
+  lagmul,            ///< multiplier extrapolated from the nodes, (57)
+  output_lambda,     ///< multiplier of the output state, Theorem 1
+  delta_lambda,      ///< lambda(u(c_j h), v(c_j h)) - lambda_j at the internal nodes, (33)
+  polynomials,       ///< u and v at eight points of a step, of Corollary 2
   g,                 ///< constraints
-  hidden,            ///< hidden constraints grad g^T M^-1 p, (hidcons)
+  hidden,            ///< hidden constraints grad g^T M^-1 p, (15)
   H,                 ///< energy
   angular_momentum,  ///< every momentum that the problem conserves
   reversal,          ///< the start, after as many steps back (momenta reversed) as forth
   hidden_constant,   ///< hidden constraint over its leading term, for a constant Gram matrix
   hidden_drift,      ///< growth of the hidden constraint from t = 20 to t = 1280
-  sweeps,            ///< sweeps of (iter) a step, less those of k = s
+  sweeps,            ///< sweeps of (55) a step, less those of k = s
   order_conditions,  ///< order that a Runge-Kutta tableau has by the order conditions
   B,                 ///< condition B(2k) of the tableau, and B(2s) of the constraints' nodes
   C,                 ///< condition C(s)
   D,                 ///< condition D(s), D(s - 1) for k > s
-  X,                 ///< X_s = P_s^-1 I_s, (IsPs), P_s^T Omega = P_s^-1, and P_0 = 1
+  X,                 ///< X_s = P_s^-1 I_s, (31), P_s^T Omega = P_s^-1, and P_0 = 1
   symmetry,          ///< c_i + c_{s+1-i} = 1, b_i = b_{s+1-i}, and A likewise
   W                  ///< P_s^-1 A P_s = X_s, the W-transformation
 };

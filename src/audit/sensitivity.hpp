@@ -14,7 +14,7 @@ struct Sensitivity {
   double q, p, lambda, hidden, H, g;
   std::vector<double> momenta;
 
-  /// \param point of the problem \throws IntegrationError if (regular) does not hold at q
+  /// \param point of the problem \throws IntegrationError if gradients are dependent, against (3), at q
   static Sensitivity at(const Problem<Mpfr>& problem, Point<Mpfr>& point, int log2_scale,
                         const std::vector<MomentumComponent<Mpfr>>& momenta, const Vector<Mpfr>& q,
                         const Vector<Mpfr>& p);

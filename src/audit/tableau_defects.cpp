@@ -69,7 +69,7 @@ std::map<Quantity, double> tableau_defects(const Claim& subject) {
   add(Quantity::X, max_norm(Matrix<Mpfr>(times(projection, P) - Matrix<Mpfr>::Identity(s, s))));
   add(Quantity::X,
       max_norm(Matrix<Mpfr>(times(projection_hat, exact<S>(method.P_hat)) - Matrix<Mpfr>::Identity(s, s))));
-  // gamma = e_1 p_0 + … of (dispro1) takes P_0 for 1.
+  // gamma = e_1 p_0 + … of (54) takes P_0 for 1.
   for (const Matrix<Mpfr>& values : {P, exact<S>(method.P_hat)})
     for (Index i = 0; i < values.rows(); ++i) add(Quantity::X, abs(Mpfr(values(i, 0) - 1)));
   add(Quantity::W, max_norm(Matrix<Mpfr>(times(times(projection, A), P) - X)));

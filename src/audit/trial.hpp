@@ -33,7 +33,7 @@ class Trial {
   void reverse();  ///< p = -p
 
   void state(Vector<Mpfr>& q, Vector<Mpfr>& p) const;
-  /// (lagmul) of the last step.
+  /// (57) of the last step.
   void multiplier(Vector<Mpfr>& lambda) const;
   /// Coefficients of the last step and its multipliers at the s Gauss nodes, each if asked for; not for a method
   /// without polynomials.
@@ -54,7 +54,7 @@ class Trial {
 template <Scalar S>
 StepPolynomials polynomials(Trial<S>& trial, const Vector<Mpfr>& q0, const Vector<Mpfr>& p1, const Mpfr& h, Index s);
 
-/// The greatest |lambda(u(c_j h), v(c_j h)) - lambda_j| of (dli) in that step.
+/// The greatest |lambda(u(c_j h), v(c_j h)) - lambda_j| of (33) in that step.
 template <Scalar S>
 Mpfr delta_lambda(Laboratory& laboratory, Trial<S>& trial, const Vector<Mpfr>& q0, const Vector<Mpfr>& p1,
                   const Mpfr& h, Index s);

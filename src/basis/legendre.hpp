@@ -4,25 +4,25 @@
 
 namespace hbvm {
 
-/// Orthonormal shifted Legendre polynomials (leg): int_0^1 P_i P_j = delta_ij, P_j(1) = sqrt(2j + 1).
+/// Orthonormal shifted Legendre polynomials (18): int_0^1 P_i P_j = delta_ij, P_j(1) = sqrt(2j + 1).
 /// Both functions evaluate by recurrence in the precision of the call, so give coefficients guard digits.
 
 /// values(i, j) = P_j(c_i), j < count. The c_i need not lie in [0, 1].
 template <Scalar S>
 Matrix<S> legendre_values(const Vector<S>& c, int count);
 
-/// integrals(i, j) = int_0^{c_i} P_j(x) dx, j < count, by (IsPs): xi_{j+1} P_{j+1} - xi_j P_{j-1}.
+/// integrals(i, j) = int_0^{c_i} P_j(x) dx, j < count, by (31): xi_{j+1} P_{j+1} - xi_j P_{j-1}.
 template <Scalar S>
 Matrix<S> legendre_integrals(const Vector<S>& c, int count);
 /// The same from the values of one function more.
 template <Scalar S>
 Matrix<S> legendre_integrals(const Matrix<S>& values);
 
-/// xi_j = 1 / (2 sqrt|4 j^2 - 1|) of (Xs); xi_0 = 1/2.
+/// xi_j = 1 / (2 sqrt|4 j^2 - 1|) of (32); xi_0 = 1/2.
 template <Scalar S>
 S xi(int j);
 
-/// X_s of (Xs): the s x s tridiagonal matrix with int_0^c P_j = sum_i P_i(c) X_s(i, j) at the s Gauss nodes.
+/// X_s of (32): the s x s tridiagonal matrix with int_0^c P_j = sum_i P_i(c) X_s(i, j) at the s Gauss nodes.
 template <Scalar S>
 Matrix<S> X_matrix(int s);
 

@@ -35,8 +35,8 @@ struct CostRepetitions {
 struct CostMeasurement {
   std::string method;         ///< with its k as chosen
   std::string failure;        ///< why it did not come to its end; then the rest is void
-  CostErrors errors;          ///< with the output state: p tangential, lambda of (Theorem lamex)
-  CostErrors raw;             ///< of p as propagated, and lambda of (lagmul)
+  CostErrors errors;          ///< with the output state: p tangential, lambda of Theorem 1
+  CostErrors raw;             ///< of p as propagated, and lambda of (57)
   bool at_reference = false;  ///< an error is what the reference leaves open
   double seconds = 0;         ///< of all steps: the median of the repetitions that count
   double spread = 0;          ///< half of the range of these, of the median

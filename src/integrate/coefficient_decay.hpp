@@ -7,7 +7,7 @@
 
 namespace hbvm {
 
-/// Whether the steps resolve the motion, body by body. The momentum of (dispro1) over a step is the polynomial
+/// Whether the steps resolve the motion, body by body. The momentum of (54) over a step is the polynomial
 /// sum_{j <= s} gamma_j P_j, whose last coefficient the stages neglect:
 ///
 ///     gamma_s = (p1 - sum_{j < s} P_j(1) gamma_j)/P_s(1),   P_j(1) = sqrt(2j + 1).

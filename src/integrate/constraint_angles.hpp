@@ -10,7 +10,7 @@ namespace hbvm {
 /// How close the constraints come to dependence over the mesh, seen by angles alone, so that neither units nor a light
 /// body beside a heavy one nor the order of the constraints count: sin^2 of the angle, in the metric M^-1, between each
 /// gradient and the span of the others, which is 1/(C^-1)_aa of the Gram matrix C of the normalised gradients; and the
-/// length of each gradient. Both vanish where (regular) does not hold.
+/// length of each gradient. Both vanish where (3) does not hold.
 ///
 /// A motion that crosses a singular position does so along a line, nearly, seen from the mesh: a sine or length is
 /// proportional to |n - n*| there, for the real n* of the crossing. Of the mesh points next to n* and those beyond, two

@@ -6,8 +6,8 @@
 
 namespace hbvm {
 
-/// The solution at one mesh point. `lambda` is (lagmul) of the step that ends there; at n = 0 that of the exact state,
-/// (Theorem lamex).
+/// The solution at one mesh point. `lambda` is (57) of the step that ends there; at n = 0 that of the exact state,
+/// Theorem 1.
 template <Scalar S>
 struct Snapshot {
   long n = 0;

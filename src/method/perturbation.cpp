@@ -36,7 +36,7 @@ S legendre_coefficient(int l, int m) {
   return (l + m) % 2 == 0 ? value : S(-value);
 }
 
-/// P^T diag(b), (IsPs).
+/// P^T diag(b), (31).
 template <Scalar S>
 void set_projection(Nodes<S>& nodes) {
   for (Index i = 0; i < nodes.P.rows(); ++i)

@@ -7,7 +7,7 @@
 
 namespace hbvm {
 
-/// One component of g(q) = 0 of (gq).
+/// One component of g(q) = 0 of (2).
 template <Scalar S>
 struct Constraint {
   std::string name;  ///< for messages: "rod 'a'-'b'"

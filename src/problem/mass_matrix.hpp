@@ -8,7 +8,7 @@
 
 namespace hbvm {
 
-/// The symmetric positive definite M of (Hqp): constant, block-diagonal, a block a body. A scalar mass costs one
+/// The symmetric positive definite M of (1): constant, block-diagonal, a block a body. A scalar mass costs one
 /// product a coordinate, mass 1 none, a full block one for each entry of M^-1 that is not 0.
 template <Scalar S>
 class MassMatrix {

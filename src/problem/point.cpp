@@ -61,8 +61,7 @@ const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S
 template <Scalar S>
 void Point<S>::solve_gram(Vector<S>& x) {
   const auto refuse_unless = [](bool regular) {
-    if (!regular)
-      throw IntegrationError("the constraints' gradients are linearly dependent: (regular) does not hold here");
+    if (!regular) throw IntegrationError("the constraints' gradients are linearly dependent: (3) does not hold here");
   };
   if (problem_.nu() >= many_constraints) {
     GramFactor<S> gram;
@@ -88,7 +87,7 @@ const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
 
 template <Scalar S>
 void Point<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force) {
-  // (lambda1), where the curvature of g_a along v is v^T nabla^2 g_a v
+  // (17), where the curvature of g_a along v is v^T nabla^2 g_a v
   gradient_.update(lanes(q));
   problem_.mass.velocity(lanes(force), lanes(acceleration_));
   problem_.mass.velocity(lanes(p), lanes(v_));

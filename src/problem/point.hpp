@@ -11,15 +11,15 @@ class Point {
  public:
   explicit Point(const Problem<S>& problem);
 
-  /// H = 1/2 p^T M^-1 p - U(q), (Hqp).
+  /// H = 1/2 p^T M^-1 p - U(q), (1).
   S energy(const Vector<S>& q, const Vector<S>& p);
   /// |T| + |U|, which the round-off of the energy is proportional to.
   S energy_size(const Vector<S>& q, const Vector<S>& p);
-  /// g(q), (gq).
+  /// g(q), (2).
   const Vector<S>& constraints(const Vector<S>& q);
   /// The greatest sum of the magnitudes of a constraint's terms.
   S constraint_size(const Vector<S>& q) const;
-  /// grad g^T M^-1 p, (Dgp0).
+  /// grad g^T M^-1 p, (9).
   const Vector<S>& hidden_constraints(const Vector<S>& q, const Vector<S>& p);
 
   /// p - grad g (grad g^T M^-1 grad g)^-1 grad g^T M^-1 p: the nearest momentum, in the metric M^-1, that fulfils the
@@ -27,7 +27,7 @@ class Point {
   /// \throws IntegrationError if the Gram matrix grad g^T M^-1 grad g is singular at q
   const Vector<S>& tangential(const Vector<S>& q, const Vector<S>& p);
 
-  /// The multiplier of (Theorem lamex) for an exact state,
+  /// The multiplier of Theorem 1 for an exact state,
   /// (grad g^T M^-1 grad g)^-1 (nabla^2 g (M^-1 p, M^-1 p) + grad g^T M^-1 grad U).
   /// \throws IntegrationError as tangential does
   const Vector<S>& multiplier(const Vector<S>& q, const Vector<S>& p);

@@ -28,7 +28,7 @@ struct EffectCount {
   }
 };
 
-/// U(q) of (Hqp), H = 1/2 p^T M^-1 p - U(q), as the sum of the effects a scene names.
+/// U(q) of (1), H = 1/2 p^T M^-1 p - U(q), as the sum of the effects a scene names.
 template <Scalar S>
 struct Potential {
   Index dimension = 0;  ///< 2 or 3

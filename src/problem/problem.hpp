@@ -22,7 +22,7 @@ struct RedundantConstraint {
   Constraint<S> constraint;
 };
 
-/// The constrained Hamiltonian problem (constrp)
+/// The constrained Hamiltonian problem (5)
 ///
 ///     H(q, p) = 1/2 p^T M^-1 p - U(q),   g(q) = 0 in R^nu,
 ///     q' = M^-1 p,   p' = grad U(q) - grad g(q) lambda.

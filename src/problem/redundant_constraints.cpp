@@ -73,8 +73,7 @@ Vector<S> RedundantConstraints<S>::multipliers(const Vector<S>& q, const Vector<
   gradient_->gram(gram);
   Lu<S> lu;
   lu.set(part(gram, kept_, kept_));
-  if (!lu.factor())
-    throw IntegrationError("the constraints' gradients are linearly dependent: (regular) does not hold here");
+  if (!lu.factor()) throw IntegrationError("the constraints' gradients are linearly dependent: (3) does not hold here");
   Matrix<S> X = part(gram, kept_, places_);
   for (Index r = 0; r < X.cols(); ++r) {
     Vector<S> column = X.col(r);

@@ -7,7 +7,7 @@
 
 namespace hbvm {
 
-/// A constraint whose gradient at some q is sum_b x_b grad g_b over others, so that (regular) does not hold.
+/// A constraint whose gradient at some q is sum_b x_b grad g_b over others, so that (3) does not hold.
 template <Scalar S>
 struct Dependence {
   Index constraint;

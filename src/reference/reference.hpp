@@ -36,7 +36,7 @@ struct ReferenceRequest {
 /// A decimal text for each number, to `digits` digits after the leading one of its vector's greatest component.
 struct ReferenceState {
   std::string t;
-  std::vector<std::string> q, p, lambda;  ///< p tangential, lambda of (Theorem lamex)
+  std::vector<std::string> q, p, lambda;  ///< p tangential, lambda of Theorem 1
   std::string H;
   std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
   long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors

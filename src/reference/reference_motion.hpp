@@ -8,7 +8,7 @@
 
 namespace hbvm {
 
-/// The solution within one step: the polynomials u and v of (lim), from their coefficients.
+/// The solution within one step: the polynomials u and v of (21), from their coefficients.
 struct StepPolynomials {
   Mpfr h;
   Vector<Mpfr> q0, p1;

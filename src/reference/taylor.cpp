@@ -237,7 +237,7 @@ void TaylorMotion::factor_gram() {
     for (Index b = 0; b < nu; ++b) set_dot(gram(a, b), &G(0, a), 1, &W_G(0, b), 1, m);
   gram_.set(gram);
   if (!gram_.factor())
-    throw IntegrationError("the constraints' gradients are linearly dependent: (regular) does not hold at t = " +
+    throw IntegrationError("the constraints' gradients are linearly dependent: (3) does not hold at t = " +
                            to_scientific(start_, 10));
 }
 

@@ -25,9 +25,9 @@ class ForceBounds;
 ///     G_0^T M^-1 G_0 lambda_n = G_0^T M^-1 (F_n - sum_{0 < i <= n} G_i lambda_{n-i})
 ///                               + (n+1)/h^2 sum_{0 < i <= n+1} G_i^T v_{n+1-i}
 ///
-/// whose matrix is factored once a step; for n = 0 that is (Theorem lamex). Order and step after Jorba and Zou
-/// (Experimental Mathematics 14, 2005): the step is so long that the last two terms are round-off of every body's
-/// position and momentum. As h is that long, coefficients fall to round-off, and so do the numbers of which
+/// whose matrix is factored once a step; for n = 0 that is the multiplier of Theorem 1. Order and step after Jorba
+/// and Zou (Experimental Mathematics 14, 2005): the step is so long that the last two terms are round-off of every
+/// body's position and momentum. As h is that long, coefficients fall to round-off, and so do the numbers of which
 /// convolutions consist, AlignedSeries. After each step the state is moved to the constraints and their tangent space,
 /// by round-off.
 ///

@@ -21,7 +21,7 @@ struct ChosenK {
 template <Scalar S>
 std::optional<int> degree_of_U(const Problem<S>& problem);
 
-/// For a polynomial U of degree mu the least k >= s that integrates it exactly, k >= mu s/2, (hDj). Otherwise the least
+/// For a polynomial U of degree mu the least k >= s that integrates it exactly, k >= mu s/2, (51). Otherwise the least
 /// k for which, at the solutions of the first 16 steps, psi_hat agrees with that of k + s to round-off; or, if with no
 /// k that many steps can be made, the one that comes farthest. Likewise r: r >= d s/2 for polynomial g of degree d, or
 /// as many nodes as k for which these steps move g by round-off, unless the name says it. \throws InputError if no k up

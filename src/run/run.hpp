@@ -52,7 +52,7 @@ struct RunResult {
   std::string settled;                   ///< Assembled::settled
   std::string step, until, t;
   long steps = 0;
-  std::vector<std::string> q, p, lambda;             ///< lambda: (lagmul)
+  std::vector<std::string> q, p, lambda;             ///< lambda: (57)
   std::vector<std::string> q_carry, p_carry;         ///< what rounding took from q and p
   std::vector<std::string> output_p, output_lambda;  ///< the output state
   std::string output_delta_H;                        ///< H(q, output p) - H_0

@@ -35,7 +35,7 @@ enum class Consistency { checked, unchecked };
 /// more, is moved to the nearest one that is so in S, if S has more. \throws InputError for Mpfr without a
 /// PrecisionScope; for a mass that is not positive (definite), for a rigid body that no distribution of mass makes,
 ///         and for an effect that acts on nobody; if checked, also for an initial state that is not
-///         consistent, (consist0), naming the constraint and its residual (the tolerance is the round-off of the
+///         consistent, (7), naming the constraint and its residual (the tolerance is the round-off of the
 ///         constraint's terms), for constraints whose gradient vanishes there, for contradictory ones, and for those
 ///         whose Gram matrix is singular to the working precision
 template <Scalar S>

@@ -125,7 +125,7 @@ long FixedPoint<S>::iterate() {
   const bool papers = order_ == Order::paper;
   rule_.start(equations_.p0(), positions_);
   for (;;) {
-    // The matrix of (lam) at nodes near the solution serves all sweeps: it multiplies a change that goes to 0.
+    // The matrix of (29) at nodes near the solution serves all sweeps: it multiplies a change that goes to 0.
     if (!sweep(papers || rule_.is_coarse()))
       throw StageFailure(FailureCause::near_singular_constraints,
                          "the linear system for the multipliers, (29), is singular", "0", rule_.sweeps() + 1);

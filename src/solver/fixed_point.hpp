@@ -8,7 +8,7 @@
 
 namespace hbvm {
 
-/// The fixed-point iteration (iter) for the stage equations (dispro1).
+/// The fixed-point iteration (55) for the stage equations (54).
 ///
 /// In the paper's order a sweep computes all new values from old ones, and the first starts from gamma = psi = 0.
 /// Otherwise a sweep uses each value as soon as it is known (psi from gamma, then lambda and zeta, then gamma), and
@@ -17,8 +17,9 @@ namespace hbvm {
 /// StoppingRule says when it ends, from the change of gamma, and in the paper's order, where psi lags, of h psi. If the
 /// changes stop falling above what rounding explains, the condition of the constraints may explain it.
 ///
-/// It fails if a change is not finite, if (lam) is singular, and if the changes stagnate, grow or fall too slowly. A
-/// solution that was found after one start had led nowhere, or by less than a bit a sweep, has to pass RootCheck.
+/// It fails if a change is not finite, if the matrix of (29) is singular, and if the changes stagnate, grow or fall too
+/// slowly. A solution that was found after one start had led nowhere, or by less than a bit a sweep, has to pass
+/// RootCheck.
 template <Scalar S>
 class FixedPoint final : public StageSolver<S> {
  public:

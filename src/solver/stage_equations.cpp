@@ -290,7 +290,7 @@ template <class Stages, class Nodes>
 template <Scalar S>
 template <class Stages, class Nodes>
 [[gnu::noinline]] bool StageEquations<S>::factor_matrix(Stages s, Nodes r) {
-  // sum_j a_ij grad g_i^T M^-1 grad g_j lambda_j: (lam) divided by h^2
+  // sum_j a_ij grad g_i^T M^-1 grad g_j lambda_j: (29) divided by h^2
   const Index* const position = order_.position.data();
   {
     const PartCall counted = call(matrix);

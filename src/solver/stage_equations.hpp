@@ -15,16 +15,16 @@ namespace hbvm {
 /// The unknowns of one step, by Fourier coefficient or node.
 template <Scalar S>
 struct StageUnknowns {
-  Matrix<S> gamma;   ///< s x m: coefficients of v, (lim2)
-  Matrix<S> psi;     ///< s x m: psi_hat, coefficients of grad U, (psij)
-  Matrix<S> zeta;    ///< s x m: coefficients of grad g lambda, (lim2)
+  Matrix<S> gamma;   ///< s x m: coefficients of v, (49)
+  Matrix<S> psi;     ///< s x m: psi_hat, coefficients of grad U, (50)
+  Matrix<S> zeta;    ///< s x m: coefficients of grad g lambda, (49)
   Matrix<S> lambda;  ///< s x nu: multipliers at the nodes c_i, or their coefficients if there are more nodes than s
 };
 
 /// What is left of the stage equations at some unknowns, 0 at a solution:
 ///
-///     momentum   = gamma - e_1 p0 - h X_s (psi_hat - zeta)          s x m, (dispro1)
-///     constraint = grad g(u_i)^T M^-1 v_i, v_i = sum_j P_j(c_i) gamma_j   s x nu, (azzera), by (lam)
+///     momentum   = gamma - e_1 p0 - h X_s (psi_hat - zeta)          s x m, (54)
+///     constraint = grad g(u_i)^T M^-1 v_i, v_i = sum_j P_j(c_i) gamma_j   s x nu, (52)
 ///
 /// or, with r > s nodes for constraints that are not quadratic, the first s Legendre coefficients of the latter.
 template <Scalar S>
@@ -32,7 +32,7 @@ struct StageResidual {
   Matrix<S> momentum, constraint;
 };
 
-/// What a step adds, by (q1p1new): q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), which is p + p_rest. The
+/// What a step adds, by (56): q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), which is p + p_rest. The
 /// rest is what rounding of the sum takes from a constant force: the same bits wherever the constraints' force beside
 /// it is of one binade. Without it that would be a small force of its own, under which H drifts. Newton's last
 /// correction, too small for p, is in it as well.
@@ -52,7 +52,7 @@ struct StepStart {
   const Vector<S>*q_carry = nullptr, *p_carry = nullptr;
 };
 
-/// The maps of which the stage equations (dispro1) consist. Owns all storage they need. Problem and method must
+/// The maps of which the stage equations (54) consist. Owns all storage they need. Problem and method must
 /// outlive it.
 template <Scalar S>
 class StageEquations {
@@ -70,20 +70,20 @@ class StageEquations {
   const Vector<S>& q0() const { return *q0_; }
   const Vector<S>& p0() const { return *p0_; }
 
-  /// Moves all nodes to the polynomial u of (lim1) with these coefficients: keeps h M^-1 gamma.
+  /// Moves all nodes to the polynomial u of (48) with these coefficients: keeps h M^-1 gamma.
   void move(const Matrix<S>& gamma);
   /// psi = P_hat^T Omega_hat grad U(u at c_hat).
   void forces(Matrix<S>& psi);
   /// Changes lambda so that the momenta that follow from it and psi fulfil the hidden constraints at the current nodes,
-  /// which is (lam), and sets zeta = P_s^T Omega (grad g lambda). Without constraints it does nothing.
+  /// which is (29), and sets zeta = P_s^T Omega (grad g lambda). Without constraints it does nothing.
   ///
-  /// (lam) is solved for the change, with what lambda leaves of the hidden constraints on the right: then neither the
+  /// (29) is solved for the change, with what lambda leaves of the hidden constraints on the right: then neither the
   /// rounding of the matrix nor its condition biases the solution. With `factor` false the last matrix serves again.
   /// \return false if the matrix is singular to working precision
   [[nodiscard]] bool multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta, bool factor = true);
   /// An estimate of the condition of that matrix, its rows and columns brought to one scale, in the max-norm.
   double condition();
-  /// gamma = e_1 p0 + h X_s (psi - zeta), which is (dispro1) by (IsPs).
+  /// gamma = e_1 p0 + h X_s (psi - zeta), which is (54) by (31).
   void momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
 
   /// The change of the state at x, whose psi came from the last call of forces().
@@ -157,7 +157,7 @@ class StageEquations {
   void take_rest(const Matrix<S>& psi, const Matrix<S>& zeta, Index j);
   template <class Stages, class Nodes>
   void project_multipliers(Stages s, Nodes r, const Matrix<S>& lambda, Matrix<S>& zeta);
-  /// The matrix of (lam) at the current nodes, factored.
+  /// The matrix of (29) at the current nodes, factored.
   template <class Stages, class Nodes>
   [[nodiscard]] bool factor_matrix(Stages s, Nodes r);
   /// block_ = projection (A at, entry by entry) P_s: takes a block at the nodes to one of coefficients.
@@ -173,7 +173,7 @@ class StageEquations {
   S h_ = 0;
   PotentialEvaluator<S> potential_;
   ConstraintGradient<S> gradient_;
-  Ordering order_;  // of the constraints in (lam)
+  Ordering order_;  // of the constraints in the matrix of (29)
   Lu<S> system_;
   const Vector<S>* q0_ = nullptr;
   const Vector<S>* p0_ = nullptr;
@@ -192,7 +192,7 @@ class StageEquations {
   Matrix<S> coupling_;               // r x r
   Matrix<S> lambda_;                 // r x nu, if lambda has coefficients; as are the next four
   Vector<S> hidden_;                 // r: one of the hidden constraints at the nodes
-  Matrix<S> weighted_, right_;       // r x r and r x s: of the matrix of (lam)
+  Matrix<S> weighted_, right_;       // r x r and r x s: of the matrix of (29)
   Matrix<S> block_;                  // s x s: likewise
   Vector<S> rhs_;                    // s nu
   S half_, h_half_ = 0, inverse_h_ = 0, rest_, t_, x_, y_;  // the last three are scratch

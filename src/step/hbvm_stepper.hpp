@@ -20,10 +20,10 @@ class HbvmStepper final : public Stepper<S> {
   const Problem<S>& problem() const override { return problem_; }
   StageSolver<S>& solver() { return *solver_; }
 
-  /// Advances the state by (q1p1new), q1 = q0 + h M^-1 gamma_0, p1 = p0 + h (psi_0 - zeta_0).
+  /// Advances the state by (56), q1 = q0 + h M^-1 gamma_0, p1 = p0 + h (psi_0 - zeta_0).
   long step(State<S>& state, const S& h) override;
 
-  /// The extrapolated multiplier (lagmul) of the last step: sum_i l_i(1) lambda_i.
+  /// The extrapolated multiplier (57) of the last step: sum_i l_i(1) lambda_i.
   const Vector<S>& multiplier() const override { return multiplier_; }
 
   const StageUnknowns<S>* unknowns() const override { return &solver_->unknowns(); }

@@ -7,7 +7,7 @@ namespace hbvm {
 
 /// The index-reduced equations, whose solutions keep g and the hidden constraints where a method need not:
 ///
-///     q' = M^-1 p,   p' = grad U(q) - grad g(q) lambda(q, p),   lambda of (Theorem lamex).
+///     q' = M^-1 p,   p' = grad U(q) - grad g(q) lambda(q, p),   lambda of Theorem 1.
 template <Scalar S>
 class ReducedEquations {
  public:

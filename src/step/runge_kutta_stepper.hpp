@@ -23,7 +23,7 @@ enum class OnConstraints {
 ///     Q_i = q_0 + h sum_j A_ij V_j,   V_i = M^-1 P_i,                              q_1 = q_0 + h sum_i b_i V_i,
 ///     P_i = p_0 + h sum_j A_ij F_j,   F_i = grad U(Q_i) - grad g(Q_i) lambda_i,    p_1 = p_0 + h sum_i b_i F_i.
 ///
-/// With constraints, lambda_i = lambda(Q_i, P_i) of (Theorem lamex): the index-reduced equations, whose solutions keep
+/// With constraints, lambda_i = lambda(Q_i, P_i) of Theorem 1: the index-reduced equations, whose solutions keep
 /// g and the hidden constraints, but the method's do not, and drift away. Projected, each step ends on the constraints
 /// and in their tangent space, along grad g at its end.
 ///

@@ -20,7 +20,7 @@ enum class Digits {
 struct HalvingRow {
   int i = 0;
   std::string e_y;              ///< |y_i(T) - y_{i+1}(T)|_max with y = (q, p), at the end point only
-  std::string e_lambda;         ///< the same for (lagmul)
+  std::string e_lambda;         ///< the same for the multiplier (57)
   std::string e_hid, e_g, e_H;  ///< maxima over the mesh of the finer run, i + 1
   /// log2 of the quotient of the row above and this one; "***" if this row's error is round-off.
   std::optional<std::string> rate_y, rate_lambda, rate_hid, rate_H;
@@ -50,7 +50,7 @@ struct HalvingRequest {
 /// What a run of the ladder leaves, every number as decimal text that reads back exactly.
 struct HalvingRun {
   long steps = 0;
-  std::vector<std::string> q, p, lambda;  ///< at the end; lambda: (lagmul)
+  std::vector<std::string> q, p, lambda;  ///< at the end; lambda: (57)
   std::string H0, e_H, e_g, e_hid;
 };
 

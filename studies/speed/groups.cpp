@@ -168,7 +168,7 @@ std::vector<Row> raw_rows() {
           } else {
             equations.move(x.gamma);
             equations.forces(x.psi);
-            if (!equations.multipliers(x.psi, x.lambda, x.zeta)) throw Error("(lam) is singular");
+            if (!equations.multipliers(x.psi, x.lambda, x.zeta)) throw Error("(29) is singular");
             equations.momenta(x.psi, x.zeta, gamma);
           }
         });

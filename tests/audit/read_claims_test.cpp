@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 /// Every key, a scene and a tableau beside the file, and a claim of round-off.
 const std::string good_claims = R"([[claim]]
-label = "Theorem 7"
+label = "claim 7"
 quantity = "raw_p"
 problem = "double_pendulum"
 method = "hbvm:3,2"
@@ -91,7 +91,7 @@ TEST_F(ReadClaims, TakesAllKeys) {
   const auto claims = read(good_claims);
   ASSERT_EQ(claims.size(), 3u);
   const Claim& c = claims[0];
-  EXPECT_EQ(c.label, "Theorem 7");
+  EXPECT_EQ(c.label, "claim 7");
   EXPECT_EQ(c.quantity, Quantity::p);
   EXPECT_EQ(c.problem, "double_pendulum");
   const HbvmMethod* const method = as_hbvm(*c.method);
@@ -319,7 +319,7 @@ TEST_F(ReadClaims, RefusesFilesWithoutClaims) {
 }
 
 TEST_F(ReadClaims, RefusesWrongTypes) {
-  expect_refusal(changed("\"Theorem 7\"", "7"), 2, {"'label'", "string"});
+  expect_refusal(changed("\"claim 7\"", "7"), 2, {"'label'", "string"});
   expect_refusal(changed("\"raw_p\"", "[\"q\"]"), 3, {"'quantity'", "string"});
   expect_refusal(changed("\"double_pendulum\"", "2"), 4, {"'problem'", "string"});
   expect_refusal(changed("\"hbvm:3,2\"", "3.2"), 5, {"'method'", "string"});

@@ -129,7 +129,7 @@ TEST_F(ReferenceMotionTest, PolynomialsAreOfTheLastStep) {
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(point.tangential(u, v) - before.p))), greatest_error(m));
 }
 
-/// Inside a step the polynomials are the motion up to O(h^(s+1)), (norm).
+/// Inside a step the polynomials are the motion up to O(h^(s+1)), Corollary 2.
 TEST_F(ReferenceMotionTest, PolynomialsFollowTheMotion) {
   const auto worst = [&](const char* length, int stages) {
     const Mpfr time = literal<Mpfr>(length);

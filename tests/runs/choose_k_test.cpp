@@ -76,7 +76,7 @@ class ChooseK : public ::testing::Test {
 };
 TYPED_TEST_SUITE(ChooseK, AllScalars, ScalarNames);
 
-/// k >= mu s/2, (hDj), and k >= s.
+/// k >= mu s/2, (51), and k >= s.
 TYPED_TEST(ChooseK, ForAPolynomialIsTheLeastOfTheTheory) {
   struct Case {
     std::vector<std::string> effects;

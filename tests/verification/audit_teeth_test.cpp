@@ -154,9 +154,9 @@ TEST(Audit, RefusesFalseClaims) {
   for (const int s : {1, 2, 3}) {
     const HbvmName method{s, s};
     if (s > 1) claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::interval, Form::at_least, 2 * s));
-    if (s % 2 == 1)  // (ord2s) for one step
+    if (s % 2 == 1)  // Theorem 5, on the order, for one step
       claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::step, Form::at_least, s + 2));
-    if (s % 2 == 0)  // (dlamj) for propagated states
+    if (s % 2 == 0)  // Theorem 4, on delta-lambda, for propagated states
       claims.push_back(claim(Quantity::delta_lambda, "modified_pendulum", method, Span::interval, Form::at_least, s));
     claims.push_back(claim(Quantity::H, "modified_pendulum", method, Span::interval, Form::round_off, 0));
     claims.push_back(claim(Quantity::hidden, "double_pendulum", method, Span::interval, Form::round_off, 0));
@@ -164,7 +164,7 @@ TEST(Audit, RefusesFalseClaims) {
     claims.back().problem = "tethered_satellites";
     claims.back().method = hbvm_of({s + 2, s});
   }
-  // (dlamj) with one order more, and an order claimed "exactly" that is exceeded.
+  // Theorem 4, on delta-lambda, with one order more, and an order claimed "exactly" that is exceeded.
   claims.push_back(claim(Quantity::delta_lambda, "modified_pendulum", {2, 2}, Span::step, Form::at_least, 3));
   claims.push_back(claim(Quantity::q, "modified_pendulum", {2, 2}, Span::interval, Form::exactly, 2));
   for (const Finding& f : audit(claims, one_start()))

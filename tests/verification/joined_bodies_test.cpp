@@ -90,7 +90,7 @@ struct FourBarOfBars {
 
   Position at(const Mpfr& angle) const {
     const Bar crank{angle, Mpfr(1)};
-    // The triangle of coupler (3), rocker (5/2) and what is between their far ends.
+    // The triangle of the coupler, 3, the rocker, 5/2, and what is between their far ends.
     const Vector<Mpfr> a = crank.along(), between = right - a;
     const Mpfr r2 = between.dot(between), r = sqrt(r2);
     Bar coupler{atan2(between[1], between[0]) + acos(Mpfr((9 + r2 - Mpfr(25) / 4) / (6 * r))), Mpfr(0)};

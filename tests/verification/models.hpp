@@ -68,7 +68,7 @@ struct DenseModel {
     return Mat(G.transpose() * (W * G)).inverse() * right;
   }
   Vec tangential(const Vec& q, const Vec& p) const { return p - gradient(q) * gram_solve(q, hidden(q, p)); }
-  /// The closed form of (Theorem lamex).
+  /// The closed form of Theorem 1.
   Vec multiplier(const Vec& q, const Vec& p) const {
     const Vec v = W * p;
     Vec right = gradient(q).transpose() * Vec(W * force(q));

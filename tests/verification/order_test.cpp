@@ -117,7 +117,7 @@ TEST_P(DoublePendulumOrder, IsThatOfEachComponent) {
     expect_order(&Errors::tangential_p, 2 * s, "tangential p");
     expect_order(&Errors::output_lambda, 2 * s, "output lambda");
     expect_order(&Errors::raw_p, r, "raw p");
-    expect_order(&Errors::lagmul, r - 1, "(lagmul)");
+    expect_order(&Errors::lagmul, r - 1, "the extrapolated multiplier (57)");
   }
   EXPECT_GT(all.back().q, literal<Mpfr>("1e-30")) << "at round-off or at the reference's error";
 }

@@ -115,7 +115,7 @@ struct SphericalPendulumInAngles {
   }
 };
 
-/// q' = M^-1 p, p' = grad U - grad g lambda(q, p) with the multiplier of (Theorem lamex).
+/// q' = M^-1 p, p' = grad U - grad g lambda(q, p) with the multiplier of Theorem 1.
 struct IndexReduced {
   const DenseModel& model;
 

@@ -6,7 +6,7 @@
 
 namespace hbvm {
 
-/// The cosine of the distance to a fixed centre, of the paper's satellites (tetH): U = strength cos r.
+/// The cosine of the distance to a fixed centre, of the paper's satellites (67): U = strength cos r.
 struct RadialCosine {
   static constexpr std::string_view kind = "radial_cosine";
   static constexpr Acts acts = Acts::about_a_center;

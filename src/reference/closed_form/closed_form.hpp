@@ -7,7 +7,7 @@
 
 namespace hbvm {
 
-/// A state of an exact motion: p tangential, lambda the multiplier of (Theorem lamex).
+/// A state of an exact motion: p tangential, lambda the multiplier of Theorem 1.
 struct ExactPoint {
   Vector<Mpfr> q, p, lambda;
 };

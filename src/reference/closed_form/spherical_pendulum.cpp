@@ -12,7 +12,7 @@ namespace {
 ///     z'^2 = 2 (E - g z)(1 - z^2) - h^2 = 2 g (z - z_1)(z - z_2)(z - z_3),  -1 < z_1 <= z <= z_2 < 1 < z_3,
 ///
 /// as CubicMotion solves it, and the azimuth grows by h/(1 - z^2) = h/2 (1/(1 + z) + 1/(1 - z)). In the conical
-/// pendulum, the paper's (cpend)-(cpend0) for one, z_1 = z_2.
+/// pendulum, the paper's (63)-(65) for one, z_1 = z_2.
 class SphericalPendulum : public ClosedForm {
  public:
   SphericalPendulum(const Recognition& content, const OnSphere& sphere, const Vector<Mpfr>& down, const Mpfr& force)
