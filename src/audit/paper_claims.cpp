@@ -55,7 +55,8 @@ class List {
   std::vector<Claim> claims_;
 };
 
-/// The orders of all components. The statements for k > s are Theorem 9, Theorem 10 and Corollary 3.
+/// The orders of all components, hidden constraints (15) among them. For k > s the statements are Theorem 9, Theorem 10
+/// and Corollary 3.
 void orders(List& list, const Witness& witness, int k, int s) {
   const std::string further = k > s ? "k" : "";
   const int r = order(s);

@@ -66,13 +66,12 @@ TYPED_TEST_SUITE(PlainStep, AllScalars, ScalarNames);
 
 TYPED_TEST(PlainStep, OfQuadraticConstraintsLeadsToTheStatesOfTheLibrarys) {
   const std::vector<HbvmName> methods{{1, 1, 1}, {3, 1, 1}, {2, 2, 2}, {3, 2, 2}, {5, 3, 3}, {4, 4, 4}, {9, 5, 5}};
-  const std::vector<const char*> scenes{"double_pendulum",    "heavy_top",         "uneven",
-                                        "ellipsoid_bead",     "modified_pendulum", "four_bar_linkage_of_bars",
-                                        "tethered_satellites"};
-  // All pairs in double, and in more digits each method with two of the scenes.
+  const std::vector<const char*> scenes{"four_bar_linkage_of_bars", "heavy_top",      "tethered_satellites", "uneven",
+                                        "double_pendulum",          "ellipsoid_bead", "modified_pendulum"};
+  // All pairs in double. In more digits each with two, so that many coordinates do not meet many stages.
   for (std::size_t i = 0; i < methods.size(); ++i)
     for (std::size_t j = 0; j < scenes.size(); ++j)
-      if (std::same_as<TypeParam, double> || (i + 2 * j) % scenes.size() < 2)
+      if (std::same_as<TypeParam, double> || i == j || i == (j + 3) % scenes.size())
         this->expect_same_states(scenes[j], methods[i]);
 }
 

@@ -58,7 +58,7 @@ struct Citation {
 
 std::vector<Citation> citations(const std::string& prose) {
   static const std::regex pattern(
-      R"(\((\d+)\)(?![A-Za-z0-9])|\b(Theorem|Lemma|Corollar|Remark)(?:s|y|ies)? (\d+)(?:(?:,| and) (\d+))?)");
+      R"(\((\d{1,3})\)(?![A-Za-z0-9])|\b(Theorem|Lemma|Corollar|Remark)(?:s|y|ies)? (\d+)(?:(?:,| and) (\d+))?)");
   std::vector<Citation> result;
   std::size_t number = 0;
   for (const std::string& line : split(prose, "\n")) {
