@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// FNV-1a in 64 bits: no change of one byte goes unnoticed, other damage but once in 2^64. No protection from intent.
 class Checksum {
@@ -29,4 +29,4 @@ class Checksum {
   std::uint64_t value_ = 14'695'981'039'346'656'037U;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

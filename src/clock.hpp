@@ -3,7 +3,7 @@
 #include <chrono>
 #include <ctime>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Processor time of this thread in seconds. A call costs a system call: for whole blocks of steps.
 inline double thread_seconds() {
@@ -18,4 +18,4 @@ inline double elapsed_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

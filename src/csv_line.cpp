@@ -1,6 +1,6 @@
 #include "csv_line.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -36,4 +36,4 @@ std::vector<std::string> split_csv_line(const std::string& line) {
   return cells;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A cell of comma-separated values: in quotes, and its quotes twice, if it holds what separates cells or lines
 /// (RFC 4180).
@@ -15,4 +15,4 @@ std::string csv_line(const std::vector<std::string>& cells);
 /// The cells of a line, out of their quotes.
 std::vector<std::string> split_csv_line(const std::string& line);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -11,7 +11,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void lock_file(int descriptor, const std::string& path) {
   struct stat status {};
@@ -35,4 +35,4 @@ FileLock::FileLock(const std::string& path)
 
 FileLock::~FileLock() { ::close(file_); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Keeps a regular file, or a folder, from being held so by another process, or elsewhere in this one, until the
 /// descriptor is closed. Other files, as pipes, may have several writers.
@@ -22,4 +22,4 @@ class FileLock {
   int file_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,29 +1,43 @@
 #pragma once
 
 #include <atomic>
+#include <stop_token>
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
-/// The number of a signal that asks runs to end, 0 if none does. A signal handler may set it; integrate() looks at it
-/// after every step, and steps that are made of parts after every part.
-inline std::atomic<int> interruption{0};
+/// Who may ask the work of a thread to end: a token, or a signal whose handler sets a number.
+struct StopRequest {
+  std::stop_token token = {};
+  const std::atomic<int>* signal = nullptr;  ///< 0 until one comes; must outlive the work
+
+  bool asked() const { return token.stop_requested() || number() != 0; }
+  /// Of the signal; 0 if none came.
+  int number() const { return signal ? signal->load(std::memory_order_relaxed) : 0; }
+};
 static_assert(std::atomic<int>::is_always_lock_free, "else a signal handler may not set it");
 
-/// A signal ended a run between two steps, or within one. The steps before have been shown to the observers.
-class Interrupted : public Error {
+/// That of this thread; null if nobody can ask. It is looked at after every step, and in steps of parts after every
+/// part. Threads that are started take over that of the thread that starts them.
+inline thread_local const StopRequest* stop_request = nullptr;
+
+inline bool stop_asked() { return stop_request && stop_request->asked(); }
+
+/// While it lives, `request` is that of this thread.
+class StopScope {
  public:
-  Interrupted(int signal, const std::string& what) : Error(what), signal_(signal) {}
-  int signal() const { return signal_; }
+  explicit StopScope(const StopRequest* request) : before_(stop_request) { stop_request = request; }
+  ~StopScope() { stop_request = before_; }
+  StopScope(const StopScope&) = delete;
 
  private:
-  int signal_;
+  const StopRequest* before_;
 };
 
-/// For work that takes long, again and again. \throws Interrupted if a signal asks for the end
-inline void end_on_signal(const char* what) {
-  if (const int signal = interruption) throw Interrupted(signal, what);
+/// For work that takes long, again and again. \throws Interrupted if it is asked to end
+inline void end_if_asked(const char* what) {
+  if (stop_asked()) throw Interrupted(stop_request->number(), what);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

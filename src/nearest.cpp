@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Levenshtein's distance, a row of its table at a time.
@@ -49,4 +49,4 @@ std::string did_you_mean_or_list(std::string_view word, const std::vector<std::s
   return guess + (guess.empty() ? "; there are " : " There are ") + list;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

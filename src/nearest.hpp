@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The candidate of the fewest edits (a character put in, taken out or replaced) from `word`, if at most half of its
 /// characters differ; else empty.
@@ -17,4 +17,4 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 /// plane".
 std::string did_you_mean_or_list(std::string_view word, const std::vector<std::string>& candidates);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

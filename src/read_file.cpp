@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -17,4 +17,4 @@ std::string read_file(const std::filesystem::path& path) {
   return text;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
@@ -13,4 +13,4 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   if (!file) throw InputError("cannot write '" + path.string() + "'");
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The scalars a typed suite runs for; Mpfr tests open a PrecisionScope themselves.
 using AllScalars = ::testing::Types<double, Quad, Mpfr>;
@@ -18,10 +18,10 @@ struct ScalarNames {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core
 
 // GoogleTest would print six digits.
 namespace boost::multiprecision {
-inline void PrintTo(const hbvm::Quad& x, std::ostream* out) { *out << hbvm::to_text(x); }
-inline void PrintTo(const hbvm::Mpfr& x, std::ostream* out) { *out << hbvm::to_text(x); }
+inline void PrintTo(const hbvm::core::Quad& x, std::ostream* out) { *out << hbvm::core::to_text(x); }
+inline void PrintTo(const hbvm::core::Mpfr& x, std::ostream* out) { *out << hbvm::core::to_text(x); }
 }  // namespace boost::multiprecision

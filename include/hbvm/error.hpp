@@ -24,4 +24,15 @@ class IntegrationError : public Error {
   using Error::Error;
 };
 
+/// The work was asked to end, and did, between two steps or within one. What was shown before stays.
+class Interrupted : public Error {
+ public:
+  Interrupted(int signal, const std::string& what) : Error(what), signal_(signal) {}
+  /// That asked, as the program has it; 0 if no signal did.
+  int signal() const { return signal_; }
+
+ private:
+  int signal_;
+};
+
 }  // namespace hbvm

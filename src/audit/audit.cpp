@@ -7,7 +7,7 @@
 #include "checksum.hpp"
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string subject_key(const Claim& claim) { return claim.problem + "|" + claim.method->key(); }
@@ -105,4 +105,4 @@ std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions&
   return all;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "long_work/cells.hpp"
 #include "scalar/expression.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 struct AuditOptions : CellOptions {
   int starts = 2;          ///< consistent states over which the greatest error is taken
@@ -34,4 +34,4 @@ std::string key_of(const Claim& claim);
 /// what cannot be run is found to be so. Of a shard, the findings of its claims alone
 std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions& options);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

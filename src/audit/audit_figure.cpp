@@ -10,7 +10,7 @@
 #include "step/hbvm_method.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr double log10_of_2 = std::numbers::ln2 / std::numbers::ln10;
@@ -96,4 +96,4 @@ Figure audit_figure(const std::string& folder) {
   return figure;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

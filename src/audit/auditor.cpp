@@ -19,7 +19,7 @@
 #include "typo.hpp"
 #include "weak_terms.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Precisions in the order in which they are tried.
@@ -616,4 +616,4 @@ void Auditor::weigh_coefficients(Finding& f) {
               (check.decimals() ? ", and its decimals could make it " + std::to_string(met.due) : ""));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "motion.hpp"
 #include "scalar/precision.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The motions of the problems that were looked at, for all threads.
 class Motions {
@@ -91,4 +91,4 @@ class Auditor {
   std::set<std::size_t> settled_;               ///< claims whose verdict what is left to do cannot change
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "clock.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 namespace {
 
@@ -29,4 +29,4 @@ bool Cell::asks_for(Quantity quantity) const {
   return std::any_of(claims.begin(), claims.end(), [&](const Claim& claim) { return claim.quantity == quantity; });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

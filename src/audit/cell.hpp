@@ -10,7 +10,7 @@
 #include "hbvm/error.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Errors of some quantities in one precision.
 using Ladders = std::map<Quantity, std::vector<Rung>>;
@@ -54,4 +54,4 @@ struct Cell {
   void check_time() const;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

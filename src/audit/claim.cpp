@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Where the statements of these labels stand in print, as studies/equations.md has it.
@@ -45,4 +45,4 @@ std::string readable(const std::string& label) {
   return label;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "audit/quantity.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How the error of a method is looked at.
 enum class Span {
@@ -46,4 +46,4 @@ Claim make_claim(const std::string& label, Quantity quantity, const std::string&
 /// statement there are left as they are.
 std::string readable(const std::string& label);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "audit/claim.hpp"
 #include "method/runge_kutta.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 enum class Extent {
   quick,  ///< s = 1, 2, 3 and the smaller problems: about a minute
@@ -48,4 +48,4 @@ std::vector<Claim> method_claims(const MethodPtr& method);
 /// \throws InputError with file, line and what is wrong
 std::vector<Claim> read_claims(const std::string& path);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

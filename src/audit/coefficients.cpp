@@ -12,7 +12,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What the sums of the conditions may lose.
@@ -181,4 +181,4 @@ int CoefficientCheck::found(const std::vector<int>& seen, const std::vector<int>
   return n;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "method/decimals.hpp"
 #include "method/runge_kutta.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// To how many decimal digits a condition is met, and to how many it must be: to all that are looked at, or, where the
 /// numbers of a tableau are decimals, to those that a unit in their last digit leaves.
@@ -67,4 +67,4 @@ class CoefficientCheck {
   Digits seen_, due_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

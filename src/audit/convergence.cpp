@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr std::size_t needed = 5;
@@ -83,4 +83,4 @@ std::optional<Rate> convergence_rate(const std::vector<Rung>& rungs) {
   return best;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

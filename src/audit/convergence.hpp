@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// An error at one step, as binary logarithms: no precision is too high for them.
 struct Rung {
@@ -27,4 +27,4 @@ struct Rate {
 /// coarse to fine \return nothing if there are no five clean rungs in a row with at least four halvings between them
 std::optional<Rate> convergence_rate(const std::vector<Rung>& rungs);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "step/tableau_method.hpp"
 #include "weak_terms.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string proof_for_tableau(const Claim& claim, const CoefficientCheck& check, const std::optional<int>& degree) {
@@ -104,7 +104,7 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
     degree = degree_of_U(scene.problem);
     constrained = scene.problem.nu() > 0;
-    of_g = hbvm::degree(scene.problem.constraints);
+    of_g = hbvm::core::degree(scene.problem.constraints);
     if (hbvm) r = hbvm->constraint_nodes(scene.problem);
   }
   if (check && as_tableau(*claim.method) && !constrained) return proof_for_tableau(claim, *check, degree);
@@ -142,4 +142,4 @@ int digits_to_show(const Claim& claim, int log2_scale) {
   return static_cast<int>(std::ceil(bits * std::numbers::ln2 / std::numbers::ln10));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

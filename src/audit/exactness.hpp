@@ -4,7 +4,7 @@
 
 #include "coefficients.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Why a method must conserve what it is claimed to, but for round-off, whatever the motion: empty if nothing here
 /// proves it. With k nodes and a potential of degree mu,
@@ -24,4 +24,4 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check);
 /// motion's time scale \throws InputError
 int digits_to_show(const Claim& claim, int log2_scale);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::string_view name_of(Verdict verdict) {
   constexpr std::string_view names[] = {"holds", "fails", "undecidable", "degenerate", "not run"};
@@ -23,4 +23,4 @@ Verdict judge(const Claim& claim, const std::optional<Rate>& rate) {
   return is_whole ? Verdict::holds : Verdict::undecidable;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

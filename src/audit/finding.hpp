@@ -9,7 +9,7 @@
 #include "audit/claim.hpp"
 #include "audit/convergence.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 enum class Verdict {
   holds,
@@ -53,4 +53,4 @@ struct Finding {
 /// wide.
 Verdict judge(const Claim& claim, const std::optional<Rate>& rate);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,7 +1,7 @@
 #include "audit/claims.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Q = Quantity;
@@ -97,4 +97,4 @@ std::vector<Claim> general_claims(Extent extent) {
   return all;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

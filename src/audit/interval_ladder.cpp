@@ -7,7 +7,7 @@
 #include "sizes.hpp"
 #include "trial.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What some thousand steps' roundings add up to, in units of the last digit, as log2.
@@ -210,4 +210,4 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
 #define HBVM_DEFINE(S) template Ladders interval_ladder<S>(const Cell&, long, const Enough&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

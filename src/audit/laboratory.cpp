@@ -3,7 +3,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/rattle.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 Laboratory::Laboratory(const Cell& cell) : assembled_(assemble<Mpfr>(load_scene(cell.subject().problem))) {
   point_.emplace(assembled_.problem);
@@ -35,4 +35,4 @@ void Laboratory::walk(const Cell& cell) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

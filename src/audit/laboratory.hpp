@@ -8,7 +8,7 @@
 #include "reference/closed_form/closed_form.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Decimal digits that everything measured has beyond those under audit.
 inline constexpr unsigned guard_digits = 24;
@@ -38,4 +38,4 @@ class Laboratory {
   std::optional<Point<Mpfr>> point_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

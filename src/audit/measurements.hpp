@@ -4,7 +4,7 @@
 
 #include "cell.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Asked after every rung whether finer ones are not needed.
 using Enough = std::function<bool(const Ladders&)>;
@@ -53,4 +53,4 @@ double special_value(const Cell& cell);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "audit/claims.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct MethodWitness {
@@ -84,4 +84,4 @@ std::vector<Claim> method_claims(const MethodPtr& method) {
   return claims;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

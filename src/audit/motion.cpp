@@ -12,7 +12,7 @@
 #include "reference/reference_motion.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct PhasePoint {
@@ -216,4 +216,4 @@ Motion motion_of(const std::string& scene_name) {
   return motion;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What an audit must know of a motion before it looks at a method: it depends on the problem alone.
 struct Motion {
@@ -22,4 +22,4 @@ struct Motion {
 /// \throws InputError, IntegrationError, StageFailure
 Motion motion_of(const std::string& scene);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

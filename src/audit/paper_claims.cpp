@@ -3,7 +3,7 @@
 #include "audit/claims.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Q = Quantity;
@@ -199,4 +199,4 @@ std::vector<Claim> paper_claims(Extent extent) {
   return all;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr std::array<std::pair<Quantity, std::string_view>, 22> quantities{{
@@ -61,4 +61,4 @@ Quantity parse_quantity(std::string_view name) {
   throw InputError("unknown quantity '" + std::string(name) + "': use one of " + known);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a claim is about. Errors are max-norms.
 enum class Quantity {
@@ -35,4 +35,4 @@ std::string_view name_of(Quantity quantity);
 /// Also accepts '_' and '-' for the blank. \throws InputError
 Quantity parse_quantity(std::string_view name);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -11,7 +11,7 @@
 #include "step/tableau_method.hpp"
 #include "toml/toml_table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A file that stands beside the claims' file, or the name as it is.
@@ -202,4 +202,4 @@ std::vector<Claim> read_claims(const std::string& path) {
   return claims;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

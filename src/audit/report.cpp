@@ -11,7 +11,7 @@
 #include "long_work/json.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = OrderedJson;
@@ -26,7 +26,7 @@ std::string_view name_of(Span span) { return span == Span::step ? "step" : "inte
 std::string_view readable(Quantity quantity) {
   return quantity == Quantity::lagmul   ? "extrapolated lambda"
          : quantity == Quantity::sweeps ? "iterations"
-                                        : hbvm::name_of(quantity);
+                                        : hbvm::core::name_of(quantity);
 }
 
 /// To three decimals, or a power of ten.
@@ -81,7 +81,7 @@ Json json_of(const Finding& f) {
   const Claim& c = f.claim;
   const HbvmMethod* const hbvm = as_hbvm(*c.method);
   Json json{{"claim", c.label},
-            {"quantity", hbvm::name_of(c.quantity)},
+            {"quantity", hbvm::core::name_of(c.quantity)},
             {"problem", c.problem},
             {"method", c.method_text()},
             {"k", hbvm ? Json(hbvm->name().k) : Json(nullptr)},
@@ -109,7 +109,7 @@ Finding finding_of(const Json& j) {
   const std::string verdict_text = j.at("verdict");
   for (const Verdict verdict :
        {Verdict::holds, Verdict::fails, Verdict::undecidable, Verdict::degenerate, Verdict::not_run})
-    if (verdict_text == hbvm::name_of(verdict)) f.verdict = verdict;
+    if (verdict_text == hbvm::core::name_of(verdict)) f.verdict = verdict;
   for (const Json& ladder : j.at("evidence")) {
     Ladder read{ladder.at("precision"), {}};
     for (std::size_t i = 0; i < ladder.at("log2_h").size(); ++i) {
@@ -148,7 +148,7 @@ Table audit_table(const std::vector<Finding>& findings, bool with_reasons) {
     if (is_new)
       table.groups.push_back({c.problem == "tableau" ? "coefficients" : c.problem, {on_one_line(c.problem)}, {}});
     const bool rate = (c.form == Form::at_least || c.form == Form::exactly) && c.problem != "tableau";
-    std::vector<std::string> row{on_one_line(hbvm::readable(c.label)), std::string(readable(c.quantity)),
+    std::vector<std::string> row{on_one_line(hbvm::core::readable(c.label)), std::string(readable(c.quantity)),
                                  rate ? std::string(name_of(c.span)) : ""};
     if (named) {
       row.push_back(on_one_line(c.method_text()));
@@ -159,7 +159,7 @@ Table audit_table(const std::vector<Finding>& findings, bool with_reasons) {
     }
     row.insert(row.end(), {predicted_text(c), short_text(f.measured), short_text(f.uncertainty), f.precision,
                            f.coefficients_to > 0 ? std::to_string(f.coefficients_to) : "---",
-                           std::string(hbvm::name_of(f.verdict))});
+                           std::string(hbvm::core::name_of(f.verdict))});
     if (with_reasons) row.push_back(on_one_line(f.reason));
     table.groups[place->second].rows.push_back(std::move(row));
   }
@@ -193,4 +193,4 @@ std::vector<Finding> read_result(const std::string& text) {
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "audit/finding.hpp"
-#include "report/figure.hpp"
-#include "report/table.hpp"
+#include "hbvm/figure.hpp"
+#include "hbvm/table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One row a finding, a group for each problem; with the reasons as a last column if asked for.
 Table audit_table(const std::vector<Finding>& findings, bool with_reasons = false);
@@ -32,4 +32,4 @@ std::vector<Finding> read_result(const std::string& text);
 /// \throws InputError if the folder cannot be written to
 Figure audit_figure(const std::string& folder);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

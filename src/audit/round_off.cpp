@@ -5,7 +5,7 @@
 #include "sensitivity.hpp"
 #include "trial.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What round-off may do to conserved quantities along a run.
@@ -111,4 +111,4 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& 
 #define HBVM_DEFINE(S) template std::map<Quantity, RoundOff> round_off<S>(const Cell&, const ConservationRun&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "reference/reference_motion.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The greatest magnitude in each block of coordinates, in all its entries.
@@ -73,4 +73,4 @@ Sensitivity Sensitivity::at(const Problem<Mpfr>& problem, Point<Mpfr>& point, in
   return s;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/momenta.hpp"
 #include "problem/point.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What one unit of round-off in a state does to everything that is measured there, as log2 of the change for an
 /// epsilon of 1: each block of coordinates is off by a unit of its own size, of what it changes by within the time
@@ -27,4 +27,4 @@ struct Kick {
 Kick kick(const Problem<Mpfr>& problem, Point<Mpfr>& point, int log2_scale, const Vector<Mpfr>& q,
           const Vector<Mpfr>& p, unsigned pattern);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hbvm {
+namespace hbvm::core {
 
 void raise(Sizes& sizes, Quantity quantity, double error, double floor) {
   const auto [place, is_new] = sizes.try_emplace(quantity, Size{error, floor});
@@ -20,4 +20,4 @@ void Margins::raise(const Margins& other) {
   lambda = std::max(lambda, other.lambda);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

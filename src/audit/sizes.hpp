@@ -6,7 +6,7 @@
 #include "audit/quantity.hpp"
 #include "reference/reference_motion.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Greatest error of a quantity at one step, and what round-off explains of it, as log2.
 struct Size {
@@ -27,4 +27,4 @@ struct Margins {
   bool set(double floor) const { return floor == q || floor == p || floor == lambda; }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "step/hbvm_method.hpp"
 #include "trial.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The derivative of order `order` of q at the start of a step, from the polynomial u: u' = M^-1 sum_j P_j gamma_j,
@@ -139,4 +139,4 @@ double special_value(const Cell& cell) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

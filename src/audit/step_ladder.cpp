@@ -5,7 +5,7 @@
 #include "sizes.hpp"
 #include "trial.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What a few hundred roundings add up to, at most, in units of round-off, as log2.
@@ -131,4 +131,4 @@ Ladders step_ladder(const Cell& cell, const Enough& enough) {
 #define HBVM_DEFINE(S) template Ladders step_ladder<S>(const Cell&, const Enough&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

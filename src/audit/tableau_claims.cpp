@@ -6,7 +6,7 @@
 #include "method/symmetry_defect.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::vector<Claim> tableau_claims(const Tableau& tableau) {
   const auto method = std::make_shared<const TableauMethod>(tableau, tableau.name);
@@ -35,4 +35,4 @@ std::vector<Claim> tableau_claims(const Tableau& tableau) {
   return claims;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

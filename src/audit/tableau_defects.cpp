@@ -10,7 +10,7 @@
 #include "step/hbvm_method.hpp"
 #include "trial.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The same numbers in the digits of the scope.
@@ -84,4 +84,4 @@ std::map<Quantity, double> tableau_defects(const Claim& subject) {
 #define HBVM_DEFINE(S) template std::map<Quantity, double> tableau_defects<S>(const Claim&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "linear/rounded.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 Trial<S>::Trial(const Claim& subject, SolverKind solver)
@@ -91,4 +91,4 @@ Mpfr delta_lambda(Laboratory& laboratory, Trial<S>& trial, const Vector<Mpfr>& q
   template Mpfr delta_lambda<S>(Laboratory&, Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "reference/reference_motion.hpp"
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// to = from, entry by entry, in the digits that `to` has.
 template <class To, class From>
@@ -68,4 +68,4 @@ Mpfr delta_lambda(Laboratory& laboratory, Trial<S>& trial, const Vector<Mpfr>& q
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "method/order_conditions.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr unsigned scope_digits = 60;
@@ -43,7 +43,7 @@ class TypoSearch {
     const Mpfr written = entry;
     if (solve(entry)) {
       const Mpfr change = magnitude(Mpfr(entry - written));
-      const int order = hbvm::order(method_, tolerance_);
+      const int order = hbvm::core::order(method_, tolerance_);
       if (conditions_won(order) >= 3 &&
           (!best_ || order > best_->order || (order == best_->order && change < least_change_))) {
         // As many digits as show the difference, and some more.
@@ -109,4 +109,4 @@ bool is_nearly_of_next_order(const Tableau& tableau, int order) {
   return worst * ways < 1;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "method/runge_kutta.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The one entry of a tableau that keeps it from a higher order.
 struct Typo {
@@ -24,4 +24,4 @@ std::optional<Typo> typo_of(const Tableau& tableau, int order, int digits);
 /// (Gauss's, which come nearest, miss one by 1/binom(p, p/2) of it) that they are likely to be meant.
 bool is_nearly_of_next_order(const Tableau& tableau, int order);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "reference/reference_motion.hpp"
 #include "sensitivity.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr double none = -std::numeric_limits<double>::infinity();
@@ -90,4 +90,4 @@ void WeakTerms::expand(const EffectTerm<Mpfr>& term, Index instance, Sizes& size
     along(inputs_at(scene_.q0, false), Vector<Mpfr>(size_ * Vector<Mpfr>::Unit(inputs, i)));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/effect/term.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Digits in which terms of different degrees are told apart: what is weaker than the rest by more is not seen.
 inline constexpr unsigned digits_of_terms = 1'000;
@@ -44,4 +44,4 @@ class WeakTerms {
   Bits of_g_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

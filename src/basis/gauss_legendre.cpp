@@ -8,7 +8,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The k-th root of the Legendre polynomial of degree n, counted from 1 downwards, to nearly double precision.
@@ -247,4 +247,4 @@ Quadrature<S> gauss_legendre(int n) {
 #define HBVM_DEFINE(S) template Quadrature<S> gauss_legendre<S>(int);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline constexpr int max_quadrature_nodes = 10'000;
 
@@ -25,4 +25,4 @@ struct Quadrature {
 template <Scalar S>
 Quadrature<S> gauss_legendre(int n);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 using std::sqrt;
 
@@ -103,4 +103,4 @@ Matrix<S> legendre_shift(int count) {
   template Matrix<S> legendre_shift<S>(int);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

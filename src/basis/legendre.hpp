@@ -2,7 +2,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Orthonormal shifted Legendre polynomials (18): int_0^1 P_i P_j = delta_ij, P_j(1) = sqrt(2j + 1).
 /// Both functions evaluate by recurrence in the precision of the call, so give coefficients guard digits.
@@ -40,4 +40,4 @@ Matrix<S> legendre_shift(int count);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

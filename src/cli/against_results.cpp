@@ -15,10 +15,11 @@
 #include "progress_bar.hpp"
 #include "read_file.hpp"
 #include "report/csvw.hpp"
+#include "report/draw.hpp"
 #include "signals.hpp"
 #include "written.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// "theirs=ours": theirs may hold no "=".
@@ -236,7 +237,7 @@ void compare_results(const std::optional<std::string>& scene, bool json, const A
   request.progress = [&bar](double part) {
     constexpr long parts = 10'000;
     bar.update(static_cast<long>(part * parts), parts);
-    if (const int signal = interruption) throw Interrupted(signal, "the comparison was not finished");
+    end_if_asked("the comparison was not finished");
   };
   const Against against = compare_with_reference(request);
   if (arguments.plot) {
@@ -250,4 +251,4 @@ void compare_results(const std::optional<std::string>& scene, bool json, const A
   judge(against, arguments);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What `hbvm reference --against` is asked for.
 struct AgainstArguments {
@@ -24,4 +24,4 @@ void add_against_options(CLI::App& command, AgainstArguments& arguments);
 /// that were asked for are not there
 void compare_results(const std::optional<std::string>& scene, bool json, const AgainstArguments& arguments);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

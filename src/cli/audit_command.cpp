@@ -18,12 +18,13 @@
 #include "method/method_spec.hpp"
 #include "method/read_tableau.hpp"
 #include "report/csvw.hpp"
+#include "report/draw.hpp"
 #include "scalar/literal.hpp"
 #include "step/registry.hpp"
 #include "step/tableau_method.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +203,4 @@ void add_audit_command(CLI::App& app) {
   command->callback([o] { audit_command(*o); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

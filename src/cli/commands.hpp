@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Each adds one subcommand to the program; its callback does the work and throws on failure.
 void add_run_command(CLI::App& app);
@@ -18,4 +18,4 @@ void add_report_command(CLI::App& app);
 void add_help_command(CLI::App& app);
 void add_completion_command(CLI::App& app);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "scene/scene.hpp"
 #include "words.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 bool takes_a_scene(const CLI::App& command) { return command.get_option_no_throw("scene") != nullptr; }
@@ -61,4 +61,4 @@ void add_completion_command(CLI::App& app) {
   command->callback([&app] { print_completion(app); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -14,11 +14,12 @@
 #include "interruption.hpp"
 #include "long_work.hpp"
 #include "report/csvw.hpp"
+#include "report/draw.hpp"
 #include "signals.hpp"
 #include "write_file.hpp"
 #include "written.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,7 +81,7 @@ std::function<void(double)> part_done(ProgressBar& bar) {
   return [&bar](double part) {
     constexpr long parts = 10'000;
     bar.update(static_cast<long>(part * parts), parts);
-    end_on_signal("the work was not finished");
+    end_if_asked("the work was not finished");
   };
 }
 
@@ -221,4 +222,4 @@ void add_cost_command(CLI::App& app) {
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

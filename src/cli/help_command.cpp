@@ -4,7 +4,7 @@
 #include "commands.hpp"
 #include "words.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_help_command(CLI::App& app) {
   auto path = std::make_shared<std::vector<std::string>>();
@@ -22,4 +22,4 @@ void add_help_command(CLI::App& app) {
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

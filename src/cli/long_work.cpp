@@ -10,7 +10,7 @@
 #include "hbvm/error.hpp"
 #include "written.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 namespace fs = std::filesystem;
 
@@ -79,4 +79,4 @@ void LongWork::set(CellOptions& options) {
   };
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

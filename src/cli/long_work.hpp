@@ -9,7 +9,7 @@
 #include "long_work/cells.hpp"
 #include "progress_bar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a user says of long work, in the same words for every command.
 struct WorkArguments {
@@ -47,4 +47,4 @@ class LongWork {
   ProgressBar bar_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

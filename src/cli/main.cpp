@@ -28,29 +28,29 @@ int report(int code, std::string what) {
 // Commands whose options clash would end the program here.
 int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   CLI::App app{"Energy-conserving integration of constrained mechanics, HBVM(k,s), at any precision."};
-  hbvm::add_taylor_method();
+  hbvm::core::add_taylor_method();
   app.require_subcommand(1);
   app.set_version_flag("--version", hbvm::version());
   app.footer("Example: hbvm run modified_pendulum --method hbvm:4,2 --step 1/16 --until 20 --precision mpfr:50 --json");
-  hbvm::add_run_command(app);
-  hbvm::add_nodes_command(app);
-  hbvm::add_scenes_command(app);
-  hbvm::add_scene_command(app);
-  hbvm::add_study_command(app);
-  hbvm::add_audit_command(app);
-  hbvm::add_stability_command(app);
-  hbvm::add_reference_command(app);
-  hbvm::add_cost_command(app);
-  hbvm::add_report_command(app);
-  hbvm::add_completion_command(app);
-  hbvm::add_help_command(app);
+  hbvm::core::add_run_command(app);
+  hbvm::core::add_nodes_command(app);
+  hbvm::core::add_scenes_command(app);
+  hbvm::core::add_scene_command(app);
+  hbvm::core::add_study_command(app);
+  hbvm::core::add_audit_command(app);
+  hbvm::core::add_stability_command(app);
+  hbvm::core::add_reference_command(app);
+  hbvm::core::add_cost_command(app);
+  hbvm::core::add_report_command(app);
+  hbvm::core::add_completion_command(app);
+  hbvm::core::add_help_command(app);
   try {
     const CLI::App* command = &app;
     for (int i = 1; i < argc && argv[i][0] != '-' && command->get_require_subcommand_min() > 0; ++i)
-      command = hbvm::find_command(*command, argv[i]);
+      command = hbvm::core::find_command(*command, argv[i]);
     if (argc > 1 && argv[1][0] == '-' && !app.get_option_no_throw(argv[1]))
       throw hbvm::InputError("unknown option '" + std::string(argv[1]) + "' before a command" +
-                             hbvm::did_you_mean(argv[1], hbvm::option_names(app)) + " (see hbvm --help)");
+                             hbvm::core::did_you_mean(argv[1], hbvm::core::option_names(app)) + " (see hbvm --help)");
     app.parse(argc, argv);  // runs the subcommand
     return ok;
   } catch (const CLI::Success& request) {  // --help, --version
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   } catch (const CLI::RuntimeError& finding) {  // a check that did not hold, already reported
     return finding.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    const std::string unexpected = hbvm::unexpected_word(app);  // comes before what is missing for its sake
+    const std::string unexpected = hbvm::core::unexpected_word(app);  // comes before what is missing for its sake
     return report(bad_input, unexpected.empty() ? std::string(error.what()) + " (see hbvm --help)" : unexpected);
   } catch (const hbvm::InputError& error) {
     return report(bad_input, error.what());

@@ -2,14 +2,12 @@
 
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "basis/gauss_legendre.hpp"
 #include "commands.hpp"
-#include "scalar/text.hpp"
-#include "scalar/with_scalar.hpp"
+#include "hbvm/nodes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct NodesArguments {
@@ -19,23 +17,13 @@ struct NodesArguments {
 };
 
 void nodes_command(const NodesArguments& o) {
-  const Precision precision = Precision::parse(o.precision);
-  std::vector<std::string> c, b;
-  with_scalar(precision, [&]<Scalar S>() {
-    const Quadrature<S> formula = gauss_legendre<S>(o.n);
-    for (int i = 0; i < o.n; ++i) {
-      c.push_back(to_text(formula.c[i]));
-      b.push_back(to_text(formula.b[i]));
-    }
-    return 0;
-  });
+  const Nodes found = nodes(o.n, o.precision);
   if (o.json) {
-    const nlohmann::ordered_json j{{"n", o.n}, {"precision", precision.name()}, {"c", c}, {"b", b}};
-    std::cout << j.dump(2) << std::endl;
+    std::cout << to_json(found) << std::endl;
     return;
   }
-  fmt::print("# Gauss-Legendre abscissae and weights on [0,1], n = {}, {}\n", o.n, precision.name());
-  for (std::size_t i = 0; i < c.size(); ++i) fmt::print("{} {}\n", c[i], b[i]);
+  fmt::print("# Gauss-Legendre abscissae and weights on [0,1], n = {}, {}\n", o.n, found.precision);
+  for (std::size_t i = 0; i < found.c.size(); ++i) fmt::print("{} {}\n", found.c[i], found.b[i]);
 }
 
 }  // namespace
@@ -51,4 +39,4 @@ void add_nodes_command(CLI::App& app) {
   command->callback([o] { nodes_command(*o); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

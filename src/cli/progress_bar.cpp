@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace hbvm {
+namespace hbvm::core {
 
 using Clock = std::chrono::steady_clock;
 
@@ -35,4 +35,4 @@ void ProgressBar::update(long done, long total) {
   std::fflush(stderr);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A bar on standard error for work that takes longer than a second, if standard error is a terminal.
 class ProgressBar {
@@ -19,4 +19,4 @@ class ProgressBar {
   std::chrono::steady_clock::time_point start_, last_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

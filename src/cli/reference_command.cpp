@@ -7,11 +7,11 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "against_results.hpp"
 #include "commands.hpp"
+#include "hbvm/reference.hpp"
 #include "hbvm/version.hpp"
 #include "interruption.hpp"
 #include "long_work/cells.hpp"
@@ -23,7 +23,7 @@
 #include "signals.hpp"
 #include "written.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct ReferenceArguments {
@@ -75,32 +75,12 @@ Reference compute(ReferenceRequest request, const std::optional<std::string>& fi
   request.progress = [&](double part) {
     constexpr long parts = 10'000;
     bar.update(static_cast<long>(part * parts), parts);
-    if (const int signal = interruption)
-      throw Interrupted(signal, file ? "the reference was not finished; the same command goes on from '" + *file + "'"
-                                     : "the reference was not finished: nothing is given out");
+    if (stop_asked())
+      throw Interrupted(stop_request->number(),
+                        file ? "the reference was not finished; the same command goes on from '" + *file + "'"
+                             : "the reference was not finished: nothing is given out");
   };
   return compute_reference(request);
-}
-
-nlohmann::ordered_json json_of(const Reference& r, const std::string& until, const std::string& command) {
-  nlohmann::ordered_json j{{"scene", r.scene}, {"until", until}, {"digits", r.digits}};
-  j["times"] = nlohmann::ordered_json::array();
-  for (const ReferenceState& state : r.times) {
-    nlohmann::ordered_json entry{
-        {"t", state.t}, {"q", state.q}, {"p", state.p}, {"lambda", state.lambda}, {"H", state.H}};
-    entry["momenta"] = nlohmann::ordered_json::object();
-    for (std::size_t i = 0; i < state.momenta.size(); ++i) entry["momenta"][r.momentum_names[i]] = state.momenta[i];
-    entry["agreed"] = r.routes.size() > 1 ? nlohmann::ordered_json(state.agreed) : nlohmann::ordered_json(nullptr);
-    j["times"].push_back(entry);
-  }
-  j["routes"] = nlohmann::ordered_json::array();
-  for (const RouteReport& route : r.routes)
-    j["routes"].push_back({{"name", route.name}, {"settings", route.settings}, {"cpu_seconds", route.cpu_seconds}});
-  j["digits_lost"] = r.digits_lost;
-  j["scene_hash"] = r.scene_hash;
-  j["version"] = version();
-  j["command"] = command;
-  return j;
 }
 
 /// Lines of a name and a number, the numbers below one another.
@@ -236,9 +216,7 @@ void reference_command(const ReferenceArguments& o) {
     write_and_say(*o.out, to_toml({reference, version(), today()}));
   }
   if (o.json)
-    std::cout << json_of(reference, o.until.value_or(request.times.back().text()), command)
-                     .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
-              << std::endl;
+    std::cout << to_json(reference, command) << std::endl;
   else
     print(request.scene, reference);
 }
@@ -270,4 +248,4 @@ void add_reference_command(CLI::App& app) {
   command->callback([o] { reference_command(*o); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

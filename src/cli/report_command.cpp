@@ -7,7 +7,7 @@
 #include "write_file.hpp"
 #include "written.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_report_command(CLI::App& app) {
   struct Arguments {
@@ -29,4 +29,4 @@ void add_report_command(CLI::App& app) {
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

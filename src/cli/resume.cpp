@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 bool is_one_of(const std::string& name, const std::vector<std::string>& names) {
@@ -63,4 +63,4 @@ void take_options(CLI::App& command, const std::string& file, const Checkpoint& 
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

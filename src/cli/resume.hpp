@@ -4,7 +4,7 @@
 
 #include "integrate/checkpoint.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 using GivenOptions = std::vector<std::pair<std::string, std::string>>;
 
@@ -16,4 +16,4 @@ GivenOptions given_options(const CLI::App& command);
 ///         contents decide; nor is how it prints and how often it is kept
 void take_options(CLI::App& command, const std::string& file, const Checkpoint& checkpoint);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,15 +6,16 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands.hpp"
+#include "door/run_of.hpp"
 #include "hbvm/version.hpp"
 #include "integrate/time_grid.hpp"
 #include "interruption.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
+#include "report/draw.hpp"
 #include "resume.hpp"
 #include "run/run.hpp"
 #include "run/run_figure.hpp"
@@ -27,7 +28,7 @@
 #include "write_file.hpp"
 #include "written.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct RunArguments {
@@ -41,133 +42,6 @@ struct RunArguments {
   std::optional<Checkpoint> resumed;
   bool scene_given = true, start_given = true;  ///< now, and not only when the checkpoint was written
 };
-
-nlohmann::ordered_json json_of(const Health& health) {
-  nlohmann::ordered_json j{{"condition", health.condition},
-                           {"worst_e_H", health.worst_e_H},
-                           {"worst_hidden", health.worst_hidden},
-                           {"warnings", nlohmann::ordered_json::array()}};
-  for (const Warning& warning : health.warnings)
-    j["warnings"].push_back({{"name", warning.name}, {"text", warning.text}});
-  return j;
-}
-
-std::vector<double> rounded(std::vector<double> digits) {
-  for (double& d : digits) d = std::round(100 * d) / 100;
-  return digits;
-}
-
-nlohmann::ordered_json json_of(const ErrorEstimate& error) {
-  // A stored reference was not made by a run beside.
-  const auto beside = [](const std::string& text) {
-    return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
-  };
-  nlohmann::ordered_json j{
-      {"reference", error.reference}, {"method", beside(error.method)}, {"precision", beside(error.precision)}};
-  if (!error.failure.empty()) {
-    j["failure"] = error.failure;
-    return j;
-  }
-  std::vector<double> digits = error.q_digits;
-  digits.insert(digits.end(), error.p_digits.begin(), error.p_digits.end());
-  j["q"] = error.q;
-  j["p"] = error.p;
-  j["lambda"] = error.lambda.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(error.lambda);
-  j["digits"] = rounded(digits);
-  j["lambda_digits"] = rounded(error.lambda_digits);
-  return j;
-}
-
-nlohmann::ordered_json json_of(const Shadow& shadow) {
-  if (!shadow.failure.empty()) return {{"precision", shadow.precision}, {"failure", shadow.failure}};
-  return {{"precision", shadow.precision},
-          {"digits", {{"q", rounded(shadow.q)}, {"p", rounded(shadow.p)}}},
-          {"worst",
-           {{"component", shadow.worst.component},
-            {"digits", rounded({shadow.worst.digits}).front()},
-            {"t", shadow.worst.t},
-            {"every", shadow.every}}}};
-}
-
-std::string json_of(const RunRequest& request, const RunResult& result, const std::string& command) {
-  nlohmann::ordered_json j;
-  j["scene"] = request.scene.name;
-  j["method"] = result.method->text();
-  j["solver"] = name_of(request.solver);
-  j["precision"] = request.precision.name();
-  j["step"] = result.step;
-  j["until"] = result.until;
-  if (request.direction == Direction::backward) j["reverse"] = true;
-  if (request.start) j["start"] = request.start->file;
-  if (!result.settled.empty()) j["start_settled"] = result.settled;
-  j["steps"] = result.steps;
-  j["t"] = result.t;
-  j["q"] = result.q;
-  j["p"] = result.p;
-  j["q_carry"] = result.q_carry;
-  j["p_carry"] = result.p_carry;
-  j["lambda"] = result.lambda;
-  j["output"] = {{"p", result.output_p}, {"lambda", result.output_lambda}, {"delta_H", result.output_delta_H}};
-  j["e_H"] = result.e_H;
-  j["e_g"] = result.e_g;
-  j["e_hid"] = result.e_hid;
-  j["health"] = json_of(result.health);
-  if (result.shadow) j["shadow"] = json_of(*result.shadow);
-  if (result.error) j["error"] = json_of(*result.error);
-  j["iterations_per_step"] = result.iterations_per_step;
-  j["cpu_seconds"] = result.cpu_seconds;
-  if (result.nodes) {
-    nlohmann::ordered_json raised = nlohmann::ordered_json::array();
-    for (const auto& raise : result.nodes->raised) {
-      raised.push_back({{"t", raise.t}, {"k", raise.k}});
-      if (raise.r > 0) raised.back()["r"] = raise.r;
-    }
-    j["chosen"] = {{"k", result.nodes->k},
-                   {"because", result.nodes->because},
-                   {"raised", raised},
-                   {"verified", result.nodes->verified},
-                   {"verdict", result.nodes->verdict}};
-    if (result.nodes->r > 0) j["chosen"]["r"] = result.nodes->r;
-  }
-  if (result.halving) {
-    const HalvingReport& halving = *result.halving;
-    j["halved"] = {{"steps", halving.steps}, {"substeps", halving.substeps}};
-    if (halving.steps > 0) {
-      j["halved"]["smallest"] = halving.smallest;
-      j["halved"]["first_t"] = halving.first_t;
-    } else {
-      j["halved"]["smallest"] = j["halved"]["first_t"] = nullptr;
-    }
-  }
-  if (!request.scene.observables.empty()) {
-    j["observables"] = nlohmann::ordered_json::object();
-    for (const Observed& o : result.observables)
-      j["observables"][o.name] = {{"initial", o.initial}, {"drift", o.drift}};
-  }
-  if (request.account) {
-    j["account"] = nlohmann::ordered_json::array();
-    for (const AccountLine& line : result.account.lines) {
-      nlohmann::ordered_json entry{{"name", line.name},
-                                   {"effect", line.kind == AccountLine::Kind::effect},
-                                   {"in_double", line.kind == AccountLine::Kind::in_double},
-                                   {"calls", line.calls}};
-      if (line.kind == AccountLine::Kind::effect) entry["evaluations"] = line.evaluations;
-      const auto write_counts = [&](const char* key, const OperationCounts& counts) {
-        for (std::size_t op = 0; op < op_count; ++op)
-          entry[key][name_of(static_cast<Op>(op))] = counts[static_cast<Op>(op)];
-      };
-      write_counts("operations", line.operations);
-      if (line.done_before.total() > 0) write_counts("done_before", line.done_before);
-      entry["seconds"] = line.seconds;
-      j["account"].push_back(entry);
-    }
-  }
-  j["version"] = version();
-  j["command"] = command;
-  j["title"] = request.scene.title;
-  j["scene_text"] = write_scene(request.scene);
-  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // a path need not be UTF-8
-}
 
 /// A vector of the state: its symbol, and what its components are called in tables if they have names there.
 struct Quantity {
@@ -402,7 +276,7 @@ class Plot {
     if (recording_.every > 1)
       figure.footnote +=
           fmt::format("; a point every {} steps, of errors the greatest since the one before", recording_.every);
-    hbvm::draw(figure, file_);
+    hbvm::core::draw(figure, file_);
   }
 
   std::string file_;
@@ -450,7 +324,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
     say_all_written();
     if (plot) plot->draw(request, command_line(o, request));
     if (o.json)
-      std::cout << json_of(request, result, command_line(o, request)) << std::endl;
+      std::cout << to_json(run_of(request, result, command_line(o, request))) << std::endl;
     else
       print(request, result);
     constexpr int doubtful = 3;
@@ -523,4 +397,4 @@ void add_run_command(CLI::App& app) {
   command->callback([o, command] { run_command(*o, *command); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "report/draw.hpp"
 #include "run/describe.hpp"
 #include "run/run_figure.hpp"
 #include "scalar/with_scalar.hpp"
@@ -11,7 +12,7 @@
 #include "scene/with_start.hpp"
 #include "written.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct ProjectArguments {
@@ -89,4 +90,4 @@ void add_scene_command(CLI::App& app) {
   add_show(*scene);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

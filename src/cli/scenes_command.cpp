@@ -3,7 +3,7 @@
 #include "commands.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_scenes_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("scenes", "List the built-in scenes");
@@ -13,4 +13,4 @@ void add_scenes_command(CLI::App& app) {
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

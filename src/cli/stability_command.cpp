@@ -14,9 +14,10 @@
 #include "hbvm/version.hpp"
 #include "long_work.hpp"
 #include "report/csvw.hpp"
+#include "report/draw.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +110,4 @@ void add_stability_command(CLI::App& app) {
   command->callback([o] { stability_command(*o); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "study/study.hpp"
 #include "written.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct StudyArguments {
@@ -99,4 +99,4 @@ void add_study_command(CLI::App& app) {
   command->callback([o] { study_command(*o); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

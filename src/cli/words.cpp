@@ -3,7 +3,7 @@
 #include "hbvm/error.hpp"
 #include "nearest.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -45,4 +45,4 @@ std::string unexpected_word(const CLI::App& app) {
   return "unexpected '" + words.front() + "' (see " + path + " --help)";
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

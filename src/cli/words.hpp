@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The names of the commands of a command.
 std::vector<std::string> command_names(const CLI::App& app);
@@ -18,4 +18,4 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name);
 /// What is wrong with the first word that no option took, if there is one: what was meant, and of which command.
 std::string unexpected_word(const CLI::App& app);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

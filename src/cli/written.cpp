@@ -7,7 +7,7 @@
 #include "hbvm/error.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void say_written(const std::string& file) { fmt::print(stderr, "written to {}\n", file); }
 
@@ -32,4 +32,4 @@ bool has_neighbours(const std::string& file) {
   return std::filesystem::is_regular_file(file, ignored);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

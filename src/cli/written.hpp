@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A line "written to FILE" on standard error.
 void say_written(const std::string& file);
@@ -20,4 +20,4 @@ void refuse_dash(const std::string& option, const std::string& file);
 /// Whether something may be put beside a file: not if it is a pipe or a device.
 bool has_neighbours(const std::string& file);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -25,7 +25,7 @@
 #include "scalar/text.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -371,4 +371,4 @@ Figure against_figure(const AgainstRequest& request, const Against& against, con
   return figure;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

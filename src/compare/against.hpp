@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "report/figure.hpp"
+#include "hbvm/figure.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A file of results of any program: names of columns, then a line a time.
 struct ResultsFile {
@@ -97,4 +97,4 @@ inline constexpr std::size_t most_times = 50;
 /// leave.
 Figure against_figure(const AgainstRequest& request, const Against& against, const std::string& name);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

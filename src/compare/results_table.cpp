@@ -14,7 +14,7 @@
 #include "scalar/text.hpp"
 #include "scene/coordinate_names.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 bool is_one_of(const std::string& name, const std::vector<std::string>& names) {
@@ -173,4 +173,4 @@ std::string ResultsColumns::own_name(const std::string& theirs) const {
   return theirs;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

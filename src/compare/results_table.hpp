@@ -7,7 +7,7 @@
 #include "scalar/expression.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The lines of a file of results, cell by cell: names, then numbers; those that begin with # are comments.
 struct ResultsTable {
@@ -53,4 +53,4 @@ class ResultsColumns {
   std::vector<Reading> readings_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

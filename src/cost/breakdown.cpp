@@ -6,7 +6,7 @@
 #include "cost/cost_report.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 enum Part : std::size_t { forces, constraints, products, corrections, in_double, rest };
@@ -91,4 +91,4 @@ Figure breakdown_figure(const CostStudy& study, const CostOutcome& outcome) {
   return figure;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "clock.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 double typical_nanoseconds(const Precision& precision) {
   // Sums of products as the solver makes them: binary128 in software, mpfr with what surrounds each operation.
@@ -40,4 +40,4 @@ double Calibration<S>::seconds() const {
 #define HBVM_DEFINE(S) template class Calibration<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "scalar/precision.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A fixed count of steps of HBVM(2,2) on three tethered satellites in the working precision: some milliseconds on an
 /// idle machine. Measured beside a run it shows what else the machine was doing, and as it is the solver's own code,
@@ -31,4 +31,4 @@ double typical_nanoseconds(const Precision& precision);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

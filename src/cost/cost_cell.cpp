@@ -18,7 +18,7 @@
 #include "run/run_stepper.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 double median(std::vector<double> values) {
@@ -39,7 +39,8 @@ long bytes_in_use() {
 template <class F>
 long in_new_heap(const F& f, int most = 16) {
   return std::async(std::launch::async,
-                    [&] {
+                    [&, asker = stop_request] {
+                      const StopScope scope(asker);
                       const std::size_t before = mallinfo2().arena;
                       const auto first = std::make_unique<char>();
                       const bool is_new = mallinfo2().arena != before;
@@ -309,4 +310,4 @@ CostSample sample_cost(const Scene& scene, const Expression& until, const CostCe
   return with_scalar(cell.precision, [&]<Scalar S>() { return CostRun<S>(scene, until, cell).sample(most, seconds); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

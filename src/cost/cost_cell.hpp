@@ -9,7 +9,7 @@
 #include "scalar/precision.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One run of a work-precision study: a method, a precision, and the number of its steps.
 struct CostCell {
@@ -73,4 +73,4 @@ struct CostSample {
 /// \param most steps, as long as they take less than so many seconds
 CostSample sample_cost(const Scene& scene, const Expression& until, const CostCell& cell, long most, double seconds);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "reference/reference_motion.hpp"
 #include "scalar/precision.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr std::string_view quantity_names[] = {"q", "p", "lambda", "all"};
@@ -102,4 +102,4 @@ CostErrors CostJudge::errors(const Vector<S>& q, const Vector<S>& p, const Vecto
   template CostErrors CostJudge::errors<S>(const Vector<S>&, const Vector<S>&, const Vector<S>&) const;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "reference/reference.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What of the state at the end has to be right.
 enum class CostQuantity { q, p, lambda, all };
@@ -57,4 +57,4 @@ class CostJudge {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

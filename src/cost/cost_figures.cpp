@@ -10,7 +10,7 @@
 #include "cost/pareto.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What of a measurement is drawn: log10 of an error.
@@ -202,4 +202,4 @@ Figure digits_figure(const CostStudy& study, const CostOutcome& outcome) {
   return figure;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

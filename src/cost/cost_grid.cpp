@@ -14,7 +14,7 @@
 #include "scalar/literal.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Digits of a precision that rounding takes.
@@ -190,4 +190,4 @@ std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& natu
   return cells;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

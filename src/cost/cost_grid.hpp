@@ -6,7 +6,7 @@
 #include "cost/cost_cell.hpp"
 #include "reference/route_run.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a work-precision study is about.
 struct CostStudy {
@@ -48,4 +48,4 @@ std::vector<Precision> default_precisions(double most_digits, const MotionNature
 /// is for; but none that is predicted to take too long.
 std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& nature);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

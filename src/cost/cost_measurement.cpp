@@ -1,7 +1,7 @@
 #include "cost/cost_cell.hpp"
 #include "long_work/json.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 OrderedJson json_of(const CostErrors& errors) {
@@ -76,4 +76,4 @@ CostMeasurement read_cost_measurement(const std::string& text) {
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Methods = std::vector<MethodPtr>;
@@ -147,4 +147,4 @@ double typical_reach(const Method& method) {
   return method.order() <= 2 ? 3 : 2;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

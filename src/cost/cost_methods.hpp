@@ -6,7 +6,7 @@
 #include "scalar/precision.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How near to one another the members of a family are.
 enum class Choice {
@@ -33,4 +33,4 @@ bool suits(const Method& method, const Precision& precision);
 /// choosing steps, which measurements replace.
 double typical_reach(const Method& method);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "long_work/json.hpp"
 #include "reference/store.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string routes_of(const Reference& reference) {
@@ -53,4 +53,4 @@ MotionNature find_nature(const Scene& scene, const Expression& until, CellStore*
   return nature;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "reference/reference.hpp"
 #include "reference/route_run.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The state that runs are compared with, and where it is from.
 struct CostReference {
@@ -33,4 +33,4 @@ CostReference find_cost_reference(const CostReferenceRequest& request);
 MotionNature find_nature(const Scene& scene, const Expression& until, CellStore* store,
                          const std::function<void(double)>& progress);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

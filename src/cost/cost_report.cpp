@@ -11,7 +11,7 @@
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// 10^x in three digits, also where double has no such number.
@@ -249,4 +249,4 @@ std::string to_json(const CostStudy& study, const CostOutcome& outcome, const st
   return dumped(json, 1);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "cost/cost_study.hpp"
+#include "hbvm/figure.hpp"
+#include "hbvm/table.hpp"
 #include "report/csvw.hpp"
-#include "report/figure.hpp"
-#include "report/table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a finding's loop beside it took, over the median of those of its precision: more than 1 where the machine was
 /// slower.
@@ -51,4 +51,4 @@ inline constexpr std::array<std::string_view, 6> cost_parts{
 /// \param all_in_double whether the run itself is, so that its factors and solutions are the same linear algebra
 std::array<double, cost_parts.size()> part_shares(const std::vector<AccountLine>& account, bool all_in_double);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

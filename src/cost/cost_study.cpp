@@ -8,7 +8,7 @@
 #include "long_work/json.hpp"
 #include "long_work/processes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 CostOutcome run_cost_study(const CostStudy& study, const CostOptions& options) {
   CostOutcome outcome;
@@ -89,4 +89,4 @@ CostOutcome run_cost_study(const CostStudy& study, const CostOptions& options) {
   return outcome;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "cost/step_time.hpp"
 #include "long_work/cells.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 struct CostOptions : CellOptions {
   std::function<void(double)> reference_progress = {};  ///< it may throw to end the work
@@ -38,4 +38,4 @@ struct CostOutcome {
 /// \throws InputError, IntegrationError
 CostOutcome run_cost_study(const CostStudy& study, const CostOptions& options);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -14,7 +14,7 @@
 #include "scalar/with_scalar.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const char* const cost_to_equal = "hbvm:2,2";
@@ -195,4 +195,4 @@ std::vector<const EnergyCost*> at_equal_cost(const std::vector<EnergyCost>& runs
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,10 +5,10 @@
 
 #include "cost/cost_cell.hpp"
 #include "cost/cost_grid.hpp"
-#include "report/figure.hpp"
-#include "report/table.hpp"
+#include "hbvm/figure.hpp"
+#include "hbvm/table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A run of which the energy is looked at.
 struct EnergyCost {
@@ -47,4 +47,4 @@ Figure energy_figure(const CostStudy& study, const Expression& until, const std:
 /// What more nodes than stages cost, and what the error of H is with them.
 Figure conserving_figure(const CostStudy& study, const std::vector<EnergyCost>& runs);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Panel energy_panel(const std::string& title) {
@@ -103,4 +103,4 @@ Figure conserving_figure(const CostStudy& study, const std::vector<EnergyCost>& 
   return figure;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

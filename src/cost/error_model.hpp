@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Digits that a run with steps h leaves right: order log10(reach / h) - lost. The error of a step of order p is
 /// (h/reach)^p, which for many stages is the geometric convergence of the series of a step; the motion magnifies it by
@@ -21,4 +21,4 @@ struct ErrorModel {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

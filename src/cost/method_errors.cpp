@@ -9,7 +9,7 @@
 #include "scalar/literal.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Methods of this many stages show in double what more stages do.
@@ -126,4 +126,4 @@ void MethodErrors::share_reach() {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "cost/error_model.hpp"
 #include "cost/planner.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Whether it is HBVM(s,s), whose errors are those of its neighbours but for the order.
 bool is_gauss(const Method& method);
@@ -53,4 +53,4 @@ class MethodErrors {
   std::vector<PlannedMethod> methods_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

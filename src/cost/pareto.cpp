@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::vector<std::size_t> pareto_front(const std::vector<CostPoint>& points) {
   std::vector<std::size_t> order;
@@ -19,4 +19,4 @@ std::vector<std::size_t> pareto_front(const std::vector<CostPoint>& points) {
   return front;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A point of a work-precision diagram.
 struct CostPoint {
@@ -14,4 +14,4 @@ struct CostPoint {
 /// are none.
 std::vector<std::size_t> pareto_front(const std::vector<CostPoint>& points);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = OrderedJson;
@@ -95,4 +95,4 @@ std::string to_text(const PlanRequest& request, const Plan& plan) {
   return text;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

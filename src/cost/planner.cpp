@@ -11,7 +11,7 @@
 #include "hbvm/error.hpp"
 #include "method_errors.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A setting on the way to the pick.
@@ -308,4 +308,4 @@ Plan plan_cost(const PlanRequest& request) {
   return plan;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "scalar/precision.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 struct PlanRequest {
   Scene scene;
@@ -58,4 +58,4 @@ std::string to_json(const PlanRequest& request, const Plan& plan, const std::str
 /// The same for people, with the command that makes the run.
 std::string to_text(const PlanRequest& request, const Plan& plan);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "long_work/json.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Seen beside one another: of each kind of method and of few and many stages.
@@ -134,4 +134,4 @@ Figure step_time_figure(const CostStudy& study, const std::vector<StepTime>& tim
   return figure;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

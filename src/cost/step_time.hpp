@@ -5,10 +5,10 @@
 
 #include "cost/cost_cell.hpp"
 #include "cost/cost_grid.hpp"
-#include "report/figure.hpp"
-#include "report/table.hpp"
+#include "hbvm/figure.hpp"
+#include "hbvm/table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a step of one size costs in a precision.
 struct StepTime {
@@ -33,4 +33,4 @@ Table step_time_table(const CostStudy& study, const std::vector<StepTime>& times
 /// The time of a step against the digits, and that in quad over that with mpfr:34.
 Figure step_time_figure(const CostStudy& study, const std::vector<StepTime>& times);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

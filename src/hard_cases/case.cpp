@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 bool holds_any(const std::vector<std::string>& list, const std::vector<std::string>& wanted) {
@@ -88,4 +88,4 @@ CaseFinding lost(const HardCase& hard_case, const std::string& reason) {
   return finding;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A number that must not exceed its bound; NaN does.
 struct Criterion {
@@ -73,4 +73,4 @@ CaseFinding judge(const HardCase& hard_case, CaseResult result);
 /// A case that never came to a result: a crash, or no end in its time.
 CaseFinding lost(const HardCase& hard_case, const std::string& reason);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

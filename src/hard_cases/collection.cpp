@@ -2,7 +2,7 @@
 
 #include "family.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::vector<HardCase> hard_cases(Collection collection) {
   std::vector<HardCase> cases;
@@ -13,4 +13,4 @@ std::vector<HardCase> hard_cases(Collection collection) {
   return cases;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

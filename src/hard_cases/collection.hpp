@@ -4,7 +4,7 @@
 
 #include "hard_cases/case.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 enum class Collection {
   quick,  ///< of each family some cases, and short runs: a minute
@@ -14,4 +14,4 @@ enum class Collection {
 /// The hard cases, family after family.
 std::vector<HardCase> hard_cases(Collection collection);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "hard_cases/collection.hpp"
 #include "measure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One run of a hard case, but for its precision.
 struct HardRun {
@@ -78,4 +78,4 @@ void add_reversal(std::vector<HardCase>& cases, Collection collection);
 void add_beads(std::vector<HardCase>& cases, Collection collection);
 void add_momenta(std::vector<HardCase>& cases, Collection collection);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -18,7 +18,7 @@
 #include "walk.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Points = std::vector<PlotPoint>;
@@ -180,4 +180,4 @@ std::vector<Figure> stability_figures(const std::string& folder, const std::stri
   return {growth(folder), separatrix(folder, before), light_body(folder, before), hidden(folder)};
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

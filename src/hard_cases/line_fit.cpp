@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace hbvm {
+namespace hbvm::core {
 
 LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   const auto count = static_cast<double>(x.size());
@@ -24,4 +24,4 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   return fit;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The line through points (x, y) by least squares.
 struct LineFit {
@@ -12,4 +12,4 @@ struct LineFit {
 /// \param x, y as many of each, at least two different x
 LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

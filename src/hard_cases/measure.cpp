@@ -18,7 +18,7 @@
 #include "scene/assemble.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr unsigned more_digits = 20;
@@ -194,7 +194,7 @@ CaseResult energy(const RunRequest& request) {
     const TemporaryFile file;
     RunHooks hooks;
     hooks.open_csv = [&] { return std::make_unique<CsvFile>(file.path(), CsvFile::Opening::anew); };
-    const RunResult run = hbvm::run(request, hooks);
+    const RunResult run = hbvm::core::run(request, hooks);
     std::ifstream csv(file.path());
     // e_H over epsilon, where no number leaves its range.
     const double units =
@@ -208,4 +208,4 @@ CaseResult energy(const RunRequest& request) {
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

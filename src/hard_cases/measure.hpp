@@ -6,7 +6,7 @@
 #include "motion.hpp"
 #include "run/run.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What the body returns; of a run that ended with a typed error, its cause and message. "refused" is an InputError,
 /// "integration_error" one without a cause.
@@ -39,4 +39,4 @@ CaseResult reversal(const RunRequest& request);
 /// the run gives of itself. The number of nodes may be the program's choice.
 CaseResult energy(const RunRequest& request);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr long samples = 8;
@@ -175,4 +175,4 @@ SampledMotion motion_of(const RunRequest& request, const Twist& twist) {
   return with_scalar(request.precision, [&]<Scalar S>() { return motion_in<S>(request, twist); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

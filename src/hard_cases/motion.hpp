@@ -5,7 +5,7 @@
 #include "run/run.hpp"
 #include "scalar/big_float.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A state, free of its number type: every number exactly.
 struct ExactState {
@@ -32,4 +32,4 @@ struct Twist {
 /// \throws StepError, InputError
 SampledMotion motion_of(const RunRequest& request, const Twist& twist = {});
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = OrderedJson;
@@ -100,4 +100,4 @@ CaseFinding read_case_result(const std::string& text) {
   return read_json(text, "a hard case", [](const Json& json) { return finding_of(json); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

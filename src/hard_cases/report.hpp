@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "hard_cases/case.hpp"
-#include "report/figure.hpp"
-#include "report/table.hpp"
+#include "hbvm/figure.hpp"
+#include "hbvm/table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One row a case, a group for each family.
 Table stability_table(const std::vector<CaseFinding>& findings);
@@ -31,4 +31,4 @@ std::string to_result(const CaseFinding& finding);
 /// \throws InputError if it is none
 CaseFinding read_case_result(const std::string& text);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -303,4 +303,4 @@ Scene beads_on_sphere(int beads) {
   return text.effect("coulomb", "1").read("beads_on_sphere");
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The scenes of the hard cases, each made of a parameter (exact text, as in scene files).
 
@@ -50,4 +50,4 @@ Scene whip(int rods);
 /// So many equal charges on the unit sphere.
 Scene beads_on_sphere(int beads);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "hard_cases/report.hpp"
 #include "long_work/processes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::vector<CaseFinding> stability(const std::vector<HardCase>& cases, const StabilityOptions& options) {
   const std::string collection = options.collection == Collection::full ? "full|" : "quick|";
@@ -30,4 +30,4 @@ std::vector<CaseFinding> stability(const std::vector<HardCase>& cases, const Sta
   return findings;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "hard_cases/collection.hpp"
 #include "long_work/cells.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 struct StabilityOptions : CellOptions {
   Collection collection = Collection::quick;  ///< that the cases are of: in the full one they run longer
@@ -19,4 +19,4 @@ struct StabilityOptions : CellOptions {
 /// \throws Error if a process cannot be started
 std::vector<CaseFinding> stability(const std::vector<HardCase>& cases, const StabilityOptions& options);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

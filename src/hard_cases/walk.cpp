@@ -15,7 +15,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void Straying::add(double value) {
   if (n_ == 0) {
@@ -182,4 +182,4 @@ CaseResult long_run(const RunRequest& request) {
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

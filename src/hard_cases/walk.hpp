@@ -6,7 +6,7 @@
 #include "hard_cases/case.hpp"
 #include "run/run.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How far a quantity strays within n steps, for every power of two n: the mean, over the windows of n steps that
 /// follow one another, of the greatest distance from the value at the window's start. A mean of many windows scatters
@@ -45,4 +45,4 @@ Walk walk_of(const RunRequest& request);
 /// few roundings of what each step adds, of either sign, and those of their evaluation.
 CaseResult long_run(const RunRequest& request);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

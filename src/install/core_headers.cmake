@@ -1,8 +1,7 @@
 # The headers of hbvm_core for those who write a method, an effect, a constraint or a loop of their own: these roots and
 # all that they include, below OUTPUT/hbvm/core, where they name one another by that path. In src each stands beside its
 # source and is named from src.
-set(core_roots scalar/text.hpp scene/assemble.hpp step/hbvm_method.hpp step/registry.hpp integrate/time_grid.hpp
-    run/simulate.hpp)
+set(core_roots scalar/text.hpp scene/assemble.hpp step/hbvm_method.hpp step/registry.hpp integrate/time_grid.hpp)
 
 function(make_core_headers source output)
   set(open ${core_roots})

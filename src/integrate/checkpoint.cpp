@@ -13,7 +13,7 @@
 #include "hbvm/error.hpp"
 #include "read_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ void Checkpoints::load(const std::function<void(Archive&)>& contents) {
   archive.expect_end();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "scalar/archive.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a run is, so that nothing else goes on from its checkpoint.
 struct RunIdentity {
@@ -59,4 +59,4 @@ class Checkpoints {
   bool resumes_ = false;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

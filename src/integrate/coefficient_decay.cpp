@@ -2,7 +2,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 CoefficientDecay<S>::CoefficientDecay(const Problem<S>& problem, int s, const S& step)
@@ -74,4 +74,4 @@ typename CoefficientDecay<S>::Worst CoefficientDecay<S>::worst(const Vector<S>& 
 #define HBVM_DEFINE(S) template class CoefficientDecay<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/problem.hpp"
 #include "solver/stage_equations.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Whether the steps resolve the motion, body by body. The momentum of (54) over a step is the polynomial
 /// sum_{j <= s} gamma_j P_j, whose last coefficient the stages neglect:
@@ -62,4 +62,4 @@ class CoefficientDecay {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

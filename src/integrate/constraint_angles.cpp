@@ -6,7 +6,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// 1/sin^2 up to which a factorisation in double is right to three digits: its error is some 1/sin^2 epsilon.
@@ -116,4 +116,4 @@ void ConstraintAngles<S>::observe(ConstraintGradient<S>& gradient, const Snapsho
 #define HBVM_DEFINE(S) template class ConstraintAngles<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

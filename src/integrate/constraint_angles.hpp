@@ -5,7 +5,7 @@
 #include "linear/ordering.hpp"
 #include "problem/constraint_gradient.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How close the constraints come to dependence over the mesh, seen by angles alone, so that neither units nor a light
 /// body beside a heavy one nor the order of the constraints count: sin^2 of the angle, in the metric M^-1, between each
@@ -75,4 +75,4 @@ class ConstraintAngles {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

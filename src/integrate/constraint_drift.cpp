@@ -2,7 +2,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 ConstraintDrift<S>::ConstraintDrift(const Problem<S>& problem, const S& rounding)
@@ -57,4 +57,4 @@ void ConstraintDrift<S>::observe(ConstraintGradient<S>& gradient, const Matrix<S
 #define HBVM_DEFINE(S) template class ConstraintDrift<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

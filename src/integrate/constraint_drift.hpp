@@ -5,7 +5,7 @@
 #include "integrate/observer.hpp"
 #include "problem/constraint_gradient.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How far constraints have moved from their values at the start, each relative to its own size. The nearest state
 /// where g_a is what it was lies along w = M^-1 grad g_a. There g_a is, but for terms of order 3, a polynomial of
@@ -53,4 +53,4 @@ class ConstraintDrift {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

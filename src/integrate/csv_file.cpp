@@ -11,7 +11,7 @@
 #include "file_lock.hpp"
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr std::size_t buffer_size = 1U << 16U;
@@ -120,4 +120,4 @@ int CsvFile::Buffer::sync() {
   return 0;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

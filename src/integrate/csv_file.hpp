@@ -6,7 +6,7 @@
 #include "checksum.hpp"
 #include "scalar/archive.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A text file of lines that always ends with a complete one, also when the disk is full or the process is ended: what
 /// is written to it reaches the file in whole lines, and a line that does not fit is taken back.
@@ -53,4 +53,4 @@ class CsvFile final : public std::ostream {
   Buffer buffer_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

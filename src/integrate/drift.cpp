@@ -2,7 +2,7 @@
 
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 void Drift<S>::observe(const Snapshot<S>& snapshot) {
@@ -40,4 +40,4 @@ void Drift<S>::watch_redundant(const Snapshot<S>& snapshot) {
 #define HBVM_DEFINE(S) template class Drift<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/redundant_constraints.hpp"
 #include "solver/stage_failure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A constraint that followed from the others at the start has ceased to.
 class RedundancyLost final : public IntegrationError {
@@ -62,4 +62,4 @@ class Drift final : public Observer<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "linear/product.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 EnergyBalance<S>::EnergyBalance(const Problem<S>& problem)
@@ -51,4 +51,4 @@ S EnergyBalance<S>::rounding() {
 #define HBVM_DEFINE(S) template class EnergyBalance<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

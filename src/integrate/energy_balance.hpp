@@ -5,7 +5,7 @@
 #include "integrate/energy_change.hpp"
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The greatest |H_n - H_0| over the mesh, and what it is to be compared with: the greatest of the terms of H along the
 /// path, |T| and each effect's |U|.
@@ -46,4 +46,4 @@ class EnergyBalance {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 void EnergyChange<S>::remember(Archive& archive) {
@@ -63,4 +63,4 @@ typename EnergyChange<S>::Change EnergyChange<S>::change() const {
 #define HBVM_DEFINE(S) template class EnergyChange<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

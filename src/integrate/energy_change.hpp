@@ -4,7 +4,7 @@
 
 #include "integrate/observer.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Whether a motion still has the energy it began with. An error of H is compared with the kinetic energy T, at its own
 /// mesh point and as half of the mesh points have it, whichever is more. T does not depend on where a potential is 0. A
@@ -45,4 +45,4 @@ class EnergyChange {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "integrate/energy_scale.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 void EnergyScale<S>::observe(const Snapshot<S>& snapshot) {
@@ -18,4 +18,4 @@ S EnergyScale<S>::round_off(long steps) const {
 #define HBVM_DEFINE(S) template class EnergyScale<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

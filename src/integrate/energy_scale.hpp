@@ -3,7 +3,7 @@
 #include "integrate/observer.hpp"
 #include "problem/energy_terms.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What an energy error is to be compared with: maxima over the mesh of the size of the terms of H, and of what its
 /// round-off is proportional to.
@@ -30,4 +30,4 @@ class EnergyScale final : public Observer<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Of a body.
@@ -166,4 +166,4 @@ S HiddenCosines<S>::power() const {
 #define HBVM_DEFINE(S) template class HiddenCosines<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

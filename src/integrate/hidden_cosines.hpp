@@ -5,7 +5,7 @@
 #include "integrate/observer.hpp"
 #include "problem/constraint_gradient.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The hidden constraints relative to the speed: for each constraint the greatest |grad g_a^T v| over the mesh, divided
 /// by the greater of two speeds. The one is that of what it touches: the greatest sum over the bodies (or directors) of
@@ -83,4 +83,4 @@ class HiddenCosines {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

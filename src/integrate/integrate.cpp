@@ -9,7 +9,7 @@
 #include "problem/point.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
@@ -44,7 +44,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     std::size_t made = 0;
     const double before = thread_seconds(), elapsed_before = elapsed_seconds();
     try {
-      for (; made < block && n < grid.steps() && interruption == 0; ++made) {
+      for (; made < block && n < grid.steps() && !stop_asked(); ++made) {
         result.sweeps += stepper.step(state, grid.step());
         Snapshot<S>& snapshot = snapshots[made];
         snapshot.n = ++n;
@@ -67,12 +67,14 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     if (made > 0) result.end = snapshots[made - 1];
     block = seconds > long_enough ? std::max<std::size_t>(block / 2, 1) : std::min(2 * block, snapshots.size());
 
-    const int signal = n < grid.steps() ? interruption.load() : 0;
-    if (checkpoints && !failure && !within_step && (signal != 0 || n == grid.steps() || checkpoints->due()))
+    const bool asked = n < grid.steps() && stop_asked();
+    if (checkpoints && !failure && !within_step && (asked || n == grid.steps() || checkpoints->due()))
       checkpoints->save(contents);
-    if (signal != 0 && !failure)
-      throw Interrupted(signal, std::string("interrupted by SIG") + sigabbrev_np(signal) + " after step " +
-                                    std::to_string(n) + ", t = " + to_text(result.end.t));
+    if (asked && !failure) {
+      const int signal = stop_request->number();
+      throw Interrupted(signal, (signal != 0 ? std::string("interrupted by SIG") + sigabbrev_np(signal) : "stopped") +
+                                    " after step " + std::to_string(n) + ", t = " + to_text(result.end.t));
+    }
   }
   if (failure) throw StepError(*failure);
   result.steps = grid.steps();
@@ -84,4 +86,4 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
                                        Checkpoints*);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

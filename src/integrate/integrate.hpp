@@ -8,7 +8,7 @@
 #include "integrate/time_grid.hpp"
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 struct Integration {
@@ -34,4 +34,4 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "integrate/observer.hpp"
 #include "problem/momenta.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The greatest change over the mesh of each component of momentum that the problem conserves.
 template <Scalar S>
@@ -39,4 +39,4 @@ class MomentumDrift final : public Observer<S> {
   std::vector<S> initial_, drift_, size_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

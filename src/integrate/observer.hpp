@@ -4,7 +4,7 @@
 #include "linear/matrix.hpp"
 #include "scalar/archive.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The solution at one mesh point. `lambda` is (57) of the step that ends there; at n = 0 that of the exact state,
 /// Theorem 1.
@@ -25,4 +25,4 @@ class Observer {
   virtual void remember(Archive&) { throw InputError("--checkpoint: something that looks at this run cannot be kept"); }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

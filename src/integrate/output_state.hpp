@@ -2,7 +2,7 @@
 
 #include "problem/point.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What one reports beside the propagated state (q, p): p projected once, on a copy, to the tangent space, and the
 /// multiplier of Theorem 1 there. Both, like q, converge with order 2s, where raw p and the multiplier (57) show s or
@@ -21,4 +21,4 @@ OutputState<S> output_state(Point<S>& point, const Vector<S>& q, const Vector<S>
   return output;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "integrate/step_error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string seen(long step, const std::string& time, const StageFailure& failure) {
@@ -27,4 +27,4 @@ StepError::StepError(const StepError& error, const std::string& advice)
       increment_(error.increment_),
       seen_(error.seen_) {}
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "solver/stage_failure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A step that could not be made. What was computed before it has been shown to the observers.
 class StepError : public IntegrationError {
@@ -24,4 +24,4 @@ class StepError : public IntegrationError {
   std::string seen_;  ///< without the advice
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -47,4 +47,4 @@ S TimeGrid<S>::time(long n) const {
 #define HBVM_DEFINE(S) template class TimeGrid<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "scalar/expression.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 enum class Direction { forward, backward };
 
@@ -35,4 +35,4 @@ class TimeGrid {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "integrate/output_state.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -50,4 +50,4 @@ void Trajectory<S>::observe(const Snapshot<S>& s) {
 #define HBVM_DEFINE(S) template class Trajectory<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

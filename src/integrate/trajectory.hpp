@@ -8,7 +8,7 @@
 #include "problem/point.hpp"
 #include "problem/redundant_constraints.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Writes every `every`-th mesh point and the last as a line of comma-separated decimals that read back exactly:
 /// t, q, p, (57), the output state's p and multiplier, H - H_0, and the max-norms of g and of the hidden
@@ -38,4 +38,4 @@ class Trajectory final : public Observer<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "scene/coordinate_names.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A name may hold anything; readers that skip one line of names want one.
@@ -44,4 +44,4 @@ std::vector<std::string> names_of(const std::vector<TrajectoryColumn>& columns) 
   return names;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

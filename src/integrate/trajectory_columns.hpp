@@ -5,7 +5,7 @@
 
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A column of a trajectory.
 struct TrajectoryColumn {
@@ -21,4 +21,4 @@ std::vector<TrajectoryColumn> trajectory_columns(const Scene& scene, const std::
 /// Their names alone.
 std::vector<std::string> names_of(const std::vector<TrajectoryColumn>& columns);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

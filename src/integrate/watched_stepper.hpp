@@ -3,7 +3,7 @@
 #include "integrate/coefficient_decay.hpp"
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Another stepper's steps, with the solution of each shown to `decay`. Both must outlive it.
 template <Scalar S>
@@ -28,4 +28,4 @@ class WatchedStepper final : public Stepper<S> {
   CoefficientDecay<S>& decay_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "linear/limb_products.hpp"
 #include "linear/limb_sum.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr long no_exponent = std::numeric_limits<long>::min();
@@ -91,4 +91,4 @@ bool AlignedMatrix::times(Mpfr* r, const Mpfr* x, Index stride) {
   return true;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A matrix that multiplies many vectors, its entries as whole multiples of one unit far below the last digit of the
 /// largest: then a product of a row with a vector, brought to one unit as well, is one of whole numbers. They need
@@ -38,4 +38,4 @@ class AlignedMatrix {
   std::vector<signed char> x_signs_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "linear/limb_sum.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Room above the largest coefficient, so that those that follow may be somewhat larger.
@@ -101,4 +101,4 @@ void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, In
   set_limb_sum(raw(r), sum, limbs + 2, a.exponent_ + b.exponent_ - limb_bits * (L - limbs));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The coefficients of a power series as whole multiples of one unit, far below the last digit of the largest. Where
 /// they fall, the later ones are shorter numbers, and a convolution multiplies of each pair only what counts beside the
@@ -45,4 +45,4 @@ class AlignedSeries {
 /// finite.
 void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first, Index last);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

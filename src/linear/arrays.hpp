@@ -3,7 +3,7 @@
 #include "linear/matrix.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Arithmetic in place, as of one number (in_place.hpp), entry by entry of whole matrices or vectors of one size. None
 /// of it allocates.
@@ -32,4 +32,4 @@ void set_product(Eigen::PlainObjectBase<R>& r, const typename A::Scalar& factor,
   for (Index i = 0; i < a.size(); ++i) set_product(r.data()[i], factor, a.data()[i]);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "linear/index.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// f(n), with n as a constant of its type where it is one of the small numbers of stages that are usual in double:
 /// there the compiler unrolls what would be mostly loop. The formulas are the same, and so is the order of their sums.
@@ -46,4 +46,4 @@ template <Scalar S, class F>
 template <class Count>
 inline constexpr bool is_constant_count = !std::same_as<Count, Index>;
 
-}  // namespace hbvm
+}  // namespace hbvm::core

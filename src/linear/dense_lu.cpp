@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Columns of a block: with all rows of some hundreds they fit the second cache.
@@ -98,4 +98,4 @@ bool factor_dense(double* a, Index n, std::vector<Index>& pivots) {
   return true;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 
 #include "linear/index.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The factors of the columns from `first` to `end` of an n x n matrix, from row `first` on: P a = L U of a whole one.
 /// Row k was exchanged with row pivots[k], in these columns alone. n and `end` may be constants of their types.
@@ -38,4 +38,4 @@ template <class Count>
 /// \return false if a pivot is 0 or not finite
 [[nodiscard]] bool factor_dense(double* a, Index n, std::vector<Index>& pivots);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The matrix, or the vector, of the doubles next to the entries: for Jacobians and start values, never for a result.
 template <Scalar S>
@@ -23,4 +23,4 @@ Vector<double> in_double(const Vector<S>& a) {
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

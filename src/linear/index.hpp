@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Of rows, columns and coordinates; Eigen's.
 using Index = std::ptrdiff_t;
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 void InverseDiagonal<S>::resize(Index n, Index half_bandwidth) {
@@ -44,4 +44,4 @@ bool InverseDiagonal<S>::compute() {
 #define HBVM_DEFINE(S) template class InverseDiagonal<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

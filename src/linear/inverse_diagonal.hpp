@@ -5,7 +5,7 @@
 #include "linear/index.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The diagonal of the inverse of a symmetric positive definite matrix with all entries a_ij, |i - j| > b, zero, by
 /// A = L D L^T without pivoting and, from the last row to the first, what A^-1 = D^-1 L^-1 + (I - L^T) A^-1 says of the
@@ -41,4 +41,4 @@ class InverseDiagonal {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

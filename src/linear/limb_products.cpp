@@ -5,7 +5,7 @@
 
 #include "linear/limb_sum.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 namespace {
 
@@ -101,4 +101,4 @@ void LimbProducts::set_upper_sum(mp_limb_t* sum, long limbs) {
   mpn_sub_n(sum, sum, taken_.data(), limbs + 2);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

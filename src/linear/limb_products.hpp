@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Products of whole numbers, each of as many limbs, that are added or subtracted.
 class LimbProducts {
@@ -57,4 +57,4 @@ class LimbProducts {
   std::vector<mp_limb_t> taken_, scratch_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

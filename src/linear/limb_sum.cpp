@@ -1,6 +1,6 @@
 #include "linear/limb_sum.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void set_limb_sum(mpfr_ptr r, mp_limb_t* sum, long width, mpfr_exp_t exponent) {
   const bool negative = sum[width - 1] >> (limb_bits - 1) != 0;
@@ -19,4 +19,4 @@ void set_limb_sum(mpfr_ptr r, mp_limb_t* sum, long width, mpfr_exp_t exponent) {
   mpfr_set(r, view, MPFR_RNDN);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <gmp.h>
 #include <mpfr.h>
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline constexpr long limb_bits = GMP_NUMB_BITS;
 /// From about here on mpfr_mul, which computes the upper half of a product alone, is as fast as sums of whole products.
@@ -13,4 +13,4 @@ inline constexpr long max_limbs = 24;
 /// first; its limbs are overwritten.
 void set_limb_sum(mpfr_ptr r, mp_limb_t* sum, long width, mpfr_exp_t exponent);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "linear/dense_lu.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 void Lu<S>::resize(Index n, Index half_bandwidth) {
@@ -26,13 +26,13 @@ void Lu<S>::resize(Index n, Index half_bandwidth) {
 
 template <Scalar S>
 void Lu<S>::set_zero() {
-  for (S& x : data_) hbvm::set_zero(x);
+  for (S& x : data_) hbvm::core::set_zero(x);
 }
 
 template <Scalar S>
 void Lu<S>::set(const Matrix<S>& a) {
   resize(a.rows(), a.rows());
-  for (Index i = 0; i < a.size(); ++i) hbvm::set(data_[static_cast<std::size_t>(i)], a.data()[i]);
+  for (Index i = 0; i < a.size(); ++i) hbvm::core::set(data_[static_cast<std::size_t>(i)], a.data()[i]);
 }
 
 namespace {
@@ -176,4 +176,4 @@ OperationCounts Lu<S>::solve_operations() const {
 #define HBVM_DEFINE(S) template class Lu<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

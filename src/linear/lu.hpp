@@ -6,7 +6,7 @@
 #include "linear/operation_counts.hpp"
 #include "scalar/archive.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// P a = L U with partial pivoting in the working precision, of a square matrix with all entries a_ij, |i - j| > b,
 /// zero for a half bandwidth b; b = n - 1 is a dense matrix. It takes O(n b^2) operations, and O(n b) to solve. Storage
@@ -57,4 +57,4 @@ class Lu {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "linear/index.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 static_assert(std::same_as<Index, Eigen::Index>);
 
@@ -61,4 +61,4 @@ S distance(const Vector<S>& a, const Vector<S>& b) {
   return max_norm(Vector<S>(a - b));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "linear/limb_sum.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 long limbs_of(mpfr_srcptr x) { return (mpfr_get_prec(x) + limb_bits - 1) / limb_bits; }
@@ -62,4 +62,4 @@ bool dot(mpfr_ptr r, const Mpfr* x, long x_stride, const Mpfr* y, long y_stride,
   return true;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

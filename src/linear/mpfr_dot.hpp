@@ -2,7 +2,7 @@
 
 #include "scalar/mpfr.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// r = sum_i x_i y_i for i < n, where x_i stands at x[i * x_stride], in one go: the products are added exactly but for
 /// what lies more than a limb below the last digit of the largest one, and rounded once, so that the error is that of
@@ -13,4 +13,4 @@ namespace hbvm {
 /// that the product itself is all that counts
 bool dot(mpfr_ptr r, const Mpfr* x, long x_stride, const Mpfr* y, long y_stride, long n);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Rows = std::vector<UncertainRow>;
@@ -105,4 +105,4 @@ std::vector<UncertainRow> null_space(Rows a, std::size_t columns, std::size_t fi
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "scalar/uncertain.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 using UncertainRow = std::vector<Uncertain>;
 
@@ -15,4 +15,4 @@ using UncertainRow = std::vector<Uncertain>;
 /// entries of different units are ever compared, so that a row of small numbers counts as much as one of large ones.
 std::vector<UncertainRow> null_space(std::vector<UncertainRow> a, std::size_t columns, std::size_t first_of_second);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

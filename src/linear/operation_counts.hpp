@@ -5,7 +5,7 @@
 
 #include "linear/index.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The operations a formula is made of; sinc, sinhc, atanhc and atanc, which differences of it need, are sin x / x,
 /// sinh x / x and so on, 1 at 0.
@@ -86,4 +86,4 @@ class OperationCounts {
   std::array<std::uint64_t, op_count> counts_{};
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

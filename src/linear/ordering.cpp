@@ -4,7 +4,7 @@
 #include <boost/graph/cuthill_mckee_ordering.hpp>
 #include <numeric>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Index half_bandwidth(const std::vector<Index>& position, const std::vector<std::pair<Index, Index>>& entries) {
@@ -33,4 +33,4 @@ Ordering order_for_band(Index n, const std::vector<std::pair<Index, Index>>& ent
   return width < natural.half_bandwidth ? Ordering{position, width} : natural;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "linear/index.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// An order of n things in which those that share an entry of a matrix stand close together.
 struct Ordering {
@@ -16,4 +16,4 @@ struct Ordering {
 /// By reverse Cuthill-McKee, or as they come if that is no worse.
 Ordering order_for_band(Index n, const std::vector<std::pair<Index, Index>>& entries);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

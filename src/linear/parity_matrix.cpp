@@ -5,7 +5,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 ParityMatrix<S>::ParityMatrix(const Matrix<S>& a, Nodes nodes, First first)
@@ -53,7 +53,7 @@ bool ParityMatrix<S>::find_mirrored(const Matrix<S>& a) const {
   S largest, defect, allowed;
   const S relative = units * epsilon<S>();
   for (Index j = 0; j < functions_; ++j) {
-    hbvm::set_zero(largest);
+    hbvm::core::set_zero(largest);
     for (Index i = 0; i < n_; ++i) raise_magnitude(largest, at(i, j));
     for (Index i = 0; 2 * i < n_; ++i) {
       const S &here = at(i, j), &there = at(n_ - 1 - i, j);
@@ -154,4 +154,4 @@ OperationCounts ParityMatrix<S>::operations(Index columns) const {
 #define HBVM_DEFINE(S) template class ParityMatrix<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "linear/operation_counts.hpp"
 #include "linear/product.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Values of functions at nodes that lie symmetrically about 1/2, each function even or odd about it by turns, like the
 /// Legendre polynomials and their integrals from 1/2: a(n-1-i, j) = a(i, j) for an even j-th function, -a(i, j) for an
@@ -79,4 +79,4 @@ class ParityMatrix {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

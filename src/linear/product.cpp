@@ -5,7 +5,7 @@
 #include "linear/mpfr_dot.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// r = sum_l x_l a_l, column by column of `rows` entries.
@@ -107,4 +107,4 @@ void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index
   template void set_dot<S>(S&, const S*, Index, const S*, Index, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

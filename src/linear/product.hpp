@@ -2,7 +2,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// c = a b, for a (n x l) and b (l x m); c is resized. Column by column, as a b applies one small coefficient
 /// matrix (n stages, l Fourier coefficients) to each of m coordinates.
@@ -48,4 +48,4 @@ void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A matrix or vector, rounded to the digits of the scope. (Not by way of a Matrix<Mpfr>: the copy would take the
 /// digits of the scope before.)
@@ -13,4 +13,4 @@ auto rounded(const Array& a) {
   return r;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

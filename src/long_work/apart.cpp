@@ -15,7 +15,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 enum Exit { done = 0, threw = 1, unwritten = 2 };
@@ -102,4 +102,4 @@ bool Apart::take() {
   return true;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

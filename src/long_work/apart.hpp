@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A function at work in a process of its own, which may crash, or be ended after so many seconds of processor time.
 /// Its text comes back through a pipe.
@@ -33,4 +33,4 @@ class Apart {
   std::string text_, failure_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,9 +12,10 @@
 #include "checksum.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
+#include "interruption.hpp"
 #include "json.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,7 +163,8 @@ std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& c
     std::atomic<std::size_t> next{0};
     std::mutex failing;
     std::exception_ptr error;
-    const auto work = [&] {
+    const auto work = [&, asker = stop_request] {
+      const StopScope scope(asker);
       for (std::size_t n = next++; n < open.size(); n = next++) {
         try {
           take(open[n], cells[open[n]].run());
@@ -183,4 +185,4 @@ std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& c
   });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

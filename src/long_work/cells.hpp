@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A piece of long work under a key that no other has. Its result is JSON, the same whenever, wherever and beside
 /// whatever it is made.
@@ -77,4 +77,4 @@ std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& c
 std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options,
                                                   const CellRunner& runner);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hbvm {
+namespace hbvm::core {
 
 OrderedJson json_number(double x) { return std::isfinite(x) ? OrderedJson(x) : OrderedJson(nullptr); }
 
@@ -15,4 +15,4 @@ std::string dumped(const OrderedJson& json, int indent) {
   return json.dump(indent, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

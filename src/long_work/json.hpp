@@ -5,7 +5,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 using OrderedJson = nlohmann::ordered_json;
 
@@ -26,4 +26,4 @@ auto read_json(const std::string& text, const std::string& what, const Read& rea
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

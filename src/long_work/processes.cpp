@@ -10,7 +10,7 @@
 #include "interruption.hpp"
 #include "long_work/apart.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A cell at work.
@@ -43,7 +43,7 @@ CellRunner in_processes(const std::vector<WorkCell>& cells, int jobs, std::funct
                                                                                   const TakeResult& take) {
     std::list<Running> running;
     // A signal ends the cells at work, too, and what these say is no result.
-    const auto look_at_signal = [] { end_on_signal("the work was not finished"); };
+    const auto look_at_signal = [] { end_if_asked("the work was not finished"); };
     for (auto next = open.begin(); next != open.end() || !running.empty();) {
       look_at_signal();
       while (next != open.end() && running.size() < static_cast<std::size_t>(std::max(1, jobs))) {
@@ -60,4 +60,4 @@ CellRunner in_processes(const std::vector<WorkCell>& cells, int jobs, std::funct
   };
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

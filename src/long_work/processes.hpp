@@ -6,7 +6,7 @@
 
 #include "long_work/cells.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How a cell ended that ran in a process of its own.
 struct ProcessEnd {
@@ -21,4 +21,4 @@ struct ProcessEnd {
 CellRunner in_processes(const std::vector<WorkCell>& cells, int jobs, std::function<double(std::size_t)> seconds,
                         std::function<std::string(std::size_t, const ProcessEnd&)> result);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A number with a point as it is written somewhere in an expression.
@@ -153,4 +153,4 @@ RungeKutta<Mpfr> off_by_a_unit(const Tableau& tableau, const Decimals& decimals,
   return method;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "method/runge_kutta.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What is known of the numbers of a tableau that are decimals, and not exact.
 struct Decimals {
@@ -23,4 +23,4 @@ std::optional<Decimals> decimals_of(const Tableau& tableau);
 /// as many places.
 RungeKutta<Mpfr> off_by_a_unit(const Tableau& tableau, const Decimals& decimals, unsigned pattern);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "linear/rounded.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// P^T diag(b).
@@ -168,4 +168,4 @@ Hbvm<double> in_double(const Hbvm<S>& method) {
   template Hbvm<double> in_double<S>(const Hbvm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

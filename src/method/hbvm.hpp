@@ -3,7 +3,7 @@
 #include "linear/matrix.hpp"
 #include "method/hbvm_name.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The coefficients of HBVM(k, s), k >= s >= 1: all a step needs and no more. They do not depend on the step.
 /// Names are the paper's: P_s, I_s (27), X_s (32), and P_hat of the k nodes (53). k = s is the s-stage Gauss method.
@@ -49,4 +49,4 @@ Hbvm<double> in_double(const Hbvm<S>& method);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

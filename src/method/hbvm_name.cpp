@@ -6,7 +6,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::string HbvmName::text() const {
   const std::string third = r == 0 ? "" : "," + std::to_string(r);
@@ -63,4 +63,4 @@ HbvmName HbvmName::parse(std::string_view text) {
   return name;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline constexpr int max_k = 1'000;
 inline constexpr int max_s = 200;
@@ -28,4 +28,4 @@ struct HbvmName {
 /// 	hrows InputError if these are more than max_k
 int exact_nodes(int degree, int s);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A method as a user names it: a family and its arguments, "hbvm:4,2", "rattle", "tableau:FILE". What the arguments
 /// mean is the family's to say, see step/registry.hpp.
@@ -19,4 +19,4 @@ struct MethodSpec {
   std::string text() const { return arguments.empty() ? family : family + ":" + arguments; }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

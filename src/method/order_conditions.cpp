@@ -4,7 +4,7 @@
 
 #include "linear/product.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Calls use(tree, residual) for tree after tree, as long as it returns true.
@@ -142,4 +142,4 @@ int order(const RungeKutta<S>& method, const S& tolerance) {
   template int order<S>(const RungeKutta<S>&, const S&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "method/rooted_trees.hpp"
 #include "method/runge_kutta.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How far the method is from each order: entry p - 1 is the largest |sum_i b_i Phi_i(t) - 1/gamma(t)| over the trees
 /// t of order p, where Phi_i([t_1 .. t_n]) = prod_k sum_j A_ij Phi_j(t_k) (Hairer, Norsett, Wanner: Solving Ordinary
@@ -46,4 +46,4 @@ int order(const RungeKutta<S>& method, const S& tolerance);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

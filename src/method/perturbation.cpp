@@ -7,7 +7,7 @@
 #include "hbvm/error.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// One set of nodes and what hangs on it.
@@ -135,4 +135,4 @@ void perturb(Hbvm<S>& method, const Perturbation& p) {
 #define HBVM_DEFINE(S) template void perturb<S>(Hbvm<S>&, const Perturbation&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "method/hbvm.hpp"
 #include "scalar/expression.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One number of HBVM(k, s) made wrong on purpose, to see what notices: x becomes x (1 + relative). What is computed
 /// from the number follows it, as it would if the mistake were in a program.
@@ -30,4 +30,4 @@ void perturb(Hbvm<S>& method, const Perturbation& perturbation);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "read_file.hpp"
 #include "toml/toml_table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string numbered(std::size_t i) { return "[" + std::to_string(i + 1) + "]"; }
@@ -99,4 +99,4 @@ Tableau read_tableau(const std::string& path) {
   return tableau;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "method/runge_kutta.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline constexpr std::size_t max_tableau_stages = 100;
 inline constexpr long max_tableau_digits = 10'000;
@@ -23,4 +23,4 @@ inline constexpr long max_tableau_digits = 10'000;
 ///         of another length, no stages or more than max_tableau_stages, an entry without a value
 Tableau read_tableau(const std::string& path);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

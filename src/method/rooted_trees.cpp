@@ -5,7 +5,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Adds the trees that `tree` becomes by `missing` more vertices in subtrees none of which stands after `last`.
@@ -40,4 +40,4 @@ std::vector<RootedTree> rooted_trees(int max_order) {
   return trees;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

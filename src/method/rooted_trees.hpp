@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A rooted tree: subtrees on a root.
 struct RootedTree {
@@ -17,4 +17,4 @@ inline constexpr int max_tree_order = 10;
 /// \throws InputError unless 0 <= max_order <= max_tree_order
 std::vector<RootedTree> rooted_trees(int max_order);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "hbvm/error.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -44,4 +44,4 @@ RungeKutta<S> make_runge_kutta(const Tableau& tableau) {
 #define HBVM_DEFINE(S) template RungeKutta<S> make_runge_kutta<S>(const Tableau&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "linear/matrix.hpp"
 #include "scalar/expression.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A Runge-Kutta method as its author writes it, as exact text: s x s, s and s entries.
 struct Tableau {
@@ -39,4 +39,4 @@ RungeKutta<S> make_runge_kutta(const Tableau& tableau);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "method/symmetry_defect.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 S symmetry_defect(const RungeKutta<S>& method) {
@@ -29,4 +29,4 @@ S symplecticity_defect(const RungeKutta<S>& method) {
   template S symplecticity_defect<S>(const RungeKutta<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

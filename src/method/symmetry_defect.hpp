@@ -2,7 +2,7 @@
 
 #include "method/runge_kutta.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The largest of |A_{s+1-i,s+1-j} + A_ij - b_j| and |b_{s+1-i} - b_i|: 0 for a method that is its own adjoint, if its
 /// stages stand in the order that the adjoint reverses (Hairer, Lubich, Wanner: Geometric Numerical Integration,
@@ -21,4 +21,4 @@ S symplecticity_defect(const RungeKutta<S>& method);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

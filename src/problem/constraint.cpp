@@ -4,7 +4,7 @@
 
 #include "problem/effect/trace.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 std::vector<Index> coordinates(const Constraint<S>& constraint, Index dimension) {
@@ -88,4 +88,4 @@ Constraint<double> in_double(const Constraint<S>& constraint) {
   template Constraint<double> in_double<S>(const Constraint<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

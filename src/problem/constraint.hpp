@@ -5,7 +5,7 @@
 
 #include "problem/constraint/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One component of g(q) = 0 of (2).
 template <Scalar S>
@@ -56,4 +56,4 @@ Constraint<double> in_double(const Constraint<S>& constraint);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

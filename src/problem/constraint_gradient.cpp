@@ -7,7 +7,7 @@
 #include "problem/mass_block.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 Index ConstraintGradient<S>::Pattern::column(Index coordinate) const {
@@ -267,4 +267,4 @@ void ConstraintGradient<S>::gram(Matrix<S>& result) {
 #define HBVM_DEFINE(S) template class ConstraintGradient<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "linear/in_double.hpp"
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// grad g in several lanes, stored by its pattern: for each constraint the coordinates it depends on. Owns the
 /// storage, so that evaluating allocates nothing. The problem must outlive it.
@@ -288,4 +288,4 @@ template <class Length, class Count>
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

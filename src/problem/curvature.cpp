@@ -5,7 +5,7 @@
 #include "linear/arrays.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 template <class Column>
@@ -104,4 +104,4 @@ const Matrix<S>& Curvature<S>::varying(Lanes<const S> q) {
 #define HBVM_DEFINE(S) template class Curvature<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "problem/effect/execution.hpp"
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The second derivatives of U and g of a problem, by the pairs of coordinates where they can be nonzero.
 /// Those of quadratic g are constant, those of other g and of U are evaluated at nodes. The problem must outlive it.
@@ -79,4 +79,4 @@ class Curvature {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

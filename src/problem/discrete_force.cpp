@@ -3,7 +3,7 @@
 #include "clock.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 DiscreteForce<S>::Work::Work(const EffectTerm<S>& term, Index dimension)
@@ -56,4 +56,4 @@ void DiscreteForce<S>::evaluate(const Vector<S>& q0, const Vector<S>& q1, Matrix
 #define HBVM_DEFINE(S) template class DiscreteForce<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

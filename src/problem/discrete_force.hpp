@@ -5,7 +5,7 @@
 #include "problem/effect/discrete_gradient.hpp"
 #include "problem/potential.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The discrete gradient of a potential, the sum of those of its effects: force . (q1 - q0) = U(q1) - U(q0) but for
 /// round-off. Owns the storage, so that evaluating allocates nothing. The potential must outlive it.
@@ -41,4 +41,4 @@ class DiscreteForce {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

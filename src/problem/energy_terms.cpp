@@ -2,7 +2,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// sum += |a|.
@@ -83,4 +83,4 @@ void EnergyTerms<S>::evaluate(const Vector<S>& q, const Vector<S>& p) {
 #define HBVM_DEFINE(S) template class EnergyTerms<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The energy of states, with what its round-off is proportional to. Owns its storage and allocates nothing after it
 /// was made. The problem must outlive it.
@@ -51,4 +51,4 @@ class EnergyTerms {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "problem/general_drift.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 GeneralDrift<S>::GeneralDrift(const Problem<S>& problem) : problem_(problem), epsilon_(epsilon<S>()) {
@@ -33,4 +33,4 @@ const S& GeneralDrift<S>::in_units(const Vector<S>& q) {
 #define HBVM_DEFINE(S) template class GeneralDrift<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

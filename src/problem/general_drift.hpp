@@ -4,7 +4,7 @@
 
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How far the constraints that are not quadratic, which a method keeps with enough nodes only, have moved from their
 /// values at a state. The problem must outlive it.
@@ -36,4 +36,4 @@ class GeneralDrift {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "problem/gram_factor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 bool GramFactor<S>::factor(ConstraintGradient<S>& gradient, Index nu) {
@@ -28,4 +28,4 @@ void GramFactor<S>::solve(Vector<S>& x) {
 #define HBVM_DEFINE(S) template class GramFactor<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

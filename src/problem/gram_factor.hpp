@@ -4,7 +4,7 @@
 #include "linear/ordering.hpp"
 #include "problem/constraint_gradient.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// From so many constraints on the Gram matrix grad g^T M^-1 grad g is factored by its band.
 constexpr Index many_constraints = 128;
@@ -30,4 +30,4 @@ class GramFactor {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "scalar/binary_exponent.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 template <Scalar S>
 Problem<double> in_double(const Problem<S>& problem) {
   Problem<double> result;
@@ -45,4 +45,4 @@ bool fits_double(const Problem<S>& problem) {
   template bool fits_double<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

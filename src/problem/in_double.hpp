@@ -2,7 +2,7 @@
 
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The problem with all numbers rounded to double, for Jacobians and start values.
 template <Scalar S>
@@ -22,4 +22,4 @@ bool fits_double(const Problem<S>& problem);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

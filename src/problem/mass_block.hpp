@@ -4,7 +4,7 @@
 
 #include "problem/mass_matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The block of M that a coordinate is in.
 template <Scalar S>
@@ -15,4 +15,4 @@ const typename MassMatrix<S>::Block& block_of(const MassMatrix<S>& mass, Index c
            1);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

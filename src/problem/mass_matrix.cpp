@@ -4,7 +4,7 @@
 #include "linear/product.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// M^-1 by M = L D L^T with twice the working digits, rounded once.
@@ -116,4 +116,4 @@ void MassMatrix<S>::momentum(const Vector<S>& v, Vector<S>& p) const {
 #define HBVM_DEFINE(S) template class MassMatrix<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

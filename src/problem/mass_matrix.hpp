@@ -6,7 +6,7 @@
 #include "linear/operation_counts.hpp"
 #include "problem/space/lanes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The symmetric positive definite M of (1): constant, block-diagonal, a block a body. A scalar mass costs one
 /// product a coordinate, mass 1 none, a full block one for each entry of M^-1 that is not 0.
@@ -80,4 +80,4 @@ class MassMatrix {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

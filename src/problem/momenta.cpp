@@ -8,7 +8,7 @@
 #include "linear/null_space.hpp"
 #include "symmetry_conditions.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// How the symmetry moves coordinates q: linear + angular x q_block, without `linear` for what does not translate.
@@ -152,4 +152,4 @@ std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem) {
   template std::vector<MomentumComponent<S>> conserved_momenta<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A component of momentum, linear.P + angular.L: P = sum p over what translates with space, L = sum q x p, about the
 /// origin, over all blocks of coordinates. With both parts it is an angular momentum about another point (or a
@@ -51,4 +51,4 @@ std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "linear/product.hpp"
 #include "problem/gram_factor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 Point<S>::Point(const Problem<S>& problem)
@@ -127,4 +127,4 @@ const typename Point<S>::Forces& Point<S>::forces(const Vector<S>& q, const Vect
 #define HBVM_DEFINE(S) template class Point<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

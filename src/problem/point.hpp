@@ -3,7 +3,7 @@
 #include "linear/lu.hpp"
 #include "problem/constraint_gradient.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a problem says at one state (q, p). Owns its storage; one a thread. The problem must outlive it.
 template <Scalar S>
@@ -63,4 +63,4 @@ class Point {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

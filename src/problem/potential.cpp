@@ -6,7 +6,7 @@
 #include "linear/arrays.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 PotentialEvaluator<S>::Work::Work(const EffectTerm<S>& term, Index dimension, Index lanes)
@@ -215,4 +215,4 @@ void PotentialEvaluator<S>::add_force(const Varying& own, Lanes<const S> q, Matr
 #define HBVM_DEFINE(S) template class PotentialEvaluator<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

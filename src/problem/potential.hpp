@@ -9,7 +9,7 @@
 #include "problem/effect/kernel.hpp"
 #include "problem/effect/term.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How often the force of an effect ran: calls, evaluations at a node (each for all bodies or pairs it acts on), and
 /// the operations of one evaluation by its formula, of which some are not done again where an effect before it has done
@@ -111,4 +111,4 @@ class PotentialEvaluator {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

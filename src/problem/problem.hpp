@@ -6,7 +6,7 @@
 #include "problem/mass_matrix.hpp"
 #include "problem/potential.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Coordinates offset .. offset + dimension are a vector in space: the position of a body, which translates with space,
 /// or a director of a rigid body, which only turns with it.
@@ -41,4 +41,4 @@ struct Problem {
   Index nu() const { return static_cast<Index>(constraints.size()); }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

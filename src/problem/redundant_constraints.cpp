@@ -4,7 +4,7 @@
 #include "linear/lu.hpp"
 #include "linear/product.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The rows and columns of `a` named.
@@ -110,4 +110,4 @@ std::vector<std::string> names_of_constraints(const Problem<S>& problem) {
   template std::vector<std::string> names_of_constraints<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

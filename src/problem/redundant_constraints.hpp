@@ -6,7 +6,7 @@
 
 #include "problem/constraint_gradient.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The constraints of a problem that its solvers do not see, because they follow from the others: whether they are kept
 /// to, and the multipliers of all constraints. Owns its storage; one a thread.
@@ -48,4 +48,4 @@ std::vector<std::string> names_of_constraints(const Problem<S>& problem);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -14,7 +14,7 @@
 #include "problem/gram_factor.hpp"
 #include "problem/mass_block.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Of a symmetric matrix, in double.
@@ -431,4 +431,4 @@ double angle_condition(const Problem<S>& problem, const Vector<S>& q) {
   template double angle_condition<S>(const Problem<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A constraint whose gradient at some q is sum_b x_b grad g_b over others, so that (3) does not hold.
 template <Scalar S>
@@ -57,4 +57,4 @@ double angle_condition(const Problem<S>& problem, const Vector<S>& q);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using UncertainVector = std::vector<Uncertain>;
@@ -278,4 +278,4 @@ std::vector<UncertainRow> symmetry_conditions(const Problem<S>& problem, const M
 #define HBVM_DEFINE(S) template std::vector<UncertainRow> symmetry_conditions<S>(const Problem<S>&, const Mpfr&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

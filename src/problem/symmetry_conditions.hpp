@@ -3,7 +3,7 @@
 #include "linear/null_space.hpp"
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a motion of space x -> w x x + t must fulfil to keep the kinetic energy, every effect and every constraint,
 /// each by itself: rows of equations for (w, t), w having three entries or in the plane one. Their error bounds are the
@@ -17,4 +17,4 @@ std::vector<UncertainRow> symmetry_conditions(const Problem<S>& problem, const M
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

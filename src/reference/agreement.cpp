@@ -8,7 +8,7 @@
 #include "problem/point.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// floor(log10 |x|), the exponent of the leading digit; x is not 0.
@@ -199,4 +199,4 @@ std::vector<ReferenceState> Agreement::states() const {
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "reference/reference.hpp"
 #include "reference/route_run.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What one route found, and what the route is called.
 struct NamedRun {
@@ -72,4 +72,4 @@ class Agreement {
   std::vector<State> states_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

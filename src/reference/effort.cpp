@@ -8,7 +8,7 @@
 #include "clock.hpp"
 #include "reference/taylor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Seconds that a product of numbers of so many digits takes here and now.
@@ -97,4 +97,4 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.3g} seconds", seconds);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "reference/route_run.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a route will take, from what a motion at low precision took: to be believed within a factor of some.
 struct Effort {
@@ -25,4 +25,4 @@ std::string duration_text(double seconds);
 inline constexpr double longest_effort = 24 * 3600;
 inline constexpr double largest_effort = 16'000'000'000;
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "method/hbvm.hpp"
 #include "reference/taylor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 ExactPoint exact_end(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Mpfr& t,
                      Route route, const std::function<void()>& while_working) {
@@ -24,4 +24,4 @@ ExactPoint exact_end(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const 
   return walk.output();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

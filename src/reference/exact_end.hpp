@@ -4,7 +4,7 @@
 
 #include "reference/reference.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The state at t > 0 of the motion that is at (q, p) at 0, by one route, Taylor series or HBVM, in the digits of the
 /// scope: it chooses its steps itself, and looks between their points.
@@ -13,4 +13,4 @@ namespace hbvm {
 ExactPoint exact_end(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Mpfr& t,
                      Route route, const std::function<void()>& while_working);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

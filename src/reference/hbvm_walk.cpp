@@ -8,7 +8,7 @@
 #include "scalar/log2_of.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -157,4 +157,4 @@ void HbvmWalk::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>&
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "reference/closed_form/closed_form.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A motion by HBVM(s,s) that chooses its steps by itself. Where the motion is analytic within an ellipse about a step,
 /// whose half axes add up to rho/2 steps, the Legendre coefficients of the momenta fall by rho each, and the error of
@@ -53,4 +53,4 @@ class HbvmWalk {
   long steps_ = 0;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

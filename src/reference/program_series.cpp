@@ -6,7 +6,7 @@
 #include "hbvm/error.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 [[noreturn]] void refuse(const char* what) {
@@ -97,7 +97,7 @@ void ProgramSeries::keep(Index i, Index n) {
 }
 
 void ProgramSeries::set_convolution(Mpfr& r, Index a, Index b, Index n, Index first, Index last) {
-  hbvm::set_convolution(r, aligned(a), aligned(b), n, first, last);
+  hbvm::core::set_convolution(r, aligned(a), aligned(b), n, first, last);
 }
 
 void ProgramSeries::set_square(Mpfr& r, Index a, Index n, Index first, Mpfr& t) {
@@ -289,4 +289,4 @@ void ProgramSeries::go_on(const Node& node, Index n) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "linear/aligned_series.hpp"
 #include "problem/effect/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The Taylor coefficients of a program's outputs where its inputs are power series, one recurrence an operation
 /// (Griewank and Walther, Evaluating Derivatives, 2008, chapter 13): with z_n for z^(n)/n!,
@@ -72,4 +72,4 @@ class ProgramSeries {
   Mpfr zero_ = 0, t_ = 0;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,6 +10,7 @@
 
 #include "checksum.hpp"
 #include "clock.hpp"
+#include "interruption.hpp"
 #include "reference/agreement.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "reference/effort.hpp"
@@ -18,7 +19,7 @@
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::vector<Mpfr> evaluated(const std::vector<Expression>& times, const Constants& constants) {
@@ -109,7 +110,10 @@ class Attempt {
     std::vector<std::pair<Route, std::future<std::optional<RouteRun>>>> futures;
     for (const Route route : all_routes)
       if (request_.only ? *request_.only == route : route != Route::hbvm || !without_hbvm_)
-        futures.emplace_back(route, std::async(std::launch::async, [this, route] { return run(route); }));
+        futures.emplace_back(route, std::async(std::launch::async, [this, route, asker = stop_request] {
+                               const StopScope scope(asker);
+                               return run(route);
+                             }));
     std::vector<NamedRun> runs;
     std::exception_ptr failure;
     for (auto& [route, future] : futures) try {
@@ -245,4 +249,4 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,11 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "hbvm/reference.hpp"
 #include "reference/effort.hpp"
 #include "reference/route_run.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The ways to a reference solution that share nothing but the scene: the Taylor series of TaylorMotion, Gauss methods
 /// of high order, HBVM(s,s), with their output state, and the closed form of the motion where one is known.
@@ -33,34 +34,11 @@ struct ReferenceRequest {
   bool force = false;  ///< do also what will take more than a day, or more memory than most machines have
 };
 
-/// A decimal text for each number, to `digits` digits after the leading one of its vector's greatest component.
-struct ReferenceState {
-  std::string t;
-  std::vector<std::string> q, p, lambda;  ///< p tangential, lambda of Theorem 1
-  std::string H;
-  std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
-  long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors
-};
-
 /// What a route finds in the digits of the scope, of which so many are to be right; nothing if it does not serve a
 /// scene.
 using RouteFunction = std::function<std::optional<RouteRun>(const RouteWork&, double digits)>;
 /// The route of that name.
 RouteFunction function_of(Route route);
-
-struct RouteReport {
-  std::string name, settings;
-  double cpu_seconds = 0;
-};
-
-struct Reference {
-  std::string scene, title, scene_hash;
-  int digits = 0;
-  std::vector<ReferenceState> times;
-  std::vector<std::string> momentum_names;
-  std::vector<RouteReport> routes;
-  double digits_lost = 0;  ///< by which the motion magnifies an error of the start, in decimal digits
-};
 
 /// The state at the times, each digit found by two routes, and by the closed form, too, of a motion that has one;
 /// order, step, precision and guard digits are chosen here: from the growth of a small change of the start and the
@@ -76,4 +54,4 @@ std::string scene_hash(const Scene& scene);
 
 inline constexpr int least_reference_digits = 1, most_reference_digits = 5000;
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "basis/legendre.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void StepPolynomials::at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<Mpfr>& u, Vector<Mpfr>& v) const {
   const int s = static_cast<int>(gamma.rows());
@@ -88,4 +88,4 @@ bool ReferenceMotion::refine() {
   return std::max(errors_.q - q_unit(), errors_.p - p_unit()) < std::max(before.q - q_unit(), before.p - p_unit());
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "scalar/log2_of.hpp"
 #include "solver/solver_kind.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The solution within one step: the polynomials u and v of (21), from their coefficients.
 struct StepPolynomials {
@@ -65,4 +65,4 @@ class ReferenceMotion {
   Errors errors_;  ///< infinite before the second run
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::json;
@@ -68,4 +68,4 @@ Leg run_legs(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, long 
   return all;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

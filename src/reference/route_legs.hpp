@@ -7,7 +7,7 @@
 
 #include "reference/closed_form/closed_form.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Where the legs of a long way are kept, JSON under a key, so that work that was ended goes on after the last of them.
 /// Called by several threads at once.
@@ -34,4 +34,4 @@ using RunLeg = std::function<Leg(const Mpfr& begin, const Mpfr& end, const std::
 Leg run_legs(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, long count, const LegKeeper& keeper,
              const RunLeg& run);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -15,7 +15,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 unsigned working_digits() { return static_cast<unsigned>(digits10<Mpfr>()); }
@@ -186,4 +186,4 @@ long MotionNature::legs() const {
   return std::max(1L, static_cast<long>(std::ceil(steps / steps_of_leg)));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

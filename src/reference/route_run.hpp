@@ -8,7 +8,7 @@
 #include "method/hbvm_name.hpp"
 #include "reference/route_legs.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What one route found, and how, in the digits of its scope.
 struct RouteRun {
@@ -59,4 +59,4 @@ RouteRun hbvm_route(const RouteWork& work, double digits);
 /// is called with the part of the time that is done, and may throw to end the work \throws IntegrationError
 MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times, const RouteProgress& progress);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

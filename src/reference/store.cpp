@@ -8,7 +8,7 @@
 #include "hbvm/error.hpp"
 #include "toml/toml_table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* format_name = "hbvm reference, format 1";
@@ -163,4 +163,4 @@ std::vector<Difference> differences(const Reference& stored, const Reference& fo
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "reference/reference.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A reference with what made it.
 struct StoredReference {
@@ -45,4 +45,4 @@ struct Difference {
 /// By their texts, digit by digit; what one has and the other has not is a difference, too.
 std::vector<Difference> differences(const Reference& stored, const Reference& found);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -14,7 +14,7 @@
 #include "reference/reference_motion.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Polynomial motions are exact over any time; steps are no longer than 2^this.
@@ -537,4 +537,4 @@ void TaylorMotion::advance_to(const Mpfr& t, const std::function<void(const Mpfr
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "problem/problem.hpp"
 #include "reference/program_series.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 class ForceBounds;
 
@@ -147,4 +147,4 @@ class TaylorMotion {
   double least_radius_ = 0;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "scalar/in_place.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class TaylorStepper final : public Stepper<Mpfr> {
@@ -21,7 +21,7 @@ class TaylorStepper final : public Stepper<Mpfr> {
   long step(State<Mpfr>& state, const Mpfr& h) override {
     const PartCall counted(series_, timed_);
     try {
-      TaylorMotion motion(problem_, state.q, state.p, [] { end_on_signal("a step is made of many"); });
+      TaylorMotion motion(problem_, state.q, state.p, [] { end_if_asked("a step is made of many"); });
       motion.advance_to(h);
       const auto steps = static_cast<std::uint64_t>(motion.steps() + 1);
       for (std::size_t t = 0; t < effects_.size(); ++t) {
@@ -93,4 +93,4 @@ MethodPtr taylor_method(std::string_view arguments) {
 
 void add_taylor_method() { add_method_family({"taylor", "taylor", taylor_method}); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// taylor: the motion by its Taylor series, whose order and steps follow from the digits, so that all of these are
 /// right whatever the step; the state at the end of a step is that of the series, in the digits of MPFR. A step is best
@@ -13,4 +13,4 @@ MethodPtr taylor_method(std::string_view arguments);
 /// Makes parse_method() know it, as the program hbvm does before all else.
 void add_taylor_method();
 
-}  // namespace hbvm
+}  // namespace hbvm::core

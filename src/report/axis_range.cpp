@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The least of 1, 2, 5, 10, 20, ... that is not below x > 0.
@@ -132,4 +132,4 @@ Tics tics_of(const AxisRange& range, AxisScale scale, int most) {
   return {};
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "report/figure.hpp"
+#include "hbvm/figure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The part of an axis that is shown.
 struct AxisRange {
@@ -37,4 +37,4 @@ AxisRange widened(const AxisRange& range, double share);
 /// At most so many numbers at an axis.
 Tics tics_of(const AxisRange& range, AxisScale scale, int most);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

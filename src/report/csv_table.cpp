@@ -5,7 +5,7 @@
 #include "csv_line.hpp"
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 CsvTable read_csv_table(const std::string& text, const std::string& file) {
   CsvTable table;
@@ -40,4 +40,4 @@ CsvTable read_csv_table(const std::string& text, const std::string& file) {
   return table;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

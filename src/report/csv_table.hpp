@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a CSV file says: the names of its columns, and its rows, each with as many cells.
 struct CsvTable {
@@ -16,4 +16,4 @@ struct CsvTable {
 /// not end and for what is no text
 CsvTable read_csv_table(const std::string& text, const std::string& file);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -84,4 +84,4 @@ void write_csv(const std::string& file, const Table& table) {
   write_csv(file, table, metadata);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

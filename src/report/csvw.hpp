@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "report/table.hpp"
+#include "hbvm/table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What is in a column of a CSV file, as CSV on the Web names it.
 enum class CsvType {
@@ -41,4 +41,4 @@ void write_csv(const std::string& file, const Table& table, const CsvMetadata& m
 /// The same described by its caption and, line by line, its provenance.
 void write_csv(const std::string& file, const Table& table);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr double left_of_box = 74, above_box = 34, below_box = 52, least_right_of_box = 18;
@@ -148,4 +148,4 @@ std::string figure_data(const Figure& figure) {
   return json.dump();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "axis_range.hpp"
-#include "report/figure.hpp"
+#include "hbvm/figure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// In pixels of an SVG.
 inline constexpr double box_width = 330, box_height = 270;
@@ -37,4 +37,4 @@ std::size_t letters(const std::string& text);
 /// ...]}]}]}; bars are a curve of their own, names of an axis its "names". Scales are named as AxisScale does.
 std::string figure_data(const Figure& figure);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

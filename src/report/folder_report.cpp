@@ -17,7 +17,7 @@
 #include "report/csvw.hpp"
 #include "report_parts.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -261,4 +261,4 @@ std::string folder_report(const fs::path& folder, const std::string& version, co
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

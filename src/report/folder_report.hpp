@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a page of a report may have.
 inline constexpr std::size_t report_bytes = 3'000'000;
@@ -17,4 +17,4 @@ inline constexpr std::size_t report_bytes = 3'000'000;
 /// not what its name says
 std::string folder_report(const std::filesystem::path& folder, const std::string& version, const std::string& command);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,9 +5,9 @@
 
 #include "figure_layout.hpp"
 #include "hbvm/error.hpp"
-#include "report/figure.hpp"
+#include "hbvm/figure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string colour_of(std::size_t curve) { return std::string(curve_colours[curve % curve_colours.size()]); }
@@ -302,18 +302,7 @@ Terminal terminal_of(const std::string& file, const PlotPoint& size) {
   throw InputError("a picture is .svg, .pdf or .png, not '" + file + "'");
 }
 
-}  // namespace
-
-std::string plain(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (std::string_view("^_@&~{}\\").find(c) != std::string_view::npos) result += '\\';
-    result += c;
-  }
-  return result;
-}
-
-std::string gnuplot_script(const Figure& figure, const std::string& file) {
+std::string script_of(const Figure& figure, const std::string& file) {
   const FigureLayout layout = layout_of(figure);
   const PlotPoint& size = layout.size;
   const Terminal terminal = terminal_of(file, size);
@@ -332,5 +321,22 @@ std::string gnuplot_script(const Figure& figure, const std::string& file) {
     text += PanelScript(figure.panels[i], layout.panels[i]).text(size, i == 0 ? words : "");
   return text + "unset multiplot\n";
 }
+
+}  // namespace
+
+}  // namespace hbvm::core
+
+namespace hbvm {
+
+std::string plain(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::string_view("^_@&~{}\\").find(c) != std::string_view::npos) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string gnuplot_script(const Figure& figure, const std::string& file) { return core::script_of(figure, file); }
 
 }  // namespace hbvm

@@ -1,6 +1,6 @@
 #include "html.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::string html(std::string_view text) {
   std::string result;
@@ -32,4 +32,4 @@ std::string within_script(std::string_view json) {
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Text within HTML, also within an attribute.
 std::string html(std::string_view text);
@@ -11,4 +11,4 @@ std::string html(std::string_view text);
 /// JSON within a script: no text in it can end the script, or begin a comment in it.
 std::string within_script(std::string_view json);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -11,7 +11,7 @@
 #include "hbvm/error.hpp"
 #include "html.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr std::array<std::string_view, 20> drawing_elements{
@@ -223,4 +223,4 @@ InlineSvg inline_svg(const std::string& text, const std::string& prefix, const s
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A drawing as part of an HTML page: its outermost element without what draws nothing. Nothing of it can act or ask
 /// the network: only elements that draw are kept, no scripts, styles, pictures or links, and references only to what
@@ -16,4 +16,4 @@ struct InlineSvg {
 /// \throws InputError with file and line if it is no drawing
 InlineSvg inline_svg(const std::string& text, const std::string& prefix, const std::string& file);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -97,4 +97,4 @@ Description read_description(const std::string& text, const std::string& file) {
 
 void check_json(const std::string& text, const std::string& file) { parsed(text, file); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What something says under a name; several where more than one say it.
 struct Fact {
@@ -34,4 +34,4 @@ Description read_description(const std::string& text, const std::string& file);
 /// \throws InputError with file and line if it is none
 void check_json(const std::string& text, const std::string& file);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

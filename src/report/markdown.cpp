@@ -9,7 +9,7 @@
 
 #include "html.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string stripped(const std::string& text) {
@@ -201,4 +201,4 @@ std::string markdown_html(const std::string& text, const PictureOf& picture) {
   return Markdown(text, picture).html_text();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What stands for a picture, by its address; nothing if there is none.
 using PictureOf = std::function<std::string(const std::string& address)>;
@@ -12,4 +12,4 @@ using PictureOf = std::function<std::string(const std::string& address)>;
 /// tables, code, and in them code, stress, links to the web and pictures. All text is escaped; comments are left out.
 std::string markdown_html(const std::string& text, const PictureOf& picture);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a report's page is made of besides its contents, compiled in: the files of src/report/page.
 extern const std::string_view report_style, report_script;
 
-}  // namespace hbvm
+}  // namespace hbvm::core

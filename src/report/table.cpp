@@ -1,4 +1,4 @@
-#include "report/table.hpp"
+#include "hbvm/table.hpp"
 
 #include <algorithm>
 
@@ -89,9 +89,9 @@ std::string to_text(const Table& table) {
 std::vector<std::string> csv_columns(const Table& table) { return both(table.key_columns, table.columns); }
 
 std::string to_csv(const Table& table) {
-  std::string text = csv_line(csv_columns(table)) + "\n";
+  std::string text = core::csv_line(csv_columns(table)) + "\n";
   for (const auto& group : table.groups)
-    for (const auto& row : group.rows) text += csv_line(both(group.keys, row)) + "\n";
+    for (const auto& row : group.rows) text += core::csv_line(both(group.keys, row)) + "\n";
   return text;
 }
 

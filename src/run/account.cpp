@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_parts(Account& account, const std::vector<PartCount>& parts) {
   for (const PartCount& part : parts) {
@@ -77,4 +77,4 @@ std::string to_text(const Account& account) {
   return text;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

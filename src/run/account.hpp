@@ -5,7 +5,7 @@
 
 #include "solver/stage_solver.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One line of the account of a run.
 struct AccountLine {
@@ -54,4 +54,4 @@ void balance(Account& account, double cpu_seconds, double elapsed_seconds);
 /// A table of the lines, with the share of the time and the sums; operations in double have a sum of their own.
 std::string to_text(const Account& account);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scalar/text.hpp"
 #include "step/quadrature_defect.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 std::optional<int> degree_of_U(const Problem<S>& problem) {
@@ -50,7 +50,7 @@ Trial<S> try_nodes(const Assembled<S>& scene, const HbvmName& name, bool keeps_g
   State<S> state(scene.q0, scene.p0);
   try {
     for (; trial.made < first_steps && trial.may_be_round_off; ++trial.made) {
-      end_on_signal("the nodes of the method were not chosen");
+      end_if_asked("the nodes of the method were not chosen");
       const Vector<S> q = state.q, p = state.p;
       stepper.step(state, step);
       raise_to(trial.defect, defect.measure({q, p, step}, stepper.solver().unknowns()));
@@ -178,4 +178,4 @@ ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step,
                                   const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "step/hbvm_stepper.hpp"
 #include "step/raising_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The numbers of nodes that hbvm:auto,S stands for, and why.
 struct ChosenK {
@@ -42,4 +42,4 @@ S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, Solv
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

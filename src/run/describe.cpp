@@ -17,7 +17,7 @@
 #include "scene/coordinate_names.hpp"
 #include "scene/second_moment.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Lines on whom an effect acts and on whom it does not, and how on rigid bodies.
@@ -159,4 +159,4 @@ std::string describe(const Scene& scene, const Precision& precision) {
   return with_scalar(precision, [&]<Scalar S>() { return describe_in<S>(scene); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

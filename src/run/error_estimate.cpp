@@ -15,7 +15,7 @@
 #include "scalar/text.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// More stages than the run has. HBVM(k,s) takes as many more of both, so that what k does to the energy shows, too.
@@ -144,7 +144,7 @@ std::optional<ErrorEstimate> estimate_by_motion(const RunRequest& request, Route
   const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
   try {
     ExactPoint end = exact_end(scene.problem, from.q, back ? Vector<Mpfr>(-tangential) : tangential,
-                               magnitude(grid.until()), route, [] { end_on_signal("the check was interrupted"); });
+                               magnitude(grid.until()), route, [] { end_if_asked("the check was interrupted"); });
     if (back) end.p = -end.p;
     RedundantConstraints<Mpfr> redundant(scene.problem);
     const Index d = scene.problem.dimension;
@@ -224,4 +224,4 @@ std::string to_text(const ErrorEstimate& estimate) {
                                            const Vector<S>&, const Vector<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "scalar/text.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// 64 sqrt(n) epsilon: a walk of n steps, each of some tens of roundings. Motions without a loss walk 0.1 to 0.2
@@ -264,4 +264,4 @@ std::string to_text(const Health& health) {
 #define HBVM_DEFINE(S) template class HealthWatch<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

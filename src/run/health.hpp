@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/run.hpp"
 #include "integrate/coefficient_decay.hpp"
 #include "integrate/constraint_angles.hpp"
 #include "integrate/constraint_drift.hpp"
@@ -13,20 +14,7 @@
 #include "step/halving_stepper.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
-
-/// A finding that a user should know of: "energy_lost" and what was seen, when, and what to do.
-struct Warning {
-  std::string name, text;
-};
-
-/// What a run is worth, as decimal text.
-struct Health {
-  std::string condition;     ///< of the Gram matrix of the normalised gradients, where these came closest to dependence
-  std::string worst_e_H;     ///< |H_n - H_0| over the greatest term of H
-  std::string worst_hidden;  ///< the greatest cosine of HiddenCosines
-  std::vector<Warning> warnings;
-};
+namespace hbvm::core {
 
 /// Watches a run and says in the end what it is worth. It looks at every mesh point, and at the solution of every step
 /// through decay(). The warnings, all of them invariant under powers of two of the units. Of every method, by what was
@@ -121,4 +109,4 @@ std::string to_text(const Health& health);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

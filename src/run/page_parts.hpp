@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a page of a run is made of, compiled in: the files of src/run/page, scripts one after another, and the
 /// plotting library.
@@ -11,4 +11,4 @@ struct PageParts {
 };
 const PageParts& page_parts();
 
-}  // namespace hbvm
+}  // namespace hbvm::core

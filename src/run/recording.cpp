@@ -5,7 +5,7 @@
 
 #include "linear/in_double.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -65,4 +65,4 @@ void MotionRecorder<S>::remember(Archive& archive) {
 #define HBVM_DEFINE(S) template class MotionRecorder<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

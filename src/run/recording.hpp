@@ -7,7 +7,7 @@
 #include "problem/point.hpp"
 #include "problem/redundant_constraints.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a picture shows of a run: however long it is, at most `most` samples at equal distances and the last mesh
 /// point. Motion and multipliers are those at the samples; of the errors nothing is left out.
@@ -58,4 +58,4 @@ class MotionRecorder final : public Observer<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -128,13 +128,13 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   std::vector<Observer<S>*> observers{&progress};
   std::optional<Trajectory<S>> trajectory;
   std::optional<KeptFile<S>> kept_file;
-  if (csv) {
+  std::ostream* const lines = csv ? csv.get() : hooks.trajectory;
+  if (lines) {
     const auto columns = trajectory_columns(request.scene, names_of_constraints(scene.problem));
     if (hooks.describe_csv) hooks.describe_csv(columns);
-    trajectory.emplace(scene.problem, *csv, hooks.every, grid.steps(), names_of(columns));
+    trajectory.emplace(scene.problem, *lines, hooks.every, grid.steps(), names_of(columns));
     observers.push_back(&*trajectory);
-    kept_file.emplace(*csv);
-    observers.push_back(&*kept_file);
+    if (csv) observers.push_back(&kept_file.emplace(*csv));
   }
   std::optional<MotionRecorder<S>> recorder;
   if (hooks.recording) observers.push_back(&recorder.emplace(scene.problem, grid.steps(), *hooks.recording));
@@ -201,4 +201,4 @@ RunResult run(const RunRequest& request, const RunHooks& hooks) {
   return with_scalar(request.precision, [&]<Scalar S>() { return run_in<S>(request, hooks); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

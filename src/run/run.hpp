@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/run.hpp"
 #include "integrate/checkpoint.hpp"
 #include "integrate/csv_file.hpp"
 #include "integrate/trajectory_columns.hpp"
@@ -16,33 +17,7 @@
 #include "run/run_request.hpp"
 #include "run/shadow.hpp"
 
-namespace hbvm {
-
-/// A quantity the exact motion conserves: its value at the start and its greatest change over the mesh.
-struct Observed {
-  std::string name, initial, drift;
-};
-
-/// What became of the k that hbvm:auto chose.
-struct NodesReport {
-  struct Raise {
-    std::string t;
-    int k, r;  ///< r is 0 if that of the constraints was not raised
-  };
-  int k = 0, r = 0;           ///< that were chosen; r is 0 if all constraints are quadratic
-  std::string because;        ///< why
-  std::vector<Raise> raised;  ///< where it had to be raised
-  bool verified = false;      ///< the energy is conserved to round-off over the run, and k was enough in all of it
-  std::string verdict;        ///< the same for people, with what to do
-};
-
-/// What was done to steps that failed.
-struct HalvingReport {
-  long steps = 0, substeps = 0;
-  int depth = 0;         ///< the smallest substep is the step over 2^depth
-  std::string smallest;  ///< the same as a time
-  std::string first_t;   ///< where the first of them began; empty if there was none
-};
+namespace hbvm::core {
 
 /// What came out, every number of the working precision as decimal text that reads back exactly.
 struct RunResult {
@@ -66,6 +41,7 @@ struct RunResult {
 };
 
 struct RunHooks {
+  std::ostream* trajectory = nullptr;  ///< the CSV lines go here, if they go to no file
   std::function<std::unique_ptr<CsvFile>()> open_csv;  ///< called once the request is known to be right
   std::function<void(const std::vector<TrajectoryColumn>&)> describe_csv;  ///< called once it is open, if there is one
   long every = 1;                                                          ///< mesh points a CSV line
@@ -77,4 +53,4 @@ struct RunHooks {
 /// \throws InputError, IntegrationError, Interrupted
 RunResult run(const RunRequest& request, const RunHooks& hooks);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "run/run_request.hpp"
 #include "run/simulate.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Digits of a run beside one in S, with which that is compared: 16 more.
 template <Scalar S>
@@ -39,4 +39,4 @@ Simulated<Mpfr> run_beside(const RunRequest& request, const Method& method, cons
   return simulate<Mpfr>(scene, *stepper, grid, observers, nullptr, nullptr, course);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* axes = "xyz";
@@ -130,4 +130,4 @@ Figure scene_figure(const Sketch& sketch, const std::vector<double>& q) {
   return figure;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "report/figure.hpp"
+#include "hbvm/figure.hpp"
 #include "run/recording.hpp"
 #include "scene/sketch.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a picture of the motion shows.
 struct Projection {
@@ -22,4 +22,4 @@ Figure run_figure(const Sketch& sketch, const Recording& recording);
 /// The scene where its coordinates are these.
 Figure scene_figure(const Sketch& sketch, const std::vector<double>& q);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <map>
 
+#include "hbvm/figure.hpp"
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 #include "report/axis_range.hpp"
-#include "report/figure.hpp"
 #include "report/html.hpp"
 #include "run/page_parts.hpp"
 #include "scene/sketch.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// As JavaScript's Number() reads it: JSON has no infinite numbers.
@@ -248,4 +248,4 @@ std::string run_page(const RunRequest& request, const Recording& recording, cons
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

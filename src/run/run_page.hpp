@@ -5,7 +5,7 @@
 #include "run/recording.hpp"
 #include "run/run_request.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A page is smaller than this, however long the run and large its scene.
 constexpr std::size_t run_page_bytes = 1'000'000;
@@ -20,4 +20,4 @@ bool is_page(const std::string& file);
 /// \throws Error if not even its first and last state have room
 std::string run_page(const RunRequest& request, const Recording& recording, const std::string& command);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scene/scene.hpp"
 #include "solver/solver_kind.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One run as a user asks for it.
 struct RunRequest {
@@ -26,4 +26,4 @@ struct RunRequest {
   std::optional<StartState> start = {};  ///< instead of that of the scene
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "integrate/integrate.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 OnFailure parse_on_failure(std::string_view name) {
   for (const OnFailure on_failure : {OnFailure::stop, OnFailure::halve})
@@ -70,4 +70,4 @@ long RunStepper<S>::step(State<S>& state, const S& h) {
 #define HBVM_DEFINE(S) template class RunStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "step/method.hpp"
 #include "step/raising_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What to do with a step that cannot be made.
 enum class OnFailure {
@@ -57,4 +57,4 @@ class RunStepper final : public Stepper<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

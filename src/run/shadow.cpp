@@ -8,7 +8,7 @@
 #include "run_beside.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Sees the shadow's mesh points.
@@ -113,4 +113,4 @@ std::string to_text(const Shadow& shadow) {
 #define HBVM_DEFINE(S) template class ShadowedRun<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

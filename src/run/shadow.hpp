@@ -3,25 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/run.hpp"
 #include "integrate/integrate.hpp"
 #include "run/run_request.hpp"
 
-namespace hbvm {
-
-/// How many digits of a run survived rounding: -log10 |x - x_shadow| / max |x| over the path, component by component,
-/// against the same run with 16 more digits, from the exact scene or the state it was started from. At least 0; all
-/// digits of the precision where there is no difference. It says nothing of the error of the method, which both runs
-/// have.
-struct Shadow {
-  std::string precision;     ///< of the shadow: mpfr:32 for double, mpfr:50 for quad, mpfr:N+16 for mpfr:N
-  std::vector<double> q, p;  ///< digits at the end
-  struct Worst {
-    std::string component, t;
-    double digits = 0;
-  } worst;              ///< the component with the fewest digits along the path
-  long every = 1;       ///< steps between two mesh points compared along the path
-  std::string failure;  ///< why the shadow did not reach the end, if it did not; nothing else is known then
-};
+namespace hbvm::core {
 
 /// Keeps the states that a shadow is compared with: those of all mesh points if they are few enough, else of every
 /// `every`-th, and the last.
@@ -51,4 +37,4 @@ std::string to_text(const Shadow& shadow);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

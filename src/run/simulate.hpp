@@ -10,7 +10,7 @@
 #include "step/backward_stepper.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A run in one precision: what ends it and its drifts.
 template <Scalar S>
@@ -63,4 +63,4 @@ Simulated<S> simulate(const Assembled<S>& scene, const Hbvm<S>& method, SolverKi
   return simulate<S>(scene, stepper, grid, std::move(observers), account);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::json;
@@ -99,4 +99,4 @@ State<S> evaluate(const StartState& start, const Scene& text, const Assembled<S>
 #define HBVM_DEFINE(S) template State<S> evaluate<S>(const StartState&, const Scene&, const Assembled<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

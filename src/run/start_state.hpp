@@ -5,7 +5,7 @@
 #include "scene/assemble.hpp"
 #include "step/state.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A state to start from instead of that of the scene, as exact text: what `hbvm run --json` prints holds one.
 struct StartState {
@@ -30,4 +30,4 @@ State<S> evaluate(const StartState& start, const Scene& text, const Assembled<S>
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "linear/matrix.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A vector's numbers as to_text() writes them.
 template <Scalar S>
@@ -16,4 +16,4 @@ std::vector<std::string> texts(const Vector<S>& v) {
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

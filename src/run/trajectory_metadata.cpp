@@ -2,7 +2,7 @@
 
 #include "hbvm/version.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 CsvMetadata trajectory_metadata(const RunRequest& request, const std::vector<TrajectoryColumn>& columns,
                                 const std::string& command, long every) {
@@ -24,4 +24,4 @@ CsvMetadata trajectory_metadata(const RunRequest& request, const std::vector<Tra
   return metadata;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

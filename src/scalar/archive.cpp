@@ -5,7 +5,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string hexadecimal(mpfr_srcptr x) {
@@ -106,4 +106,4 @@ void Archive::keep(std::string& x) {
   at_ = end + 1;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

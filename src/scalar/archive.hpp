@@ -7,7 +7,7 @@
 
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Exact values as text, in order. The same calls write and read, so that the two cannot disagree: what has a state
 /// says so once, in a member
@@ -81,4 +81,4 @@ class Archive {
   std::size_t at_ = 0;  ///< read so far
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <mpfr.h>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// An mpfr_t with a number of bits of its own, whatever the precision of the scope: for code that works with guard
 /// bits and rounds once at the end. (A Boost number takes the digits of the scope whenever it is copied or moved.)
@@ -30,4 +30,4 @@ class BigFloat {
   mpfr_t value_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// log2 |x| to less than a unit: the e with 2^(e-1) <= |x| < 2^e; of 0, less than that of any number.
 inline constexpr long exponent_of_zero = -(1L << 40);
@@ -32,4 +32,4 @@ S power_of_two(long exponent) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "expression_node.hpp"
 #include "scalar/expression.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 using Node = Expression::Node;
 using Kind = Node::Kind;
@@ -361,4 +361,4 @@ BigFloat Expression::evaluate_to_bits(int bits, const Constants& constants) cons
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

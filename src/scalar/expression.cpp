@@ -8,7 +8,7 @@
 #include "expression_node.hpp"
 #include "nearest.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Node = Expression::Node;
@@ -257,4 +257,4 @@ std::set<std::string> Expression::names() const {
   return names;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

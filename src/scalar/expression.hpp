@@ -10,7 +10,7 @@
 #include "hbvm/error.hpp"
 #include "scalar/big_float.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 class Expression;
 
@@ -71,4 +71,4 @@ class Expression {
   std::shared_ptr<const Node> root_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "scalar/expression.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One operation of a parsed expression.
 struct Expression::Node {
@@ -36,4 +36,4 @@ struct Expression::Node {
   std::size_t at = 0;  ///< where in the text it stands: of an operation its sign
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

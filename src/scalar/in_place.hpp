@@ -5,7 +5,7 @@
 
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A condition of which the compiler is told that no branch can foresee it: what depends on it is chosen without one.
 inline bool by_chance(bool condition) {
@@ -189,4 +189,4 @@ void subtract_product(S& r, const S& a, const S& b, [[maybe_unused]] S& t) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "scalar/expression.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The value of an expression in the working precision, right to the last bit.
 /// \throws ExpressionError as Expression::evaluate_to_bits does, and if the value overflows or underflows S
@@ -29,4 +29,4 @@ S literal(std::string_view text) {
   return evaluate<S>(Expression::parse(text));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "scalar/mpfr.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// log2 |x|, -infinity for 0: a double holds that of any number.
 inline double log2_of(const Mpfr& x) {
@@ -24,4 +24,4 @@ inline Mpfr power_of_two(double log2) {
   return x;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <boost/multiprecision/mpfr.hpp>
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Binary floating point with a number of digits chosen at run time: Boost's number over mpfr_t, without
 /// expression templates. New values take the digits of the innermost PrecisionScope of their thread.
@@ -42,7 +42,7 @@ class PrecisionScope {
   boost::multiprecision::variable_precision_options options_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core
 
 // A double beside a number of many digits is nearly always a literal that is wrong after the 17th digit, so it does
 // not compile. (Integers are exact and stay allowed.) The overloads must stand in Boost's namespace to be found.
@@ -65,7 +65,7 @@ class PrecisionScope {
   HBVM_FORBID_UPDATE(Number, Binary, /=)
 
 namespace boost::multiprecision {
-HBVM_FORBID_BINARY(hbvm::Mpfr, float)
-HBVM_FORBID_BINARY(hbvm::Mpfr, double)
-HBVM_FORBID_BINARY(hbvm::Mpfr, long double)
+HBVM_FORBID_BINARY(hbvm::core::Mpfr, float)
+HBVM_FORBID_BINARY(hbvm::core::Mpfr, double)
+HBVM_FORBID_BINARY(hbvm::core::Mpfr, long double)
 }  // namespace boost::multiprecision

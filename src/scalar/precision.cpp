@@ -5,7 +5,7 @@
 #include "hbvm/error.hpp"
 #include "scalar/quad.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 Precision Precision::parse(std::string_view name) {
   if (name == "double") return {Kind::binary64, 15};
@@ -42,4 +42,4 @@ std::string Precision::name() const {
 
 const char* precision_of_34_digits() { return has_quad ? "quad" : "mpfr:34"; }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A working precision as a user names it: "double", "quad" or "mpfr:N", or "N" alone, with N decimal digits.
 class Precision {
@@ -31,4 +31,4 @@ class Precision {
 /// The cheapest precision of 34 digits: "quad", or "mpfr:34" of a build without it.
 const char* precision_of_34_digits();
 
-}  // namespace hbvm
+}  // namespace hbvm::core

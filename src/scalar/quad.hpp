@@ -7,36 +7,36 @@
 #define HBVM_QUAD 1
 #endif
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline constexpr bool has_quad = HBVM_QUAD != 0;
 
-}  // namespace hbvm
+}  // namespace hbvm::core
 
 #if HBVM_QUAD
 
 #include <boost/multiprecision/float128.hpp>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// IEEE binary128 (113 significand bits, about 34 digits), computed in software by libquadmath.
 using Quad = boost::multiprecision::number<boost::multiprecision::float128_backend, boost::multiprecision::et_off>;
 
-}  // namespace hbvm
+}  // namespace hbvm::core
 
 namespace boost::multiprecision {
-HBVM_FORBID_BINARY(hbvm::Quad, float)
-HBVM_FORBID_BINARY(hbvm::Quad, double)
-HBVM_FORBID_BINARY(hbvm::Quad, long double)
+HBVM_FORBID_BINARY(hbvm::core::Quad, float)
+HBVM_FORBID_BINARY(hbvm::core::Quad, double)
+HBVM_FORBID_BINARY(hbvm::core::Quad, long double)
 }  // namespace boost::multiprecision
 
 #else
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Its name alone, for code that asks whether a scalar is this one.
 class Quad;
 
-}  // namespace hbvm
+}  // namespace hbvm::core
 
 #endif

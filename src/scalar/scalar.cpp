@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <>
 double rounded_to<double>(mpfr_srcptr x) {
@@ -93,4 +93,4 @@ BigFloat exactly(const Quad& x) {
 
 #endif
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "scalar/mpfr.hpp"
 #include "scalar/quad.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The number types every algorithm here is written for.
 template <class S>
@@ -15,9 +15,9 @@ concept Scalar = std::same_as<S, double> || std::same_as<S, Quad> || std::same_a
 
 /// The one list of the scalars of this build: HBVM_FOR_EACH_SCALAR(X) expands X(double) X(Quad) X(Mpfr).
 #if HBVM_QUAD
-#define HBVM_FOR_EACH_SCALAR(X) X(double) X(::hbvm::Quad) X(::hbvm::Mpfr)
+#define HBVM_FOR_EACH_SCALAR(X) X(double) X(::hbvm::core::Quad) X(::hbvm::core::Mpfr)
 #else
-#define HBVM_FOR_EACH_SCALAR(X) X(double) X(::hbvm::Mpfr)
+#define HBVM_FOR_EACH_SCALAR(X) X(double) X(::hbvm::core::Mpfr)
 #endif
 
 /// Significand bits of the working precision.
@@ -89,4 +89,4 @@ double approximately(const S& x) {
   return static_cast<double>(x);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

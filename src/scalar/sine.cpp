@@ -8,7 +8,7 @@
 
 #include "scalar/big_float.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 // Numbers here are fractions of 1, n limbs with the least first. What is cut off below the last limb is a few units
@@ -278,4 +278,4 @@ void set_cos(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t) {
   if (!set_by_table(r, a, 1)) mpfr_cos(r, a, MPFR_RNDN);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

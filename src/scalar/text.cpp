@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Significant decimal digits d1d2d3… and the exponent e of 0.d1d2d3… x 10^e, as mpfr_get_str gives them.
@@ -144,4 +144,4 @@ std::string rounded_text(const std::string& decimal, int digits) {
   return exponent == std::string::npos ? text : text.erase(exponent, 1);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

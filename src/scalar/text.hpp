@@ -4,7 +4,7 @@
 
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The shortest decimal text that reads back as the same number of the same precision ("0.1", "1.5e-60", "nan").
 std::string to_text(double x);
@@ -22,4 +22,4 @@ std::string to_scientific(const std::string& decimal, int digits);
 /// there would be more zeros than digits.
 std::string rounded_text(const std::string& decimal, int digits);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

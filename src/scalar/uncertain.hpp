@@ -2,7 +2,7 @@
 
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A number known up to an error bound: the round-off of what it was computed from, which every operation passes on. So
 /// a sum that would vanish but for that round-off is told from one that is small, whatever the sizes and units of
@@ -37,4 +37,4 @@ struct Uncertain {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

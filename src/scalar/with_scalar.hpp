@@ -5,7 +5,7 @@
 #include "scalar/precision.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Calls `f.operator()<S>()` with the scalar that `precision` names, inside a PrecisionScope of its digits. This is
 /// the only place where the choice made at run time becomes a type; what f returns must hold no scalar, so that
@@ -30,4 +30,4 @@ auto with_scalar(const Precision& precision, F&& f) {
   return std::forward<F>(f).template operator()<Mpfr>();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

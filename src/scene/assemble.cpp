@@ -23,7 +23,7 @@
 #include "scene/own_precision.hpp"
 #include "scene/second_moment.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Not to the end of a long list.
@@ -743,4 +743,4 @@ Assembled<S> assemble(const Scene& scene, Consistency consistency) {
 #define HBVM_DEFINE(S) template Assembled<S> assemble<S>(const Scene&, Consistency);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "scene/effect_reach.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A constraint that follows from others at the start, so that it is integrated without and only watched; of a joint
 /// all that do.
@@ -45,4 +45,4 @@ Assembled<S> assemble(const Scene& scene, Consistency consistency = Consistency:
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "scene/coordinate_names.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::vector<std::string> coordinate_names(const Scene& scene, const std::string& of) {
   std::vector<std::string> names;
@@ -15,4 +15,4 @@ std::vector<std::string> coordinate_names(const Scene& scene, const std::string&
   return names;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

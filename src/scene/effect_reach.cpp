@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::vector<std::pair<std::string, std::string>> left_out(const Scene& scene, const SceneEffect& effect,
                                                           const EffectReach& reach) {
@@ -49,4 +49,4 @@ std::string to_text(const EffectReach& reach) {
   return text;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

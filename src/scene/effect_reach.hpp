@@ -6,7 +6,7 @@
 
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Whom an effect of a scene acts on, by names: a body, a pair or a group each, in the order of the instances of its
 /// term.
@@ -21,4 +21,4 @@ std::vector<std::pair<std::string, std::string>> left_out(const Scene& scene, co
 /// "'a', 'b'" or "'a'-'b', 'a'-'c', and 98 more".
 std::string to_text(const EffectReach& reach);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

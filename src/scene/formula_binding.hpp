@@ -6,7 +6,7 @@
 #include "problem/formula/use.hpp"
 #include "scene/formula_names.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The bodies and points of a scene in numbers, by their names.
 template <Scalar S>
@@ -88,4 +88,4 @@ class FormulaBinding {
   std::vector<std::size_t> places_;  ///< whose positions are inputs, ascending; none for the displacement of a pair
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

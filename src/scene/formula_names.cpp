@@ -5,7 +5,7 @@
 #include "nearest.hpp"
 #include "scalar/expression_node.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr std::string_view axes = "xyz";
@@ -84,4 +84,4 @@ FormulaNames names_used(const SceneFormula& formula, int dimension, const Consta
   return used;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a name in a formula of a scene stands for: a property of one of its places, or of two of them.
 struct FormulaName {
@@ -20,4 +20,4 @@ FormulaNames formula_names(const SceneFormula& formula, int dimension);
 /// \throws ExpressionError at a name that is neither one of them nor a constant, or that is both
 FormulaNames names_used(const SceneFormula& formula, int dimension, const Constants& constants);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "problem/gram_factor.hpp"
 #include "problem/point.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Each sweep minimises the distance under the constraints linearised at the last q: q = target - M^-1 grad g mu with
 /// grad g^T M^-1 grad g mu = g(q) + grad g^T (target - q).
@@ -57,4 +57,4 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target) {
 #define HBVM_DEFINE(S) template Vector<S> nearest_position<S>(const Problem<S>&, const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// q with g(q) = 0 nearest to `target` in the metric M.
 /// \throws InputError if none is found: the target is too far away, or the constraints contradict one another
@@ -13,4 +13,4 @@ Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

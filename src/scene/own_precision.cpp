@@ -5,7 +5,7 @@
 #include "scalar/expression_node.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Of a decimal, without zeros before it and its exponent; 0 of anything else.
@@ -53,4 +53,4 @@ S own_precision(const Scene& scene) {
 #define HBVM_DEFINE(S) template S own_precision<S>(const Scene&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

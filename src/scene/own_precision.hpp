@@ -3,7 +3,7 @@
 #include "scalar/scalar.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The digits that the start of a scene is written with, if its numbers were rounded to 15 or more, as those of a
 /// double are: the most that a decimal of a position, velocity, momentum, director or angular velocity has. Else 0: few
@@ -18,4 +18,4 @@ S own_precision(const Scene& scene);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

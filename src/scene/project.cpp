@@ -9,7 +9,7 @@
 #include "scene/nearest_position.hpp"
 #include "scene/own_precision.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// nearest_position, which says of which scene it is.
@@ -92,4 +92,4 @@ Scene project(const Scene& scene) {
 #define HBVM_DEFINE(S) template Scene project<S>(const Scene&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The scene with the nearest consistent initial state: q minimises (q - q0)^T M (q - q0) under g(q) = 0, then p is
 /// projected to the tangent space there, nearest in the metric M^-1. What changes is written as decimals that read back
@@ -15,4 +15,4 @@ Scene project(const Scene& scene);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -13,7 +13,7 @@
 #include "scene/scene.hpp"
 #include "toml/toml_table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What may stand where a body is named.
@@ -499,4 +499,4 @@ std::string scene_text(const std::string& path_or_name) {
 
 Scene load_scene(const std::string& path_or_name) { return read_scene(scene_text(path_or_name), path_or_name); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

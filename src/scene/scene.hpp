@@ -12,7 +12,7 @@
 #include "problem/effect/interaction.hpp"
 #include "scalar/expression.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a scene file says, as exact text: no number in it has been rounded. Made by read_scene, or in C++. Lines are
 /// those of the file, for messages; 0 if there is none.
@@ -125,8 +125,8 @@ struct Scene {
   }
 };
 
-/// Reads the TOML text of a scene and checks all that can be checked without computing.
-/// \param name stands in messages and results
+/// Reads the TOML text of a scene and checks all that can be checked without computing. The name stands in messages and
+/// results.
 /// \throws InputError with name, line and what is wrong
 Scene read_scene(const std::string& toml, const std::string& name);
 
@@ -144,4 +144,4 @@ Scene load_scene(const std::string& path_or_name);
 /// Name and text of each scene compiled in.
 const std::vector<std::pair<std::string, std::string>>& built_in_scenes();
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "hbvm/error.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -80,4 +80,4 @@ std::vector<double> moments_of_inertia(const MassDistribution<double>& of) {
 #define HBVM_DEFINE(S) template Matrix<S> usable_second_moment<S>(const MassDistribution<S>&, bool);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

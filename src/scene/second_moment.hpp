@@ -4,7 +4,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Mass, centre of mass c and second moment S about the reference point of a rigid body, in its own frame.
 template <Scalar S>
@@ -31,4 +31,4 @@ std::vector<double> moments_of_inertia(const MassDistribution<double>& of);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class Sketcher {
@@ -106,4 +106,4 @@ std::array<double, 3> Sketch::position(std::size_t i, const std::vector<double>&
 
 Sketch sketch(const Scene& scene) { return Sketcher(scene).made(); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "problem/space/displacement.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What there is to draw of a scene: named places, and what joins them.
 struct Sketch {
@@ -37,4 +37,4 @@ struct Sketch {
 /// its directors if it has none.
 Sketch sketch(const Scene& scene);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "toml/toml_table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What stands between two places of a text, and what is to stand there.
@@ -82,4 +82,4 @@ std::string with_start(const std::string& toml, const Scene& start) {
   return editor.edited();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,7 +1,7 @@
 #include "problem/constraint/registry.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A string in quotes. What may not stand in one as it is, or is refused in a file, is written as its number.
@@ -161,4 +161,4 @@ std::string write_scene(const Scene& scene) {
   return w.out;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "solver/automatic.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 Automatic<S>::Automatic(const Problem<S>& problem, const Hbvm<S>& method)
@@ -69,4 +69,4 @@ void Automatic<S>::remember(Archive& archive) {
 #define HBVM_DEFINE(S) template class Automatic<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "solver/stage_solver.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Chooses between two solvers, step by step: the preferred one, and the other from the step on in which that fails or
 /// needs more than `slow` sweeps; back again if the other fails.
@@ -39,4 +39,4 @@ class Automatic final : public StageSolver<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "linear/product.hpp"
 #include "scalar/binary_exponent.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 Continuation<S>::Continuation(const Hbvm<S>& method, std::vector<Index> body, Index multipliers)
@@ -115,4 +115,4 @@ void Continuation<S>::predict(StageUnknowns<S>& x) {
 #define HBVM_DEFINE(S) template class Continuation<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "solver/part_count.hpp"
 #include "solver/stage_equations.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Start values from the polynomials of the step before, followed beyond its end (Hairer and Wanner, Solving Ordinary
 /// Differential Equations II, 1996, section IV.8): with T of P_j(1 + c) = sum_i P_i(c) T_ij, coefficients gamma become
@@ -64,4 +64,4 @@ class Continuation {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

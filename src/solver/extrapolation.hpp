@@ -9,7 +9,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Continues a sequence x_1, x_2, … of matrices, one a step, column by column by the polynomial through the last
 /// elements. It keeps the backward differences D_r = nabla^r x_n; x_{n+1} is predicted as sum_{i <= r} D_i, and as
@@ -131,4 +131,4 @@ class Extrapolation {
   S least_ = 0, norm_ = 0;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

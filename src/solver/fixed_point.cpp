@@ -6,7 +6,7 @@
 #include "scalar/text.hpp"
 #include "solver/roundings.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 FixedPoint<S>::FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, Order order)
@@ -146,4 +146,4 @@ long FixedPoint<S>::iterate() {
 #define HBVM_DEFINE(S) template class FixedPoint<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

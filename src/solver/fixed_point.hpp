@@ -6,7 +6,7 @@
 #include "solver/stage_solver.hpp"
 #include "solver/stopping_rule.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The fixed-point iteration (55) for the stage equations (54).
 ///
@@ -64,4 +64,4 @@ class FixedPoint final : public StageSolver<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "scalar/binary_exponent.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -294,4 +294,4 @@ void Jacobian<S>::solve_scaled(StageResidual<S>& r) {
 #define HBVM_DEFINE(S) template class Jacobian<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "solver/part_count.hpp"
 #include "solver/stage_equations.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The derivative of the StageResidual by gamma and h lambda, factored: s (m + nu) unknowns whatever k is.
 ///
@@ -99,4 +99,4 @@ class Jacobian {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "solver/roundings.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// x 2^-exponent.
@@ -308,4 +308,4 @@ void Newton<S>::remember(Archive& archive) {
 #define HBVM_DEFINE(S) template class Newton<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

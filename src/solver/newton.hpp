@@ -6,7 +6,7 @@
 #include "problem/in_double.hpp"
 #include "solver/simplified_newton.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Newton's iteration in mixed precision: the residual in the working precision, the Jacobian and its factors in
 /// double.
@@ -99,4 +99,4 @@ class Newton final : public StageSolver<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

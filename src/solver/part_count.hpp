@@ -6,7 +6,7 @@
 #include "linear/operation_counts.hpp"
 #include "scalar/archive.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One part of what a step consists of: how often it ran, what one call costs, and, if measured, the time it took.
 struct PartCount {
@@ -42,4 +42,4 @@ class PartCall {
   double before_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "linear/arrays.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 PositionScale<S>::PositionScale(const Problem<S>& problem)
@@ -46,4 +46,4 @@ void PositionScale<S>::evaluate(const Vector<S>& q, const S& h, Vector<S>& scale
 #define HBVM_DEFINE(S) template class PositionScale<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

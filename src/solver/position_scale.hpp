@@ -2,7 +2,7 @@
 
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What rounding of the positions amounts to in the momenta of a step, over epsilon: h M^-1 gamma is added to positions
 /// rounded to epsilon |q|, which a change of gamma by epsilon |M| |q| / h would do as well. Positions in space count by
@@ -30,4 +30,4 @@ class PositionScale {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "scalar/binary_exponent.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 RootCheck<S>::Rounded::Rounded(const Problem<S>& full, const Hbvm<S>& full_method)
@@ -45,4 +45,4 @@ auto RootCheck<S>::judge(const StepStart<S>& start, const Matrix<S>& gamma) -> V
 #define HBVM_DEFINE(S) template class RootCheck<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/in_double.hpp"
 #include "solver/simplified_newton.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Whether a solution of the stage equations is the one that shrinks to the start with the step: there may be others,
 /// and an iteration that does not contract well may find them. Follows that one from much shorter steps by Newton's
@@ -43,4 +43,4 @@ class RootCheck {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scalar/text.hpp"
 #include "solver/roundings.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Increments that fall by less than this a sweep may be worth a new Jacobian.
@@ -288,7 +288,7 @@ long SimplifiedNewton<S>::grow(const StepStart<S>& from, int halvings) {
   prepare(Start::constant, from.p);
   for (bool first = true;; first = false) {
     // There may be a thousand shorter steps.
-    if (!first) end_on_signal("the solution was not followed from shorter steps");
+    if (!first) end_if_asked("the solution was not followed from shorter steps");
     try {
       begin(from, h);
       usable_ = false;
@@ -553,4 +553,4 @@ void SimplifiedNewton<S>::add_change_of_momentum(const Matrix<S>& momentum, cons
 #define HBVM_DEFINE(S) template class SimplifiedNewton<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "solver/stage_solver.hpp"
 #include "solver/stopping_rule.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Simplified Newton iteration for the stage equations with everything in the working precision. In double it is
 /// Newton's solver itself, and the start and the Jacobian of the mixed-precision one; in more digits it serves where
@@ -156,4 +156,4 @@ class SimplifiedNewton {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "scalar/archive.hpp"
 #include "solver/part_count.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// By effect and by part of the stage equations, in whatever precision they were evaluated.
 struct SolverCounts {
@@ -53,4 +53,4 @@ SolverCounts sum_of(SolverCounts counts, const SolverCounts& other, const Proble
   return counts;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr std::array<std::pair<SolverKind, std::string_view>, 4> solvers{{{SolverKind::automatic, "auto"},
@@ -28,4 +28,4 @@ std::string_view name_of(SolverKind kind) {
   return {};
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The solvers by the name a user gives them.
 enum class SolverKind {
@@ -15,4 +15,4 @@ enum class SolverKind {
 SolverKind parse_solver(std::string_view name);
 std::string_view name_of(SolverKind kind);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "linear/product.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// I with c_i - 1/2 for its column 0, c_i. Mirrored nodes lie as far from 1/2 as each other but for rounding; here they
@@ -445,4 +445,4 @@ void StageEquations<S>::take_rest(const Matrix<S>& psi, const Matrix<S>& zeta, I
 #define HBVM_DEFINE(S) template class StageEquations<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "problem/constraint_gradient.hpp"
 #include "solver/part_count.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The unknowns of one step, by Fourier coefficient or node.
 template <Scalar S>
@@ -204,4 +204,4 @@ class StageEquations {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "solver/stage_failure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 std::string_view name_of(FailureCause cause) {
   switch (cause) {
@@ -30,4 +30,4 @@ std::string_view remedy_of(FailureCause cause) {
   return "start from a consistent state: hbvm scene project makes one";
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Why a step could not be made. Messages, JSON and the collection of hard cases call it by name_of.
 enum class FailureCause {
@@ -34,4 +34,4 @@ class StageFailure : public Error {
   long sweeps_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "solver/fixed_point.hpp"
 #include "solver/newton.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 std::unique_ptr<StageSolver<S>> make_solver(SolverKind kind, const Problem<S>& problem, const Hbvm<S>& method) {
@@ -26,4 +26,4 @@ std::unique_ptr<StageSolver<S>> make_solver(SolverKind kind, const Problem<S>& p
   template std::unique_ptr<StageSolver<S>> make_solver<S>(SolverKind, const Problem<S>&, const Hbvm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "solver/stage_equations.hpp"
 #include "solver/stage_failure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Solves the stage equations of one step after the other. What it learns from one step serves the next, unless that
 /// is of another size.
@@ -37,4 +37,4 @@ class StageSolver {
 template <Scalar S>
 std::unique_ptr<StageSolver<S>> make_solver(SolverKind kind, const Problem<S>& problem, const Hbvm<S>& method);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "scalar/in_place.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Numbers below it are rounded to its multiples.
@@ -314,7 +314,7 @@ template <Scalar S>
 typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
   // A step that takes more than this is likely to fail in the end, after thousands in many digits.
   constexpr long usual = 100;
-  if (++sweeps_ > usual) end_on_signal("the stage equations were not solved");
+  if (++sweeps_ > usual) end_if_asked("the stage equations were not solved");
   take_scales();
   if (!finite_ || !look_at_changes()) return Verdict::not_finite;
 
@@ -383,4 +383,4 @@ double StoppingRule<S>::condition_wanted() const {
 #define HBVM_DEFINE(S) template class StoppingRule<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "linear/matrix.hpp"
 #include "solver/stage_failure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Decides when an iteration for momenta at the stages has come down to round-off: coordinate by coordinate, each
 /// against its own scale, so that the digits of a light, slow or small one do not depend on what else moves.
@@ -133,4 +133,4 @@ class StoppingRule {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

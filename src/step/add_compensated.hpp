@@ -2,7 +2,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// x + carry += increment, where x holds the rounded sum and carry the rest (Kahan and Babuska): what is lost is a
 /// rounding of the carry. A sum of increment and carry, rounded before it is added, would lose the same bits of a
@@ -15,4 +15,4 @@ void add_compensated(S& x, S& carry, const S& increment, S& s, S& t) {
   set_exact_sum(x, carry, s, rest, t);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

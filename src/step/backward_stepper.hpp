@@ -3,7 +3,7 @@
 #include "scalar/in_place.hpp"
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Steps back in time: H is even in p, so that this is a step of another stepper forward from (q, -p), with p reversed
 /// again. The multiplier is the same.
@@ -45,4 +45,4 @@ class BackwardStepper final : public Stepper<S> {
   Stepper<S>& forward_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -11,7 +11,7 @@
 #include "step/odeint_methods.hpp"
 #include "step/reduced_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace ode = boost::numeric::odeint;
@@ -70,7 +70,7 @@ class BulirschStoer final : public ReducedStepper<S> {
         throw StageFailure(FailureCause::precision_exhausted,
                            "the tolerance is not reached by parts of " + to_scientific(part_, 3) + " of the step",
                            to_scientific(part_, 3), tries);
-      end_on_signal("a step is made in parts");
+      end_if_asked("a step is made in parts");
       if (made) evaluate_at(x_, slope_);
     }
     set_changes(x_);
@@ -175,4 +175,4 @@ MethodPtr bulirsch_stoer_method(std::string_view arguments) {
   return std::make_shared<const BulirschStoerMethod>(digits);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "linear/rounded.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 void append_steps(std::vector<Mpfr>& steps, int order, const Mpfr& factor) {
@@ -118,4 +118,4 @@ MethodPtr composition_method(std::string_view arguments) {
   template class CompositionStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

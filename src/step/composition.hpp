@@ -2,7 +2,7 @@
 
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The step sizes, over that of the whole, of the symmetric composition of order P = 2, 4, 6, ... of a symmetric method
 /// of order 2: five steps of the composition of order P - 2, the third one backwards,
@@ -48,4 +48,4 @@ MethodPtr composition_method(std::string_view arguments);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "scalar/in_place.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 ConstraintProjection<S>::ConstraintProjection(const Problem<S>& problem)
@@ -148,4 +148,4 @@ const Matrix<S>& ConstraintProjection<S>::make_tangential(Vector<S>& p) {
 #define HBVM_DEFINE(S) template class ConstraintProjection<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

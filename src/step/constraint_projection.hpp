@@ -4,7 +4,7 @@
 #include "linear/ordering.hpp"
 #include "solver/stage_solver.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Brings positions onto the constraints and momenta into their tangent spaces, as RATTLE does in every step. Owns its
 /// storage. The problem must outlive it.
@@ -59,4 +59,4 @@ class ConstraintProjection {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "scalar/in_place.hpp"
 #include "step/state.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// to = from, of equal sizes, in place.
 template <Scalar S>
@@ -16,4 +16,4 @@ void copy_state(State<S>& to, const State<S>& from) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "linear/arrays.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 EnergyMomentum<S>::EnergyMomentum(const Problem<S>& problem)
@@ -228,4 +228,4 @@ MethodPtr energy_momentum_method(std::string_view arguments) {
 #define HBVM_DEFINE(S) template class EnergyMomentum<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

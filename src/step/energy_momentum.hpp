@@ -9,7 +9,7 @@
 #include "step/method.hpp"
 #include "step/stage_iteration.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Steps of the energy-momentum method of Gonzalez (J. Nonlinear Sci. 6, 1996; with constraints: Physica D 132, 1999),
 /// of order 2 and symmetric:
@@ -84,4 +84,4 @@ MethodPtr energy_momentum_method(std::string_view arguments);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

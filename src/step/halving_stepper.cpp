@@ -6,7 +6,7 @@
 #include "copy_state.hpp"
 #include "interruption.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 HalvingStepper<S>::HalvingStepper(Make make)
@@ -46,7 +46,7 @@ long HalvingStepper<S>::step(State<S>& state, const S& h) {
       if (depth_ < last_) patience_ = std::min(2 * patience_, longest_patience);
       successes_ = 0;
       if (++depth_ <= deepest) {
-        end_on_signal("a step is divided");
+        end_if_asked("a step is divided");
         continue;
       }
       copy_state(state, before_);
@@ -61,7 +61,7 @@ long HalvingStepper<S>::step(State<S>& state, const S& h) {
     smallest = std::max(smallest, depth_);
     ++substeps;
     done += whole >> depth_;
-    if (done < whole) end_on_signal("a step is divided");
+    if (done < whole) end_if_asked("a step is divided");
     if (depth_ > 0 && ++successes_ >= patience_ && done % (whole >> (depth_ - 1)) == 0) {
       --depth_;
       successes_ = 0;
@@ -105,4 +105,4 @@ void HalvingStepper<S>::remember(Archive& archive) {
 #define HBVM_DEFINE(S) template class HalvingStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

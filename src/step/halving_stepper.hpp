@@ -6,7 +6,7 @@
 
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What was done to steps that failed.
 struct HalvingLog {
@@ -65,4 +65,4 @@ class HalvingStepper final : public Stepper<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/effect/trace.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 HbvmMethod::HbvmMethod(HbvmName name, std::optional<Perturbation> perturbation)
     : name_(name), perturbation_(std::move(perturbation)) {
@@ -83,4 +83,4 @@ const HbvmMethod* as_hbvm(const Method& method) { return dynamic_cast<const Hbvm
   template StepperMaker<S> HbvmMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "method/perturbation.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// HBVM(k, s), of order 2s in q and the tangential momentum; hbvm:auto,S as long as its k is not chosen. For an audit
 /// one of its numbers may be wrong.
@@ -63,4 +63,4 @@ const HbvmMethod* as_hbvm(const Method& method);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "scalar/in_place.hpp"
 #include "step/add_compensated.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 HbvmStepper<S>::HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, SolverKind solver)
@@ -52,4 +52,4 @@ void HbvmStepper<S>::remember(Archive& archive) {
 #define HBVM_DEFINE(S) template class HbvmStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

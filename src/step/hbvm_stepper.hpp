@@ -4,7 +4,7 @@
 
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Steps of HBVM(k, s). Problem and method must outlive it.
 template <Scalar S>
@@ -50,4 +50,4 @@ class HbvmStepper final : public Stepper<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

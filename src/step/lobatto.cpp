@@ -9,7 +9,7 @@
 #include "linear/rounded.hpp"
 #include "method/hbvm_name.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The roots of (1 - x^2) P_N', x = 2c - 1, by Newton's method: the derivative is -N (N + 1) P_N, and the function
@@ -323,4 +323,4 @@ MethodPtr lobatto_method(std::string_view arguments) {
   template class LobattoStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

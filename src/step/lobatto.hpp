@@ -6,7 +6,7 @@
 #include "step/method.hpp"
 #include "step/stage_iteration.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The coefficients of the Lobatto IIIA-IIIB pair of s >= 2 stages on [0, 1] with c_1 = 0 and c_s = 1. A is the
 /// collocation method IIIA, whose first row is 0 and whose last row is b; A_hat is IIIB, b_i a_hat_ij + b_j a_ji =
@@ -98,4 +98,4 @@ MethodPtr lobatto_method(std::string_view arguments);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

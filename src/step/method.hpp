@@ -8,7 +8,7 @@
 #include "scalar/expression.hpp"
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a method keeps of every motion whatever the step, but for round-off.
 struct Kept {
@@ -90,4 +90,4 @@ class MethodByTemplate : public Method {
   const Own& own() const { return static_cast<const Own&>(*this); }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

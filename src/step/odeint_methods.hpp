@@ -2,7 +2,7 @@
 
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 // Methods of Boost.odeint, on the index-reduced equations, each a ReducedStepper: they keep neither the constraints nor
 // the energy, and lose both at their order.
@@ -17,4 +17,4 @@ MethodPtr rkf78_method(std::string_view arguments);
 /// InputError
 MethodPtr bulirsch_stoer_method(std::string_view arguments);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

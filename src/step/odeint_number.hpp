@@ -2,7 +2,7 @@
 
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A number of the working precision for code that mixes it with double, as the step size control of Boost.odeint does,
 /// whose constants are factors of safety and whole numbers. A template: double itself needs none.
@@ -40,4 +40,4 @@ struct OdeintNumber {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "step/add_compensated.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 ProjectedStepper<S>::ProjectedStepper(std::unique_ptr<Stepper<S>> inner, OnEnergy on_energy)
@@ -191,4 +191,4 @@ MethodPtr restored_hbvm_method(std::string_view arguments) {
 #define HBVM_DEFINE(S) template class ProjectedStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

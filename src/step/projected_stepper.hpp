@@ -4,7 +4,7 @@
 #include "step/constraint_projection.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What becomes of the energy that a projection takes.
 enum class OnEnergy {
@@ -65,4 +65,4 @@ MethodPtr restored_hbvm_method(std::string_view arguments);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 QuadratureDefect<S>::Nodes::Nodes(const Problem<S>& problem, int k, int s)
@@ -44,4 +44,4 @@ const S& QuadratureDefect<S>::measure(const StepStart<S>& start, const StageUnkn
 #define HBVM_DEFINE(S) template class QuadratureDefect<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

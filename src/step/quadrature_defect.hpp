@@ -2,7 +2,7 @@
 
 #include "solver/stage_equations.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How far psi_hat of k nodes is from that of k + s, along the polynomial of a step that was made: whether more nodes
 /// would change it. Body by body, so that what a light one feels counts beside a heavy one.
@@ -44,4 +44,4 @@ class QuadratureDefect {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

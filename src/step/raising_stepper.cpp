@@ -5,7 +5,7 @@
 #include "copy_state.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 RaisingStepper<S>::Nodes::Nodes(const Problem<S>& problem, HbvmName name, SolverKind solver)
@@ -310,4 +310,4 @@ void RaisingStepper<S>::remember(Archive& archive) {
 #define HBVM_DEFINE(S) template class RaisingStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "step/hbvm_stepper.hpp"
 #include "step/quadrature_defect.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What became of the number of nodes in a run, in one list for all steppers that make its steps.
 struct NodeLog {
@@ -140,4 +140,4 @@ class RaisingStepper final : public Stepper<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "linear/arrays.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 Rattle<S>::Rattle(const Problem<S>& problem)
@@ -148,4 +148,4 @@ MethodPtr rattle_method(std::string_view arguments) {
 #define HBVM_DEFINE(S) template class Rattle<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

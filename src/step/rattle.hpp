@@ -3,7 +3,7 @@
 #include "step/constraint_projection.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// RATTLE (Andersen 1983), the symplectic method of order 2 for constrained systems:
 ///
@@ -57,4 +57,4 @@ MethodPtr rattle_method(std::string_view arguments);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

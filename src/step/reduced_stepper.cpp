@@ -6,7 +6,7 @@
 #include "linear/arrays.hpp"
 #include "step/add_compensated.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 ReducedEquations<S>::ReducedEquations(const Problem<S>& problem)
@@ -126,4 +126,4 @@ long ReducedStepper<S>::step(State<S>& state, const S& h) {
   template class ReducedStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

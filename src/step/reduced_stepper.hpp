@@ -3,7 +3,7 @@
 #include "problem/point.hpp"
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The index-reduced equations, whose solutions keep g and the hidden constraints where a method need not:
 ///
@@ -89,4 +89,4 @@ class ReducedStepper : public Stepper<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

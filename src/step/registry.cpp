@@ -14,7 +14,7 @@
 #include "step/rattle.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::string method_usage() {
   return text;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One kind of method: its name before the colon, how it is used, and what makes one from the text after the colon.
 struct MethodFamily {
@@ -25,4 +25,4 @@ MethodPtr parse_method(std::string_view text);
 /// The usage of each family, separated by "; ".
 std::string method_usage();
 
-}  // namespace hbvm
+}  // namespace hbvm::core

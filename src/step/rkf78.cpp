@@ -5,7 +5,7 @@
 #include "step/odeint_methods.hpp"
 #include "step/reduced_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -74,4 +74,4 @@ MethodPtr rkf78_method(std::string_view arguments) {
   return std::make_shared<const Rkf78Method>();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

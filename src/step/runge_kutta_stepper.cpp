@@ -6,7 +6,7 @@
 #include "scalar/in_place.hpp"
 #include "step/stage_iteration.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -223,4 +223,4 @@ long RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
 #define HBVM_DEFINE(S) template class RungeKuttaStepper<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

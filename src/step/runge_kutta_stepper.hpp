@@ -10,7 +10,7 @@
 #include "step/stage_iteration.hpp"
 #include "step/stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What becomes of constraints.
 enum class OnConstraints {
@@ -96,4 +96,4 @@ class RungeKuttaStepper final : public Stepper<S> {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "step/add_compensated.hpp"
 #include "step/state.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 // What methods share whose stages have momenta P_i, velocities V_i and forces F_i, s x m each.
 
@@ -72,4 +72,4 @@ class StageSums {
   S size_ = 0, s_ = 0, t_ = 0;                   // kept: creating them allocates
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "linear/matrix.hpp"
 #include "scalar/archive.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The propagated state. q_carry and p_carry are what rounding took from q and p in the last update and the next one
 /// gives back (compensated summation), so that the sums lose no digits over many steps.
@@ -17,4 +17,4 @@ struct State {
   void remember(Archive& archive) { archive(q, p, q_carry, p_carry); }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

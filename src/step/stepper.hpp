@@ -3,7 +3,7 @@
 #include "solver/stage_solver.hpp"
 #include "step/state.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Makes one step after the other. What it learns from a step serves the next if that is of the same size. One that
 /// wraps another (to choose its nodes, to divide a step that failed) is one, too.
@@ -43,4 +43,4 @@ class Stepper {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

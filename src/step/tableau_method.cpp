@@ -7,7 +7,7 @@
 #include "method/read_tableau.hpp"
 #include "method/symmetry_defect.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr std::string_view projected = "+project";
@@ -30,7 +30,7 @@ TableauMethod::TableauMethod(Tableau tableau, std::string file, OnConstraints on
 int TableauMethod::order() const {
   if (tableau_.order) return *tableau_.order;
   const PrecisionScope scope(digits_of_conditions);
-  return hbvm::order(make_runge_kutta<Mpfr>(tableau_), tolerance(tableau_));
+  return hbvm::core::order(make_runge_kutta<Mpfr>(tableau_), tolerance(tableau_));
 }
 
 Kept TableauMethod::kept() const {
@@ -95,4 +95,4 @@ const TableauMethod* as_tableau(const Method& method) { return dynamic_cast<cons
 #define HBVM_DEFINE(S) template StepperMaker<S> TableauMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "step/method.hpp"
 #include "step/runge_kutta_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A Runge-Kutta method from a file, see RungeKuttaStepper for what it makes of constraints.
 class TableauMethod final : public MethodByTemplate<TableauMethod> {
@@ -55,4 +55,4 @@ const TableauMethod* as_tableau(const Method& method);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -52,4 +52,4 @@ Conservation conservation(const ConservationRequest& request, const Precision& p
   return with_scalar(precision, [&]<Scalar S>() { return conservation_in<S>(request); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "scalar/precision.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How a quantity that the motion conserves fared over a run.
 struct ConservedQuantity {
@@ -43,4 +43,4 @@ struct ConservationRequest {
 /// \throws InputError, IntegrationError
 Conservation conservation(const ConservationRequest& request, const Precision& precision);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

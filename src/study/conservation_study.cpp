@@ -8,7 +8,7 @@
 #include "study/conservation.hpp"
 #include "study/step_halving.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Kind = ConservedQuantity::Kind;
@@ -125,4 +125,4 @@ Part<Findings> conservation_study(const Experiment& experiment, TomlTable& top) 
   return part;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "read_file.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 double value_of(const std::string& cell) { return literal<double>(cell); }
 
@@ -33,4 +33,4 @@ std::string ExpectedCsv::cell(const std::vector<std::string>& row, const std::st
   return {};
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

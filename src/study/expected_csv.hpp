@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The number in a cell.
 /// \throws InputError
@@ -22,4 +22,4 @@ struct ExpectedCsv {
   std::string cell(const std::vector<std::string>& row, const std::string& column) const;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,15 +3,15 @@
 #include <filesystem>
 #include <functional>
 
+#include "hbvm/table.hpp"
 #include "long_work/cells.hpp"
-#include "report/table.hpp"
 #include "scene/scene.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/registry.hpp"
 #include "study/study.hpp"
 #include "toml/toml_table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What the parts of a study are read with. Outlives them.
 struct Experiment {
@@ -67,4 +67,4 @@ inline std::string letter(const MethodPtr& method, const std::string& letter) {
   return place == all.end() ? "---" : place->second.text();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

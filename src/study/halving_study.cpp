@@ -7,7 +7,7 @@
 #include "scalar/literal.hpp"
 #include "study/step_halving.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct Block {
@@ -163,4 +163,4 @@ Part<Findings> halving_study(const Experiment& experiment, TomlTable& top) {
   return part;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "run/run.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What is kept of a run.
@@ -105,7 +105,7 @@ Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top) {
     part.cells.push_back(
         {experiment.key("long run", experiment.scene, requests[n].method->key(), step, requests[n].until, ""),
          [request = requests[n], seconds, n] {
-           const RunResult result = hbvm::run(request, {});
+           const RunResult result = hbvm::core::run(request, {});
            (*seconds)[n] = result.cpu_seconds;
            return to_result(result);
          }});
@@ -115,4 +115,4 @@ Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top) {
   return part;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

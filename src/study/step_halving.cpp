@@ -11,7 +11,7 @@
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -154,4 +154,4 @@ std::vector<HalvingRow> halving_rows(const HalvingRequest& request, const std::v
   return with_scalar(precision, [&]<Scalar S>() { return halving_rows_in<S>(request, runs, digits); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

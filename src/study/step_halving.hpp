@@ -8,7 +8,7 @@
 #include "scene/scene.hpp"
 #include "step/method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How many digits a table shows.
 enum class Digits {
@@ -65,4 +65,4 @@ HalvingRun read_halving_run(const std::string& text);
 std::vector<HalvingRow> halving_rows(const HalvingRequest& request, const std::vector<HalvingRun>& runs,
                                      const Precision& precision, Digits digits = Digits::printed);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

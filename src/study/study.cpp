@@ -14,7 +14,7 @@
 #include "study_figure.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -204,4 +204,4 @@ std::vector<std::optional<StudyOutcome>> run_studies(const std::vector<StudyRequ
   return outcomes;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "long_work/cells.hpp"
 #include "scalar/precision.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How a study's results compare with what it states.
 struct StudyAgreement {
@@ -46,4 +46,4 @@ struct StudyOptions : CellOptions {
 std::vector<std::optional<StudyOutcome>> run_studies(const std::vector<StudyRequest>& requests,
                                                      const StudyOptions& options);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,10 +9,11 @@
 #include <sstream>
 
 #include "csv_line.hpp"
+#include "hbvm/figure.hpp"
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 #include "read_file.hpp"
-#include "report/figure.hpp"
+#include "report/draw.hpp"
 #include "run/run.hpp"
 #include "run/run_figure.hpp"
 #include "run/trajectory_metadata.hpp"
@@ -20,7 +21,7 @@
 #include "scene/coordinate_names.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A run of a figure, and the file of its trajectory.
@@ -39,7 +40,7 @@ std::string trajectory(const FigureRun& run, const std::string& command) {
     metadata = to_csvw(trajectory_metadata(run.request, columns, command, run.every), run.csv);
   };
   hooks.open_csv = [&] { return std::make_unique<CsvFile>(run.csv, CsvFile::Opening::anew); };
-  hbvm::run(run.request, hooks);
+  hbvm::core::run(run.request, hooks);
   return dumped({{"csv", read_file(run.csv)}, {"metadata", metadata}}, -1);
 }
 /// CSV and what describes it.
@@ -215,4 +216,4 @@ Part<Drawn> study_figure(const Experiment& experiment, TomlTable reader) {
   return part;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Walks over the text and tells strings and comments from the rest, as the parser does as long as it goes on.
@@ -109,4 +109,4 @@ class Walk {
 
 std::optional<TomlFlaw> find_flaw(std::string_view text) { return Walk(text).find(); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

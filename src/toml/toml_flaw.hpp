@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace hbvm {
+namespace hbvm::core {
 
 struct TomlFlaw {
   std::size_t line;
@@ -17,4 +17,4 @@ struct TomlFlaw {
 /// stand or after a backslash that joins lines.
 std::optional<TomlFlaw> find_flaw(std::string_view text);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

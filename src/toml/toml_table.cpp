@@ -5,7 +5,7 @@
 #include "nearest.hpp"
 #include "toml/toml_flaw.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 TomlSource::TomlSource(std::string text, std::string name, std::set<std::string, std::less<>> top_keys)
     : text_(std::move(text)), name_(std::move(name)), top_keys_(std::move(top_keys)) {
@@ -234,4 +234,4 @@ void TomlTable::expect(const std::vector<std::string>& keys) {
   finish();
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

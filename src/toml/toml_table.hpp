@@ -9,7 +9,7 @@
 
 #include "scalar/expression.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The text of a TOML file, to read decimals from it exactly, and its name for messages.
 class TomlSource {
@@ -87,4 +87,4 @@ class TomlTable {
   std::set<std::string, std::less<>> known_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

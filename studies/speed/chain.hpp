@@ -4,7 +4,7 @@
 
 #include "scene/scene.hpp"
 
-namespace hbvm::speed {
+namespace hbvm::core::speed {
 
 /// A planar chain of n rods of length 1/10, released from a straight line.
 inline Scene chain(int n) {
@@ -17,4 +17,4 @@ inline Scene chain(int n) {
   return read_scene(text + "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, -1]\n", "chain");
 }
 
-}  // namespace hbvm::speed
+}  // namespace hbvm::core::speed

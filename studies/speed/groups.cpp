@@ -7,7 +7,7 @@
 #include "raw_cost.hpp"
 #include "write_file.hpp"
 
-namespace hbvm::speed {
+namespace hbvm::core::speed {
 namespace {
 
 constexpr const char* satellites = "tethered_satellites";
@@ -302,4 +302,4 @@ Figure cost_figure(const std::filesystem::path& folder) {
   return figure;
 }
 
-}  // namespace hbvm::speed
+}  // namespace hbvm::core::speed

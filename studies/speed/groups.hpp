@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "report/figure.hpp"
+#include "hbvm/figure.hpp"
 
-namespace hbvm::speed {
+namespace hbvm::core::speed {
 
 /// One ratio.
 struct Row {
@@ -39,4 +39,4 @@ std::vector<Row> scene_rows();
 /// Time per step against digits, against s, and against the number of bodies; writes its CSV files into the folder.
 Figure cost_figure(const std::filesystem::path& folder);
 
-}  // namespace hbvm::speed
+}  // namespace hbvm::core::speed

@@ -10,7 +10,7 @@
 
 namespace {
 
-using namespace hbvm;
+using namespace hbvm::core;
 
 /// Calls f.operator()<S>() in double (0 digits) or in so many.
 template <class F>

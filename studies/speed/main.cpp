@@ -12,9 +12,9 @@
 
 #include "groups.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/figure.hpp"
+#include "hbvm/table.hpp"
 #include "hbvm/version.hpp"
-#include "report/figure.hpp"
-#include "report/table.hpp"
 
 #ifndef HBVM_FLAGS
 #define HBVM_FLAGS "unknown"
@@ -22,8 +22,8 @@
 
 namespace {
 
-using namespace hbvm;
-using namespace hbvm::speed;
+using namespace hbvm::core;
+using namespace hbvm::core::speed;
 
 void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream out(file);

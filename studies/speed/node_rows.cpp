@@ -5,7 +5,7 @@
 #include "groups.hpp"
 #include "raw_cost.hpp"
 
-namespace hbvm::speed {
+namespace hbvm::core::speed {
 namespace {
 
 double seconds_of_arb(long n, long bits) {
@@ -47,4 +47,4 @@ std::vector<Row> node_rows() {
   return rows;
 }
 
-}  // namespace hbvm::speed
+}  // namespace hbvm::core::speed

@@ -3,7 +3,7 @@
 #include "linear/operation_counts.hpp"
 #include "timing.hpp"
 
-namespace hbvm::speed {
+namespace hbvm::core::speed {
 
 /// What the operations of the working digits cost by themselves, in seconds: the library's calls on full operands.
 class RawCost {
@@ -46,4 +46,4 @@ class RawCost {
   double add_, multiply_, divide_, sqrt_, sin_;
 };
 
-}  // namespace hbvm::speed
+}  // namespace hbvm::core::speed

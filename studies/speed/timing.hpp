@@ -8,7 +8,7 @@
 #include "step/hbvm_stepper.hpp"
 #include "step/rattle.hpp"
 
-namespace hbvm::speed {
+namespace hbvm::core::speed {
 
 /// The best of five runs, in seconds of processor time per call.
 template <class F>
@@ -75,4 +75,4 @@ StepCost rattle_cost(const Assembled<S>& scene, const S& h, long steps) {
   return cost_of_steps<S>(scene, h, steps, [&] { return Rattle<S>(scene.problem); });
 }
 
-}  // namespace hbvm::speed
+}  // namespace hbvm::core::speed

@@ -44,7 +44,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 }
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Allocations, AreCounted) {
@@ -172,5 +172,5 @@ TEST(AStep, OfARungeKuttaMethodAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core
 #endif

@@ -7,7 +7,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(ClaimKeys, TellAllButTheLabelApart) {
@@ -52,4 +52,4 @@ TEST(ClaimKeys, TellTableauxApart) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Claim claim(Quantity quantity, const std::string& problem, HbvmName method, Form form, double predicted = 0) {
@@ -151,4 +151,4 @@ TEST(Auditor, TellsTheIntervalItLookedAt) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

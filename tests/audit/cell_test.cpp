@@ -5,7 +5,7 @@
 #include "audit/cells.hpp"
 #include "clock.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(AuditCells, AskForWhatIsClaimed) {
@@ -42,4 +42,4 @@ TEST(AuditCells, StopAtTheirLimit) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

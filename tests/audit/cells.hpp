@@ -5,7 +5,7 @@
 #include "audit/cell.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What one HBVM on one problem is asked for, from one start.
 inline Cell cell_of(const std::string& problem, HbvmName method, std::initializer_list<Quantity> quantities,
@@ -29,4 +29,4 @@ inline bool is_rate(const std::vector<Rung>& rungs, int rate) {
   return verdict(rate) == Verdict::holds && verdict(rate - 1) == Verdict::fails && verdict(rate + 1) == Verdict::fails;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Claims, NameTheirMethod) {
@@ -24,4 +24,4 @@ TEST(Claims, AreReadableWithThePrintedPaper) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Expression text(const std::string& expression) { return Expression::parse(expression); }
@@ -100,4 +100,4 @@ TEST(CoefficientCheck, HoldsDecimalsToTheirDigits) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 
 #include "hard_cases/not_finite.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
@@ -212,4 +212,4 @@ TEST(ConvergenceRate, GrowingErrorsHaveNegativeRates) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string proof(Quantity quantity, const std::string& problem, HbvmName method) {
@@ -64,4 +64,4 @@ TEST(Exactness, NeedsDigitsForTheOrder) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

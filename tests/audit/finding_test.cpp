@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr double half = double{1} / 2, quarter = half / 2;
@@ -90,4 +90,4 @@ TEST(Verdicts, HaveNames) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

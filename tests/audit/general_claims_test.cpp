@@ -8,7 +8,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 auto key(const Claim& c) { return std::tuple(c.quantity, c.problem, c.method->text(), c.span, c.form, c.predicted); }
@@ -66,4 +66,4 @@ TEST(GeneralClaims, SayWhatTheNodesKeep) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

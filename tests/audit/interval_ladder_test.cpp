@@ -3,7 +3,7 @@
 #include "audit/cells.hpp"
 #include "audit/measurements.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr auto to_the_end = [](const Ladders&) { return false; };
@@ -44,4 +44,4 @@ TEST(IntervalLadder, GoesThroughAllWindows) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

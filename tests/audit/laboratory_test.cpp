@@ -4,7 +4,7 @@
 
 #include "audit/cells.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class LaboratoryTest : public ::testing::Test {
@@ -63,4 +63,4 @@ TEST_F(LaboratoryTest, KeepsToTheTimeThereIs) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

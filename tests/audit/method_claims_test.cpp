@@ -4,7 +4,7 @@
 #include "audit/claims.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const Claim* find(const std::vector<Claim>& claims, Quantity quantity, const std::string& problem) {
@@ -57,4 +57,4 @@ TEST(MethodClaims, HoldOfTheirMethodsOnly) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

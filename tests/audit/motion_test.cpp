@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ TEST_F(MotionTest, ACommonMotionHidesNoEquilibrium) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scene/scene.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 int k_of(const Claim& claim) { return as_hbvm(*claim.method)->name().k; }
@@ -140,4 +140,4 @@ TEST(PaperClaims, AreExactWhereTheLeadingTermIsKnown) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

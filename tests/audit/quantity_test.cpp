@@ -9,7 +9,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::vector<Quantity> all_quantities() {
@@ -56,4 +56,4 @@ TEST(Quantities, UnknownAreRefusedWithTheKnown) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -347,4 +347,4 @@ TEST_F(ReadClaims, ReadsOrRefusesEveryBeginning) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -262,4 +262,4 @@ TEST(AuditSummary, CountsVerdicts) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "audit/cells.hpp"
 #include "audit/measurements.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr ConservationRun short_run{-4, 24};
@@ -37,4 +37,4 @@ TEST(RoundOffAllowed, IsThatOfThePrecision) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

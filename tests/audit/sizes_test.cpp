@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(AuditSizes, AreTheGreatestOfEach) {
@@ -31,4 +31,4 @@ TEST(AuditMargins, AreFourBitsAboveTheReferencesErrors) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

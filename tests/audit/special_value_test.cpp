@@ -4,7 +4,7 @@
 #include "audit/measurements.hpp"
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 double value_of_one(Quantity quantity, const char* problem, HbvmName method) {
@@ -23,4 +23,4 @@ TEST(SpecialValues, SweepsAreThoseBeyondTheOnesOfGauss) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Ladders step_errors(const Cell& cell, std::size_t rungs) {
@@ -44,4 +44,4 @@ TEST(StepLadder, StepsArePartsOfTheScaleAndItsErrorsThoseOfTheStep) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "method/tableaux.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What is predicted of a quantity, at each place where it is claimed.
@@ -79,4 +79,4 @@ TEST(TableauClaims, AreOfTheTableauAndDifferent) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "audit/measurements.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Part = Perturbation::Part;
@@ -57,4 +57,4 @@ TEST(TableauDefects, EveryConditionSeesAFlawInEitherSetOfNodes) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

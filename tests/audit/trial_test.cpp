@@ -5,7 +5,7 @@
 #include "audit/cells.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class TrialTest : public ::testing::Test {
@@ -82,4 +82,4 @@ TEST_F(TrialTest, HasThePolynomialsOfItsStep) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

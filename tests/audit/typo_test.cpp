@@ -2,7 +2,7 @@
 
 #include "method/tableaux.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// An entry of the classical method and of Dormand and Prince's with a wrong digit: it is found, with what it should
@@ -37,4 +37,4 @@ TEST(Typo, IsLikelyWhereConditionsAreNearlyMet) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

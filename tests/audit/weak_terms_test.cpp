@@ -6,7 +6,7 @@
 
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 WeakTerms terms_of(const std::string& U, int exact_degree, const std::string& constraint = "") {
@@ -66,4 +66,4 @@ TEST(WeakTerms, OfConstraintsStandAlone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

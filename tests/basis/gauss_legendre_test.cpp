@@ -9,7 +9,7 @@
 #include "scalar/arb.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class RealBall {
@@ -209,4 +209,4 @@ TEST(GaussLegendreOnRequest, UsesTheDigitsOfEachCall) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

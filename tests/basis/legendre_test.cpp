@@ -7,7 +7,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using std::sqrt;
@@ -164,4 +164,4 @@ TYPED_TEST(Legendre, XIsSkewSymmetricButForItsFirstEntry) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

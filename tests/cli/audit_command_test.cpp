@@ -4,7 +4,7 @@
 #include "checksum.hpp"
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::json;
@@ -256,4 +256,4 @@ TEST(AuditCommand, DecidesClaimsAboutEveryMethod) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

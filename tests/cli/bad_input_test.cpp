@@ -2,7 +2,7 @@
 
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A run of `scene` with one option replaced.
@@ -238,4 +238,4 @@ TEST(Misuse, OfTheCommandLineIsRefused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

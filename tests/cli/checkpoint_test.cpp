@@ -10,7 +10,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using nlohmann::ordered_json;
@@ -414,4 +414,4 @@ TEST(Start, AndReverseAreKept) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What bash offers after these words, of which the last has been begun.
@@ -39,4 +39,4 @@ TEST(Completion, OffersNothingOfItsOwnForAFile) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::json;
@@ -94,4 +94,4 @@ TEST(CostCommand, RefusesWhatItCannotMean) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "cli/program.hpp"
 #include "scene/formula_scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The end of a run, digit for digit.
@@ -45,4 +45,4 @@ TEST(Formulas, EndWithATypedErrorWhereTheyHaveNoValue) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

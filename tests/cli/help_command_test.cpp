@@ -1,6 +1,6 @@
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(HelpCommand, SaysWhatTheOptionSays) {
@@ -17,4 +17,4 @@ TEST(HelpCommand, RefusesWhatIsNoCommand) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
   std::vector<std::string> keys;
@@ -15,4 +15,4 @@ inline std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
 /// The value of a number that is printed as text.
 inline double number(const nlohmann::ordered_json& text) { return std::stod(text.get<std::string>()); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The subcommands that `hbvm --help` lists.
@@ -65,4 +65,4 @@ TEST(Version, IsOneLine) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

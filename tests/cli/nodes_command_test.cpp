@@ -6,7 +6,7 @@
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using nlohmann::ordered_json;
@@ -60,4 +60,4 @@ TEST(Nodes, WithoutJsonAreLinesOfTwoNumbers) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

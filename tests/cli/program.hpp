@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 using Arguments = std::vector<std::string>;
 
@@ -176,4 +176,4 @@ inline std::string fall() {
          "1\n";
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

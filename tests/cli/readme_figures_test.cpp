@@ -9,7 +9,7 @@
 #include "read_file.hpp"
 #include "verification/sources.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string page(const std::string& name) { return read_file(project / name); }
@@ -230,4 +230,4 @@ TEST(ReadmeFigures, CountWhatTheLongTablesHold) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "cli/json.hpp"
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using nlohmann::ordered_json;
@@ -222,4 +222,4 @@ TEST(ReferenceCommand, SaysWhereTheMotionEnds) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(ReportCommand, MakesAPageOfWhatAStudyWrote) {
@@ -30,4 +30,4 @@ TEST(ReportCommand, RefusesWhatIsNoFolderOfResults) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

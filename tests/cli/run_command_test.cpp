@@ -16,7 +16,7 @@
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using nlohmann::ordered_json;
@@ -698,4 +698,4 @@ TEST(RunError, PrintsRightDigitsAndOneMore) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 #include "scalar/literal.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Off the circle and with a velocity along the rod.
@@ -187,4 +187,4 @@ TEST(SceneShow, DrawsAScene) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Scenes, ListsThePapersFourWithTheirTitles) {
@@ -29,4 +29,4 @@ TEST(Scenes, ListsOnlyScenesThatRun) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

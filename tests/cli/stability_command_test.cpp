@@ -3,7 +3,7 @@
 #include "checksum.hpp"
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::json;
@@ -86,4 +86,4 @@ TEST(StabilityCommand, RefusesBadInput) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

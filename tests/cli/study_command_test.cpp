@@ -7,7 +7,7 @@
 #include "csv_line.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -324,4 +324,4 @@ TEST_F(StudyCommand, ExitsWithThreeIfTheIntegrationFails) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "cli/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Words, AMisspeltCommandNamesTheOneThatWasMeant) {
@@ -30,4 +30,4 @@ TEST(Words, WhatIsMissingIsStillSaid) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "scene/assemble.hpp"
 #include "step/rattle.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 AgainstRequest request_of(const std::string& csv) {
@@ -287,4 +287,4 @@ TEST(Against, DrawsDigitsAgainstTime) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

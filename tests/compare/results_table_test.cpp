@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A table with its columns, which refer to it.
@@ -94,4 +94,4 @@ TEST(ResultsTable, RefusesWithLineAndColumn) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

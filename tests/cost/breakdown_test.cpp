@@ -6,7 +6,7 @@
 #include "cost/findings.hpp"
 #include "run/simulate.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Breakdown, StacksTheWholeTimeOfAStep) {
@@ -38,4 +38,4 @@ TEST(Breakdown, KnowsThePartsOfAStep) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

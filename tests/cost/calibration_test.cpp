@@ -4,7 +4,7 @@
 
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Calibration, MeasuresInEveryPrecision) {
@@ -24,4 +24,4 @@ TEST(Calibration, KnowsThatDigitsCost) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "cost/cost_reference.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const Expression ten = Expression::parse("10");
@@ -89,4 +89,4 @@ TEST(CostSample, CountsTheOperationsOfAStep) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

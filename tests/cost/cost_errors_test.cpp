@@ -7,7 +7,7 @@
 #include "problem/point.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A light and a heavy body on springs far from one another.
@@ -109,4 +109,4 @@ TEST(CostQuantity, HasFourNames) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "cost/cost_report.hpp"
 #include "cost/findings.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const Curve* curve_named(const Panel& panel, const std::string& start) {
@@ -57,4 +57,4 @@ TEST(DigitsFigure, TellsWhatIsPropagatedFromTheOutputState) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "cost/cost_methods.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 CostStudy study_of(const char* scene, const std::vector<std::string>& methods, double most_digits) {
@@ -71,4 +71,4 @@ TEST(CostPrecisions, ReachTheDigitsAndNoFurther) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

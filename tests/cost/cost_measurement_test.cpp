@@ -5,7 +5,7 @@
 #include "cost/cost_cell.hpp"
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(CostMeasurement, ReadsBackFromItsResult) {
@@ -50,4 +50,4 @@ TEST(CostMeasurement, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "reference/taylor_method.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::vector<std::string> names_of(const std::vector<MethodPtr>& methods) {
@@ -74,4 +74,4 @@ TEST(CostMethods, RefuseWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(CostReference, IsAShippedOneWhereThatHasTheDigits) {
@@ -38,4 +38,4 @@ TEST(CostReference, IsKeptWithWhatWasComputed) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

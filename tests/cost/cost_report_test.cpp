@@ -7,7 +7,7 @@
 #include "cost/findings.hpp"
 #include "cost/measuring_system.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::vector<std::string> column(const Table& table, const std::string& name) {
@@ -83,4 +83,4 @@ TEST(MeasuringSystem, KnowsItsCompiler) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

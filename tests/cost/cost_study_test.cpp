@@ -5,7 +5,7 @@
 #include "cost/cost_methods.hpp"
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 CostStudy small_study(const char* scene) {
@@ -57,4 +57,4 @@ TEST(CostStudy, RefusesMultipliersOfAFreeMotion) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

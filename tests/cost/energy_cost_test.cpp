@@ -9,7 +9,7 @@
 #include "hbvm/error.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 CostStudy energy_study(const char* scene) {
@@ -98,4 +98,4 @@ TEST(EnergyCost, IsReadFromItsOwnResultsAlone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

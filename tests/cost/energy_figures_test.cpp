@@ -3,7 +3,7 @@
 #include "cost/energy_cost.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 EnergyCost energy_run_of(const char* method, const char* precision, double seconds, double log10_error) {
@@ -48,4 +48,4 @@ TEST(ConservingFigure, ComparesWithAsManyNodesAsStages) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(ErrorModel, IsThePowerOfItsOrder) {
@@ -26,4 +26,4 @@ TEST(ErrorModel, LearnsFromARun) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "cost/cost_study.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A study with findings that are given, not measured.
 struct Given {
@@ -41,4 +41,4 @@ inline Given some_findings() {
   return given;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

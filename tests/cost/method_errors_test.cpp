@@ -4,7 +4,7 @@
 
 #include "cost/cost_methods.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(MethodErrors, PredictWhatARunThenLeaves) {
@@ -43,4 +43,4 @@ TEST(MethodErrors, LeaveOutWhatHasNoDigitsInTime) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Places = std::vector<std::size_t>;
@@ -23,4 +23,4 @@ TEST(Pareto, LeavesOutWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

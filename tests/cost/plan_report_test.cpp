@@ -5,7 +5,7 @@
 #include "cost/planner.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Plan given_plan() {
@@ -43,4 +43,4 @@ TEST(PlanReport, EndsWithTheCommandToCopy) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "cost/cost_methods.hpp"
 #include "reference/taylor_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 PlanRequest request_of(const char* scene, int digits) {
@@ -79,4 +79,4 @@ TEST(Planner, RefusesWhatCannotBeAsked) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "hbvm/error.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 CostStudy study_of_steps() {
@@ -82,4 +82,4 @@ TEST(StepTime, IsReadFromItsOwnResultsAlone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

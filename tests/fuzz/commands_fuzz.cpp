@@ -21,12 +21,12 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/signals.hpp"
 #include "hbvm/error.hpp"
-#include "interruption.hpp"
 #include "reference/taylor_method.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -44,12 +44,12 @@ class Watchdog {
   explicit Watchdog(std::chrono::milliseconds patience)
       : waiting_([this, patience](const std::stop_token& done) {
           std::unique_lock lock(mutex_);
-          if (!ended_.wait_for(lock, done, patience, [&] { return done.stop_requested(); })) interruption = SIGTERM;
+          if (!ended_.wait_for(lock, done, patience, [&] { return done.stop_requested(); })) end_runs(SIGTERM);
         }) {}
   ~Watchdog() {
     waiting_.request_stop();
     waiting_.join();
-    interruption = 0;
+    end_runs(0);
   }
   Watchdog(const Watchdog&) = delete;
 
@@ -213,13 +213,13 @@ void carry_out(Words words) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const bool ready = (hbvm::add_taylor_method(), true);
-  static const hbvm::Files files;
+  static const bool ready = (hbvm::core::add_taylor_method(), true);
+  static const hbvm::core::Files files;
   const std::string text(reinterpret_cast<const char*>(data), size);
-  hbvm::write_file(files.text, text);
-  hbvm::carry_out(hbvm::Choice(text).command(text, files));
+  hbvm::core::write_file(files.text, text);
+  hbvm::core::carry_out(hbvm::core::Choice(text).command(text, files));
   return ready ? 0 : -1;
 }

@@ -8,7 +8,7 @@
 #include "hbvm/error.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 void require(bool holds, const char* what, const std::string& text) {
@@ -83,9 +83,9 @@ void read(const std::string& text) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  hbvm::read(std::string(reinterpret_cast<const char*>(data), size));
+  hbvm::core::read(std::string(reinterpret_cast<const char*>(data), size));
   return 0;
 }

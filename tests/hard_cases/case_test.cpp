@@ -5,7 +5,7 @@
 #include "hard_cases/measured.hpp"
 #include "hard_cases/not_finite.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 HardCase hard_case(const Expected& expected) {
@@ -88,4 +88,4 @@ TEST(Expected, IsSaidInWords) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

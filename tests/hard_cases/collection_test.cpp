@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A resumed run finds cases by their keys.
@@ -39,4 +39,4 @@ TEST(HardCases, OfAQuickLookAreFewer) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(LineFit, OfALineIsTheLine) {
@@ -22,4 +22,4 @@ TEST(LineFit, ErrorIsThatOfTheScatter) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

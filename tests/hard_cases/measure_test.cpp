@@ -5,7 +5,7 @@
 #include "hard_cases/motion.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 RunRequest request(Scene scene, const char* method, const char* precision, const char* step = "1/32",
@@ -81,4 +81,4 @@ TEST(Guarded, NamesTheCause) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

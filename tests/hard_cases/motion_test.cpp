@@ -7,7 +7,7 @@
 #include "hard_cases/measure.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Sixteen steps of the double pendulum.
@@ -59,4 +59,4 @@ TEST(HardMotions, MayLeadBack) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::json;
@@ -86,4 +86,4 @@ TEST(StabilityReport, TableAndSummaryCountTheVerdicts) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

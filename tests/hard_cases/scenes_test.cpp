@@ -8,7 +8,7 @@
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(HardScenes, AreConsistent) {
@@ -52,4 +52,4 @@ TEST(HardScenes, HaveAsManyBodiesAsAskedFor) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "hard_cases/measured.hpp"
 #include "hard_cases/report.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 HardCase hard_case(const std::string& name, const std::function<CaseResult()>& run) {
@@ -121,4 +121,4 @@ TEST(Stability, EndsInTheSameFileHoweverItIsDivided) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "hard_cases/line_fit.hpp"
 #include "hard_cases/measure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 double exponent(const Straying& straying) {
@@ -61,4 +61,4 @@ TEST(Walk, MeasuresConstraintsToo) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

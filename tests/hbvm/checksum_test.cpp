@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The values that the authors of FNV-1a publish.
@@ -29,4 +29,4 @@ TEST(Checksums, NoticeEveryChangeOfAByte) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Clocks, GoForwardWithWork) {
@@ -27,4 +27,4 @@ TEST(Clocks, OfAThreadCountNoOther) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -25,4 +25,4 @@ TEST(CsvLine, IsSplitIntoTheSameCells) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(FileLock, HasOneHolder) {
@@ -42,4 +42,4 @@ TEST(FileLock, OfADeviceIsNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

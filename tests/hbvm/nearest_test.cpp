@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Nearest, IsTheWordOfTheFewestEdits) {
@@ -24,4 +24,4 @@ TEST(Nearest, ListsAllThereAre) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class ReadFile : public ::testing::Test {
@@ -40,4 +40,4 @@ TEST_F(ReadFile, RefusesWhatCannotBeReadByItsName) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 
 #include "read_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Version, IsThreeNumbersAndTheCommitIfItIsKnown) {
@@ -23,4 +23,4 @@ TEST(Version, IsThatOfTheCitation) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "hbvm/error.hpp"
 #include "read_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class WriteFile : public ::testing::Test {
@@ -37,4 +37,4 @@ TEST_F(WriteFile, RefusesWhatCannotBeWrittenByItsName) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

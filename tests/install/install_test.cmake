@@ -7,7 +7,7 @@
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 file(COPY ${SOURCE}/tests/install/CMakeLists.txt DESTINATION ${WORK}/project)
-configure_file(${SOURCE}/tests/verification/readme_example.cpp ${WORK}/project/example.cpp COPYONLY)
+configure_file(${SOURCE}/studies/library/run.cpp ${WORK}/project/example.cpp COPYONLY)
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output COMMAND_ECHO STDOUT)
@@ -58,6 +58,6 @@ else()
 endif()
 
 run(${WORK}/build/example)
-if(NOT output MATCHES "energy error [0-9.]+e-1[0-9]\n")
+if(NOT output MATCHES "energy error [0-9.]+e-1[0-9], x")
   message(FATAL_ERROR "the example printed '${output}'")
 endif()

@@ -11,12 +11,12 @@
 #include "integrate/momentum_drift.hpp"
 #include "integrate/runs.hpp"
 #include "integrate/trajectory.hpp"
-#include "interruption.hpp"
+#include "interrupting.hpp"
 #include "printing.hpp"
 #include "step/backward_stepper.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class Folder {
@@ -217,7 +217,7 @@ class EndedWithinAStep final : public Stepper<double> {
     if (++steps_ < 3) return whole_.step(state, h);
     state.q[0] += 1;
     interruption = SIGTERM;
-    end_on_signal("half-way");
+    end_if_asked("half-way");
     return 0;
   }
   const Vector<double>& multiplier() const override { return whole_.multiplier(); }
@@ -357,4 +357,4 @@ TEST(CheckpointFile, OverwritesNothingButACheckpoint) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

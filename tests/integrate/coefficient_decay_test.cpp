@@ -4,7 +4,7 @@
 #include "integrate/watched_stepper.hpp"
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -91,4 +91,4 @@ TEST(CoefficientDecay, OfWhatDoesNotTurnIsNothing) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/dense.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// 1/sin^2 of the angles and the squared lengths by dense matrices.
@@ -152,4 +152,4 @@ TEST(ConstraintAngles, SeeAGradientVanish) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -81,4 +81,4 @@ TYPED_TEST(Rods, DoNotDriftByRounding) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class CsvFiles : public ::testing::Test {
@@ -131,4 +131,4 @@ TEST_F(CsvFiles, ThatCannotBeCutAreNotKept) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Drift, IsTheMaximumOverTheMesh) {
@@ -149,4 +149,4 @@ TEST(Drift, OfADoubledRodIsThatOfARod) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

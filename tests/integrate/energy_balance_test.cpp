@@ -4,7 +4,7 @@
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// An observer made of an EnergyBalance.
@@ -69,4 +69,4 @@ TEST(EnergyBalance, KnowsWhatRoundingTheCoordinatesChanges) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

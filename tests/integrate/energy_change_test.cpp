@@ -6,7 +6,7 @@
 
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct MeshPoint {
@@ -74,4 +74,4 @@ TYPED_TEST(Energy, IsRemembered) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "printing.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A free body of mass 1: T = p^2/2, sensitive to p by p^2.
@@ -20,4 +20,4 @@ TEST(EnergyScale, KeepsTheGreatestOfTheMesh) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "problem/dense.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -132,4 +132,4 @@ TEST_F(Pendulum, GrowsFromTheFirstQuarterToTheLast) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

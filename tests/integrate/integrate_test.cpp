@@ -6,7 +6,7 @@
 #include "problem/point.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Integrate, ShowsEveryMeshPointInOrder) {
@@ -175,4 +175,4 @@ TYPED_TEST(FreeMotion, IsAParabola) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -81,4 +81,4 @@ TYPED_TEST(MomentumDriftTest, OfLinearMomentumIsAlwaysRoundOff) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

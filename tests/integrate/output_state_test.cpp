@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class OutputStates : public ::testing::Test {
@@ -62,4 +62,4 @@ TEST_F(OutputStates, WithoutConstraintsAreTheStateItself) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

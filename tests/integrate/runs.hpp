@@ -7,7 +7,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Keeps all it sees.
 template <Scalar S>
@@ -41,4 +41,4 @@ struct SceneRun {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(StepErrors, SayWhatWhereAndWhatToDo) {
@@ -43,4 +43,4 @@ TEST(StepErrors, AreIntegrationErrorsOfTheirCause) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

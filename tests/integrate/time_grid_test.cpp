@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -115,4 +115,4 @@ TEST(TimeGrid, UsesTheScenesConstants) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

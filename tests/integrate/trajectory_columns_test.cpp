@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -42,4 +42,4 @@ TEST(TrajectoryColumns, StayOnOneLine) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

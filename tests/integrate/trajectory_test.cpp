@@ -8,7 +8,7 @@
 #include "printing.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -135,4 +135,4 @@ TEST(Trajectory, IsWrittenUpToAFailure) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Numbers of both signs, some 0, from 1 down to 2^-spread.
@@ -83,4 +83,4 @@ TEST(AlignedMatrix, SaysWhereItDoesNotApply) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

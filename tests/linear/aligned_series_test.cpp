@@ -6,7 +6,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Coefficients of both signs that fall by so many bits each, some of them 0, the first as large as `lead`.
@@ -101,4 +101,4 @@ TEST(AlignedSeries, ShowsWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

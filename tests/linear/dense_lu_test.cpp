@@ -8,7 +8,7 @@
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Column by column, without blocks: the textbook's elimination, with whole rows exchanged.
@@ -56,4 +56,4 @@ TEST(DenseLu, FindsSingularMatrices) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

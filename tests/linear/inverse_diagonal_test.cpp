@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -67,4 +67,4 @@ TYPED_TEST(InverseDiagonalOf, ASingularOrIndefiniteMatrixIsRefused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "linear/limb_sum.hpp"
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Sums of whole products, by GMP: a product may miss `limbs` units of the second limb.
@@ -63,4 +63,4 @@ TEST(LimbProducts, BeginAnew) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

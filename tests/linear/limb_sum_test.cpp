@@ -4,7 +4,7 @@
 
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The sum in two's complement with one limb above the point, against whole numbers in many bits.
@@ -47,4 +47,4 @@ TEST(LimbSum, IsRoundedOnce) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

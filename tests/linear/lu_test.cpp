@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -201,4 +201,4 @@ TYPED_TEST(LuTest, SolvesTheEmptySystem) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -36,4 +36,4 @@ TYPED_TEST(MaxNorm, ShowsANaNWhereverItStands) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

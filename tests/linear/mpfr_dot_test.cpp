@@ -4,7 +4,7 @@
 
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The exact sum of products, in as many bits as it takes.
@@ -123,4 +123,4 @@ TEST(LongMpfrDot, IsNotForNumbersOfUnequalLength) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

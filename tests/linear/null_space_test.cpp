@@ -4,7 +4,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class NullSpace : public ::testing::Test {
@@ -106,4 +106,4 @@ TEST_F(NullSpace, DoesNotDependOnUnits) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

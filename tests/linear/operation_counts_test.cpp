@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(OperationCounts, StartAtZero) {
@@ -40,4 +40,4 @@ TEST(OperationCounts, EveryOperationHasItsName) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

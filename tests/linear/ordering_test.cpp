@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 void expect_permutation(const Ordering& order) {
@@ -44,4 +44,4 @@ TEST(Ordering, TakesPartsAndNothing) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "method/hbvm.hpp"
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -109,4 +109,4 @@ TYPED_TEST(ParityMatrices, TakeHalfOfTheMultiplications) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

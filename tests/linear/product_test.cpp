@@ -4,7 +4,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -129,4 +129,4 @@ TYPED_TEST(Product, ADotOfEntriesThatStandApart) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <stdexcept>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The end of work in a process of its own.
@@ -79,4 +79,4 @@ TEST(WorkApart, EndsWithItsOwner) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

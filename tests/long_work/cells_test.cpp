@@ -10,7 +10,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -235,4 +235,4 @@ TEST(Shards, DivideTheCells) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(JsonNumbers, ThatJsonLacksAreNull) {
@@ -43,4 +43,4 @@ TEST(JsonText, OfAnotherKindIsRefused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

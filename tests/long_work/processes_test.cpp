@@ -5,9 +5,9 @@
 #include <csignal>
 #include <stdexcept>
 
-#include "interruption.hpp"
+#include "interrupting.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(InProcesses, TellsResultsFromWhatWasLost) {
@@ -62,4 +62,4 @@ TEST(InProcesses, EndWithASignalAndKeepWhatWasDoneBefore) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "method/tableaux.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// One stage with this b.
@@ -60,4 +60,4 @@ TEST(Decimals, AreOffByAUnit) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(HbvmName, ReadsKAndS) {
@@ -93,4 +93,4 @@ INSTANTIATE_TEST_SUITE_P(Limits, RefusedMethod,
                                            "hbvm:auto,-1"));
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

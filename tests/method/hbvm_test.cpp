@@ -10,7 +10,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct Stages {
@@ -289,4 +289,4 @@ TYPED_TEST(HbvmCoefficients, WithAsManyAsStagesAreThePapers) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(MethodSpec, IsAFamilyAndItsArguments) {
@@ -16,4 +16,4 @@ TEST(MethodSpec, IsAFamilyAndItsArguments) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

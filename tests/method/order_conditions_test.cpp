@@ -6,7 +6,7 @@
 #include "method/symmetry_defect.hpp"
 #include "method/tableaux.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -97,4 +97,4 @@ TEST(RungeKuttaPrecision, FiftyDigitsShowWhatDoubleCannot) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Part = Perturbation::Part;
@@ -397,4 +397,4 @@ TEST(PerturbationPrecision, RelativeChangeIsExactToTheDigitsOfTheScope) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "method/order_conditions.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -200,4 +200,4 @@ TEST_F(ReadTableau, RefusesWhatIsNoFile) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

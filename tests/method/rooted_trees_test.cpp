@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(RootedTrees, AreAllThereOnce) {
@@ -35,4 +35,4 @@ TEST(RootedTrees, AreAllThereOnce) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

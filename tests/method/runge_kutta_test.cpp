@@ -3,7 +3,7 @@
 #include "hbvm/error.hpp"
 #include "method/tableaux.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -41,4 +41,4 @@ TYPED_TEST(RungeKuttaTest, NamesTheEntryWithoutAValue) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "method/tableaux.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -35,4 +35,4 @@ TYPED_TEST(SymmetryDefectTest, ThreeStagesOfLobattoAreSymmetric) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

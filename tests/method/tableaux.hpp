@@ -9,7 +9,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 using Texts = std::vector<std::string>;
 
@@ -60,4 +60,4 @@ class TableauTest : public ::testing::Test {
   void expect_nonzero(const S& defect, const char* what) const { EXPECT_GE(defect, literal<S>("1e-3")) << what; }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "problem/constraint_gradient.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline plain::Mechanics<Mpfr> mechanics_of(const DenseModel& model) {
   return {static_cast<int>(model.m()), static_cast<int>(model.nu()), model.W, model.force,
@@ -55,4 +55,4 @@ Matrix<S> rows_of(const Vector<S>& blocks, Index columns) {
   return columns == 0 ? Matrix<S>(0, 0) : Matrix<S>(blocks.reshaped(columns, blocks.size() / columns).transpose());
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Masses of 1000, 1 and 1/1000 on rods, and two charges.
@@ -88,4 +88,4 @@ TEST(PlainStepTooLong, Throws) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "problem/dense.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A constraint of this form as a scene would make it, the first if it makes several, with random numbers: its pairs
 /// are bodies 0 and 1, 1 and 2, ..., its bodies the bodies 1, 2, ... of d coordinates each.
@@ -57,4 +57,4 @@ Problem<S> three_bodies(Index d, Constraint<S> constraint) {
   return problem;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

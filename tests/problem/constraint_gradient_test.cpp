@@ -5,7 +5,7 @@
 #include "printing.hpp"
 #include "problem/dense.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -263,4 +263,4 @@ TYPED_TEST(ConstraintGradientTest, CountsOperationsOfARod) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

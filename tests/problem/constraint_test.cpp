@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "problem/dense.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -45,4 +45,4 @@ TYPED_TEST(ConstraintTest, SizeBoundsTheRoundOff) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

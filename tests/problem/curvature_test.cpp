@@ -6,7 +6,7 @@
 #include "problem/dense.hpp"
 #include "problem/effect/use.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -88,4 +88,4 @@ TYPED_TEST(CurvatureTest, OfThePotentialIsTheDifferenceOfForces) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "problem/problem.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Dense and slow counterparts of what problem/ stores by blocks and patterns.
 
@@ -110,4 +110,4 @@ Problem<S> constrained_problem(Index d) {
   return problem;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "scalar/random_values.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -62,4 +62,4 @@ TEST(DiscreteForce, CountsWhatItEvaluates) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "problem/point.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -58,4 +58,4 @@ TEST(EnergyTermsByHand, OfChargesThatCancel) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

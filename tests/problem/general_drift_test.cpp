@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -55,4 +55,4 @@ TYPED_TEST(GeneralDriftTest, OfWhatIsNotFiniteIsNot) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

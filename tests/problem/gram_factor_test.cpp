@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "problem/dense.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -48,4 +48,4 @@ TYPED_TEST(GramFactors, SolveWhatTheDenseMatrixIs) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -112,4 +112,4 @@ TYPED_TEST(ProblemInDouble, FitsIfItsMassesDo) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "problem/dense.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -149,4 +149,4 @@ TYPED_TEST(MassMatrixTest, RefusesWhatIsNotPositiveDefinite) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

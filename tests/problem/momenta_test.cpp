@@ -11,7 +11,7 @@
 #include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -490,4 +490,4 @@ TEST_F(MomentaBySampling, OfTheScenes) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

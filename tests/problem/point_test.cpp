@@ -6,7 +6,7 @@
 #include "problem/effect/use.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -243,4 +243,4 @@ TYPED_TEST(PointTest, NoConstraints) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

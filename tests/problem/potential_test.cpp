@@ -4,7 +4,7 @@
 #include "problem/dense.hpp"
 #include "problem/effect/use.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -216,4 +216,4 @@ TYPED_TEST(PotentialTest, MeasuresTimeIfAsked) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "problem/dense.hpp"
 #include "problem/regularity.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Constraint `which` once more, at this place. (An insertion would assign to numbers that it has moved from.)
@@ -117,4 +117,4 @@ TYPED_TEST(RedundantConstraintsTest, HaveMultipliersOfLeastNorm) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "problem/dense.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -346,4 +346,4 @@ TYPED_TEST(Regularity, ConditionOfTheAnglesDoesNotDependOnLengthsOrMasses) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "problem/dense.hpp"
 #include "problem/effect/use.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Motion = Vector<Mpfr>;  // (w, t)
@@ -204,4 +204,4 @@ TEST_F(SymmetryConditions, KnowTheirRoundOff) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "problem/effect/use.hpp"
 #include "problem/potential.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The force is that of its formula: differences of U with 60 digits, where that of a pair is -strength Q Q
@@ -46,4 +46,4 @@ TEST(Recipe, GivesTheForceOfItsFormula) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A screened charge: U = -strength Q_a Q_b exp(-r/length) / r.
 struct Yukawa {
@@ -23,4 +23,4 @@ struct Yukawa {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scene/scene.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr unsigned working = 55;
@@ -227,4 +227,4 @@ TEST(RoutesAgreementTeeth, FindsACoefficientThatIsOff) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

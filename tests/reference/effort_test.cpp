@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Effort, GrowsWithDigitsAndSteps) {
@@ -34,4 +34,4 @@ TEST(Effort, IsSaidInUnitsOfItsSize) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

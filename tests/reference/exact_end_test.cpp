@@ -6,7 +6,7 @@
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(ExactEnd, IsThatOfTheClosedFormByEitherRoute) {
@@ -35,4 +35,4 @@ TEST(ExactEnd, CanBeInterrupted) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

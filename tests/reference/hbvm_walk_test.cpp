@@ -7,7 +7,7 @@
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr unsigned walk_digits = 40;
@@ -86,4 +86,4 @@ TEST(HbvmWalk, EndsWhereNoStepIsShortEnough) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

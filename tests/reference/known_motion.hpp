@@ -3,7 +3,7 @@
 #include "hbvm/error.hpp"
 #include "reference/closed_form/closed_form.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The motion of a scene that has a closed form, at t.
 inline ExactPoint known_motion(const char* scene_name, const Mpfr& t) {
@@ -13,4 +13,4 @@ inline ExactPoint known_motion(const char* scene_name, const Mpfr& t) {
   return motion->at(t);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "problem/effect/trace.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using T = Traced<Mpfr>;
@@ -117,4 +117,4 @@ TEST(ProgramSeries, RefusesWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A scene of a few bodies with masses, lengths and times over many orders, rods, chains, loops, surfaces and rigid
 /// bodies, and some of all the effects. Its start is consistent in any number of digits: every part moves as a rigid
@@ -223,4 +223,4 @@ class RandomScene {
   std::string constraints_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -13,7 +13,7 @@
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr int wanted_of_each = 30;
@@ -111,4 +111,4 @@ TEST(RandomScenes, HaveAgreedDigitsOrAReason) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

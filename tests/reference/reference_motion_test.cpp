@@ -10,7 +10,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 double greatest_error(const ReferenceMotion& motion) {
@@ -192,4 +192,4 @@ TEST(Log2, OfAnyNumberIsADouble) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

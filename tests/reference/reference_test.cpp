@@ -6,7 +6,7 @@
 #include "reference/known_motion.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 ReferenceRequest request_of(const char* scene, const std::vector<const char*>& times, int digits) {
@@ -238,4 +238,4 @@ TEST(ReferenceSolution, RefusesWhatCannotEnd) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "printing.hpp"
 #include "reference/reference.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// As a file would keep them.
@@ -91,4 +91,4 @@ TEST(RouteLegs, AreKeptByWhatTheyDependOn) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The two routes on motions with constraints, and none of them in the other's code: to all digits but a few.
@@ -75,4 +75,4 @@ strength = "6.67e-11"
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

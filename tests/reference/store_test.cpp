@@ -7,7 +7,7 @@
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 StoredReference example() {
@@ -131,4 +131,4 @@ TEST(Store, ShipsWhatIsConserved) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <csignal>
 
-#include "interruption.hpp"
+#include "interrupting.hpp"
 #include "printing.hpp"
 #include "problem/point.hpp"
 #include "scene/assemble.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class TaylorMethod : public ::testing::Test {
@@ -121,4 +121,4 @@ TEST_F(TaylorMethod, LeavesTheStateAtASingularity) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 void expect_near(const Vector<Mpfr>& found, const Vector<Mpfr>& expected, const Mpfr& tolerance,
@@ -124,4 +124,4 @@ TEST(Taylor, EndsWithATypedErrorAtASingularity) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

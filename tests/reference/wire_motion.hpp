@@ -6,7 +6,7 @@
 #include "hbvm/error.hpp"
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The motion of a bead of mass 1 on a wire whose height z over the way along it is known.
 struct WireMotion {
@@ -50,4 +50,4 @@ inline WireMotion wire_motion(const std::string& scene, const Mpfr& t) {
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

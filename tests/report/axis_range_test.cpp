@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::vector<std::string> texts(const Tics& tics) {
@@ -102,4 +102,4 @@ TEST(Tics, AreNoMoreThanHaveRoom) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string refusal(const std::string& text) {
@@ -32,4 +32,4 @@ TEST(CsvTable, SaysWhichLineIsWrong) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "hbvm/error.hpp"
 #include "read_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Csvw, DescribesAFileAndItsColumns) {
@@ -83,4 +83,4 @@ TEST(Csvw, EncodesNames) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

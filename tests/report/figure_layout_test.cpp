@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Figure two_panels() {
@@ -55,4 +55,4 @@ TEST(FigureLayout, SaysWhatIsDrawnWhere) {
 TEST(FigureLayout, CountsLettersNotBytes) { EXPECT_EQ(letters("λ°a"), 3u); }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "hbvm/error.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ TEST_F(FolderReportTest, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

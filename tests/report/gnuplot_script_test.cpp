@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "hbvm/error.hpp"
-#include "report/figure.hpp"
+#include "hbvm/figure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -148,4 +148,4 @@ TEST(GnuplotScript, RefusesAnotherEnding) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

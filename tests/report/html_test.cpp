@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Html, EscapesWhatWouldEndTextOrAttribute) {
@@ -14,4 +14,4 @@ TEST(Html, KeepsJsonWithinItsScript) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

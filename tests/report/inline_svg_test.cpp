@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string kept(const std::string& inside) {
@@ -58,4 +58,4 @@ TEST(InlineSvg, SaysWhichLineIsWrong) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

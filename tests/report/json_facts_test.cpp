@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(JsonFacts, AreTheNumbersAndTextsByName) {
@@ -56,4 +56,4 @@ TEST(JsonFacts, SayWhichLineIsWrong) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

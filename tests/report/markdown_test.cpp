@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string shown(const std::string& text) {
@@ -39,4 +39,4 @@ TEST(Markdown, LetsNoTextBeMarkup) {
 TEST(Markdown, LeavesWhatDoesNotEndAsItIs) { EXPECT_EQ(shown("a `b **c [d](e"), "<p>a `b **c [d](e</p>\n"); }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

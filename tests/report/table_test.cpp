@@ -1,10 +1,10 @@
-#include "report/table.hpp"
+#include "hbvm/table.hpp"
 
 #include <gtest/gtest.h>
 
-#include "report/figure.hpp"
+#include "hbvm/figure.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const Table table{"A caption",
@@ -84,4 +84,4 @@ TEST(Table, KeepsWhatSeparatesCells) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 OperationCounts operations(std::initializer_list<std::pair<Op, Index>> counts) {
@@ -177,4 +177,4 @@ TEST(AccountOf, TheEquationsHasEffectsThenParts) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include <csignal>
 
 #include "hbvm/error.hpp"
-#include "interruption.hpp"
+#include "interrupting.hpp"
 #include "printing.hpp"
 #include "problem/general_drift.hpp"
 #include "run/run.hpp"
@@ -11,7 +11,7 @@
 #include "scene/scene_text.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string with(const std::vector<std::string>& effects, const std::string& velocity) {
@@ -274,4 +274,4 @@ TEST(ChooseK, TakesAmplifiedRoundOffForWhatItIs) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

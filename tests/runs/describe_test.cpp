@@ -7,7 +7,7 @@
 #include "hbvm/error.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The lines of a description: what stands on the left, and the values beside it.
@@ -218,4 +218,4 @@ TEST(Describe, AllScenesThatAreShipped) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scalar/literal.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 RunResult assessed_run(const std::string& scene, const char* method, const char* step, const char* until,
@@ -134,4 +134,4 @@ TEST(ErrorEstimate, LeavesTheRightDigitsAndOneMore) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

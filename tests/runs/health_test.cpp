@@ -10,7 +10,7 @@
 #include "step/registry.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 RunResult result_of(const Scene& scene, const char* method, const char* step, const char* until,
@@ -349,4 +349,4 @@ TEST(HealthText, HasALineForEach) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "run/simulate.hpp"
 #include "scalar/precision.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -83,4 +83,4 @@ TEST(Recording, IsKeptWithItsRun) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

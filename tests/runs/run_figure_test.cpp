@@ -6,7 +6,7 @@
 
 #include "run/simulate.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Recording recorded(const Scene& text) {
@@ -90,4 +90,4 @@ TEST(RunFigure, OfAFreeMotionHasNoConstraints) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "run/simulate.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::json;
@@ -211,4 +211,4 @@ TEST(RunPage, HoldsWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A pendulum that turns over fast: no iteration solves its stage equations for steps of 1.
@@ -103,4 +103,4 @@ TEST(RunStepsThatCannotBeMade, AtAnySizeFailWithTheirCause) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "step/registry.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Vector<Mpfr> numbers(const std::vector<std::string>& texts) {
@@ -57,4 +57,4 @@ TEST_F(RunTest, UsesTheSolverThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -11,7 +11,7 @@
 #include "scalar/with_scalar.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 RunResult shadowed_result_of(const Scene& scene, const char* method, const char* step, const char* until,
@@ -145,4 +145,4 @@ TEST(ShadowText, NamesTheWorstOrTheFailure) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

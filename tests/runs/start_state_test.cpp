@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -80,4 +80,4 @@ TYPED_TEST(StartStateTest, IsRefusedWithFileAndKey) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "hbvm/version.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(TrajectoryMetadata, SaysWhatWasRun) {
@@ -39,4 +39,4 @@ TEST(TrajectoryMetadata, SaysWhatWasRun) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

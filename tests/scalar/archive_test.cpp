@@ -9,7 +9,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The bits, where == does not tell: of NaN, and of the two zeros.
@@ -132,4 +132,4 @@ TEST(Archive, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

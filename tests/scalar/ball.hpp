@@ -4,7 +4,7 @@
 #include "scalar/big_float.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A number of FLINT/Arb, an interval that holds the exact result, in the bits of `bits`.
 class RealBall {
@@ -69,4 +69,4 @@ class RealBall {
   arb_t x_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

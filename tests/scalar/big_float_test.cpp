@@ -6,7 +6,7 @@
 
 #include "scalar/mpfr.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 BigFloat third(long bits) {
@@ -55,4 +55,4 @@ TEST(BigFloat, SwapsAndMoves) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -33,4 +33,4 @@ TYPED_TEST(BinaryExponent, OfZeroIsLessThanAnyOther) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -11,7 +11,7 @@
 #include "scalar/expression.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class RealBall {
@@ -249,4 +249,4 @@ TEST(Work, SufficesForAllOperationsOfAnExpression) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What parse() refuses the text with; empty if it does not.
@@ -144,4 +144,4 @@ TEST(Expression, DeepNestingIsAnErrorAndNoCrash) {
 TEST(Expression, ManySignsAreNoNesting) { EXPECT_EQ(literal<double>(std::string(100'001, '-') + "1"), -1); }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -254,4 +254,4 @@ TEST(DoubleLiteral, AnArgumentOfMoreDigitsThanFourTimesTheResultsIsNotTakenForZe
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "printing.hpp"
 #include "scalar/quad.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 long bits_of(const Mpfr& x) { return mpfr_get_prec(raw(x)); }
@@ -154,4 +154,4 @@ TYPED_TEST(ManyDigits, CanBeUpdatedWithWholeNumbersAndThemselves) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Precision, ReadsDouble) {
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(Limits, RefusedPrecision,
                                            "mpfr:4294967316", "mpfr:18446744073709551666"));
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

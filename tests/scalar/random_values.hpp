@@ -5,7 +5,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Reproducible random numbers whose significands are random to the last bit of the working precision.
 template <Scalar S>
@@ -41,4 +41,4 @@ class RandomValues {
   std::mt19937_64 engine_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

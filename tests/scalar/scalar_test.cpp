@@ -6,7 +6,7 @@
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -211,4 +211,4 @@ TYPED_TEST(ScalarTest, ApproximatelyIsTheNextDouble) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

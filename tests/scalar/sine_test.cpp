@@ -7,7 +7,7 @@
 
 #include "scalar/big_float.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string text_of(mpfr_srcptr a) {
@@ -116,4 +116,4 @@ TEST_F(Sine, LeavesToMpfrWhatIsBeyondItsTables) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -11,7 +11,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Correctly rounded readers that are none of ours.
@@ -202,4 +202,4 @@ TEST(Text, OfADecimalIsRounded) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

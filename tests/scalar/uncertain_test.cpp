@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Two numbers and all that lies within their errors.
@@ -68,4 +68,4 @@ TEST_F(UncertainTest, HoldsZeroIfTheErrorReachesIt) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

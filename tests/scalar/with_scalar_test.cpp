@@ -5,7 +5,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string chosen(const char* precision) {
@@ -42,4 +42,4 @@ TEST(WithScalar, ResultHasAllDigits) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(WorkingDigits, AreAskedForInEveryThread) {
@@ -28,4 +28,4 @@ TEST(WorkingDigits, AreAskedForInEveryThread) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

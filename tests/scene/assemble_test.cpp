@@ -6,7 +6,7 @@
 #include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -982,4 +982,4 @@ TEST(Assemble, SetsAsideThreeOfALoopOfParallelHinges) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using NameList = std::vector<std::string>;
@@ -33,4 +33,4 @@ TEST(CoordinateNames, AreAsManyAsCoordinatesInEveryScene) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A centre, a body, a free rigid body and one that turns about a point of space.
@@ -216,4 +216,4 @@ TEST(EffectReach, AForceWithinARigidBodyIsRefused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "scene/formula_scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::set<std::string> names(Acts acts, int dimension, std::vector<std::string> of = {}) {
@@ -57,4 +57,4 @@ TEST(FormulaNames, OfFunctionsAreNoConstants) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The double pendulum with rods as formulas, whose digits are those of built-in ones, and a charge at its pivot.
 inline const std::string pendulum_by_formulas = R"(title = "By formulas"
@@ -75,4 +75,4 @@ inline const std::string pendulum_as_built_in = [] {
   return text;
 }();
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -14,7 +14,7 @@
 #include "scene/formula_scene.hpp"
 #include "scene/joined_bodies.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -351,4 +351,4 @@ TEST(FormulaScenes, OfHugeTextsAreRefused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

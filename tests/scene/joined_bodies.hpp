@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A consistent scene in space of rigid bodies joined in every way: base, arm, bob by a hinge and a ball joint,
 /// attached to rods, angles, springs, charges and traps, by names and in place; and a bead.
@@ -108,4 +108,4 @@ exponent = 2
 on = ["bead", { of = "arm", at = ["1/3", 0, 1] }]
 )toml";
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// every_key with `from` replaced by `to`, and what the message must hold besides the name of the file and the line:
@@ -520,4 +520,4 @@ TEST(MalformedScenes, AnyChangedCharactersAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -53,4 +53,4 @@ TYPED_TEST(NearestPosition, IsRefusedWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string pendulum_at(const std::string& position, const std::string& velocity = "[0, 0]") {
@@ -36,4 +36,4 @@ TEST(OwnPrecision, IsNoFinerThanThatOfTheScalar) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

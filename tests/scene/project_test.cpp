@@ -4,7 +4,7 @@
 #include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -223,4 +223,4 @@ TYPED_TEST(Project, RefusesWhatCannotBeMadeConsistent) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

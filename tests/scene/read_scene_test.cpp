@@ -6,7 +6,7 @@
 #include "scene/scene.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class ReadScene : public ::testing::Test {
@@ -315,4 +315,4 @@ TEST(ReadRigidBody, InThePlaneTurnsAtANumber) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

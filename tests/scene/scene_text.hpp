@@ -9,7 +9,7 @@
 #include "scalar/literal.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A consistent scene in space with every kind of table, every constraint and every effect.
 inline const std::string every_key = R"(title = "Every key"
@@ -184,4 +184,4 @@ inline std::string refusal(const std::string& text, const std::string& name = "t
 /// The number of a scene with 50 digits.
 inline Mpfr value(const Expression& e, const Scene& scene) { return evaluate<Mpfr>(e, scene.constants); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "hbvm/error.hpp"
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -115,4 +115,4 @@ TEST(MomentsOfInertia, AreThoseAboutTheCentreOfMass) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

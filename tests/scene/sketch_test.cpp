@@ -6,7 +6,7 @@
 
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::size_t place_of(const Sketch& sketch, const std::string& name) {
@@ -82,4 +82,4 @@ TEST(Sketch, ShowsAttachmentsOfRigidBodies) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

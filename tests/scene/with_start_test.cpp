@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scene/project.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const std::string pendulum_with_comments = R"toml(# A pendulum of mine, héllo.
@@ -67,4 +67,4 @@ TEST(WithStart, WritesWhatProjectionGives) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Vector<Mpfr> generic(const Vector<Mpfr>& near) {
@@ -109,4 +109,4 @@ TEST(WriteScene, EscapesStrings) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

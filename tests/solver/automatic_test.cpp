@@ -4,7 +4,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A body of mass 1 in a harmonic well of frequency 1: the fixed point of the midpoint rule converges by h^2/4 a sweep,
@@ -104,4 +104,4 @@ TYPED_TEST(AutomaticBeyondDouble, IsNewton) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -115,4 +115,4 @@ TYPED_TEST(ContinuationTest, KnowsWhatTheGrowthLeaves) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

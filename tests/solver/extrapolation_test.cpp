@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -123,4 +123,4 @@ TYPED_TEST(ExtrapolationTest, GoesOnFromAnArchive) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The simple pendulum with this momentum at its lowest point.
@@ -257,4 +257,4 @@ TEST(FixedPoint, ALightBodysDigitsDoNotDependOnAHeavyOne) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Every effect that varies, a full mass matrix of a rigid body, and every form of constraint.
@@ -140,4 +140,4 @@ TEST(Jacobian, OfAChainIsBanded) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

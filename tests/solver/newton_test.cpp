@@ -8,7 +8,7 @@
 #include "scene/scene.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -216,4 +216,4 @@ TYPED_TEST(NewtonTest, TakesTheSolutionNearTheStartOnAStiffSpring) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "problem/dense.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -56,4 +56,4 @@ TYPED_TEST(PositionScaleTest, IsTheSumOfTheDefinition) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

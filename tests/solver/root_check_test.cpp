@@ -4,7 +4,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A body on a circle whose period is about four steps of 250.
@@ -71,4 +71,4 @@ TEST(RootsOfTheFixedPoint, AreThoseOfShorterStepsOrNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,14 +2,14 @@
 
 #include <csignal>
 
-#include "interruption.hpp"
+#include "interrupting.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 #include "step/state.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -136,4 +136,4 @@ TEST(SimplifiedNewton, EvaluatesTheJacobianWhereItPays) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 PartCount part(const char* name, std::uint64_t calls, Index adds, bool in_double = false) {
@@ -52,4 +52,4 @@ TEST(SolverCounts, OfEffectsAreAddedButForConstantForces) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(SolverKinds, AreReadByTheirNames) {
@@ -33,4 +33,4 @@ TEST(SolverKinds, UnknownAreRefusedWithTheKnown) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

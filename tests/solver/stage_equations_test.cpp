@@ -10,7 +10,7 @@
 #include "problem/point.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The maps of which the stage equations consist, at unknowns that solve nothing.
@@ -289,4 +289,4 @@ TEST(StageEquationsCost, OfAResidualIsTheSumOfItsParts) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr FailureCause causes[] = {FailureCause::stage_equations_diverge, FailureCause::near_singular_constraints,
@@ -39,4 +39,4 @@ TEST(FailureCauses, AreThoseOfTheFailure) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(SolverKind, IsReadByItsName) {
@@ -135,4 +135,4 @@ TEST(Solvers, NewestValuesAndAWarmStartNeedFewerSweeps) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

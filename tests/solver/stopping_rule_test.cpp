@@ -5,11 +5,11 @@
 #include <csignal>
 #include <functional>
 
-#include "interruption.hpp"
+#include "interrupting.hpp"
 #include "printing.hpp"
 #include "scalar/binary_exponent.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr long roundings = 100;
@@ -262,4 +262,4 @@ TYPED_TEST(StoppingRuleTest, ForgivesAFirstChangeOfNothing) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -59,4 +59,4 @@ TEST(Backward, LeavesTheStateOfAFailedStepAlone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

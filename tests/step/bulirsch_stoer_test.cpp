@@ -3,14 +3,14 @@
 #include <cmath>
 #include <csignal>
 
-#include "interruption.hpp"
+#include "interrupting.hpp"
 #include "printing.hpp"
 #include "problem/point.hpp"
 #include "scene/assemble.hpp"
 #include "step/odeint_methods.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -129,4 +129,4 @@ TEST(BulirschStoer, FailsWhereForcesAreNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

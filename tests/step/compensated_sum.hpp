@@ -7,7 +7,7 @@
 #include "linear/matrix.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A body under a constant force that moves fast in one direction, so that many small steps add tiny equal parts to
 /// large numbers.
@@ -45,4 +45,4 @@ class CompensatedSum : public ::testing::Test {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -10,7 +10,7 @@
 #include "step/rattle.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -98,4 +98,4 @@ TEST(Composition, ThatFailsLeavesTheState) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

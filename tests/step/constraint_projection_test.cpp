@@ -6,7 +6,7 @@
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -107,4 +107,4 @@ TYPED_TEST(ConstraintProjectionTest, DependentGradientsAreATypedFailure) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

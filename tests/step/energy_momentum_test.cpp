@@ -10,7 +10,7 @@
 #include "scene/assemble.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -170,4 +170,4 @@ TEST(EnergyMomentum, FailsWithItsReasonAndLeavesTheState) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

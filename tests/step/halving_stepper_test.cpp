@@ -2,12 +2,12 @@
 
 #include <csignal>
 
-#include "interruption.hpp"
+#include "interrupting.hpp"
 #include "printing.hpp"
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Steps of the motion q' = 1 that fail where a rule says so: on the size and the time, which is q.
@@ -215,4 +215,4 @@ TYPED_TEST(HalvingOfAPendulum, IsTheMethodWithSmallerSteps) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

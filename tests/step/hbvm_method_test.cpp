@@ -6,7 +6,7 @@
 #include "printing.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Part = Perturbation::Part;
@@ -99,4 +99,4 @@ TEST(HbvmMethods, KeysTellPerturbationsApart) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "step/compensated_sum.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -97,4 +97,4 @@ TEST_F(CompensatedUpdate, OfPositionsLosesNothingOverManySmallSteps) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "scene/assemble.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -149,4 +149,4 @@ TEST(Lobatto, RefusesAndFailsWithItsReason) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "scene/assemble.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -213,4 +213,4 @@ TEST(ProjectedStep, ThatCannotRestoreHSaysSo) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

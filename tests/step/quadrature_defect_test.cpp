@@ -4,7 +4,7 @@
 #include "scene/assemble.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string body(const char* name, const std::string& mass, const char* position, const char* velocity) {
@@ -55,4 +55,4 @@ TYPED_TEST(Defect, FallsToRoundOffWithMoreNodes) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "problem/general_drift.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A body that comes from afar and passes a center at a distance of about 1/3 about t = 4.
@@ -247,4 +247,4 @@ TEST(RaisingOfAStepThatFails, LeavesTheStateAsItWas) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "scene/scene.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -208,4 +208,4 @@ TYPED_TEST(RattleTest, FindsPositionsWhereNothingPulls) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "printing.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -111,4 +111,4 @@ TEST(ReducedEquation, SaysWhereGradientsAreDependentAndForcesAreNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What is thrown away in the end.
@@ -150,4 +150,4 @@ TEST(Registry, MethodsMakeSteppers) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

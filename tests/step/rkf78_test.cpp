@@ -8,7 +8,7 @@
 #include "step/odeint_methods.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Order 8 in q, p and the multiplier of the end; what is lost of g and of the hidden constraints, too.
@@ -104,4 +104,4 @@ TEST(Rkf78, LeavesTheStateWhereForcesAreNone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "step/compensated_sum.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -233,7 +233,7 @@ TYPED_TEST(RungeKuttaSteps, TakeConstraintsByTheIndexReducedEquations) {
     for (const long steps : {8L, 16L, 32L}) {
       RungeKuttaStepper<S> stepper(scene.problem, rk4<S>(), on_constraints);
       const State<S> end = after(stepper, scene, S(S(1) / S(4 * steps)), steps);
-      const S error = std::max(hbvm::distance(end.q, expected.q), hbvm::distance(end.p, p)),
+      const S error = std::max(hbvm::core::distance(end.q, expected.q), hbvm::core::distance(end.p, p)),
               g = max_norm(point.constraints(end.q)), hidden = max_norm(point.hidden_constraints(end.q, end.p));
       if (last_error != 0) {
         EXPECT_NEAR(std::log2(approximately(S(last_error / error))), 4, 0.3) << steps;
@@ -247,7 +247,7 @@ TYPED_TEST(RungeKuttaSteps, TakeConstraintsByTheIndexReducedEquations) {
           EXPECT_GT(last_g, 8 * g);
         }
       }
-      EXPECT_LE(hbvm::distance(stepper.multiplier(), point.multiplier(end.q, end.p)), 4'096 * epsilon<S>());
+      EXPECT_LE(hbvm::core::distance(stepper.multiplier(), point.multiplier(end.q, end.p)), 4'096 * epsilon<S>());
       last_error = error;
       last_g = g;
     }
@@ -292,4 +292,4 @@ TYPED_TEST(RungeKuttaSteps, SaysSoWhereItFails) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,17 +6,17 @@
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const Tableau midpoint_rule = tableau({{"1/2"}}, {"1"}, {"1/2"});
 
 TEST(TableauMethods, OrderIsTheStatedOneOrThatOfTheConditions) {
   EXPECT_EQ(TableauMethod(midpoint_rule, "").order(), 2);
-  EXPECT_EQ(TableauMethod(hbvm::rk4(), "").order(), 4);
-  EXPECT_EQ(TableauMethod(hbvm::radau_iia(), "").order(), 3);
-  EXPECT_EQ(TableauMethod(hbvm::dopri5(), "").order(), 5);
-  Tableau stated = hbvm::rk4();
+  EXPECT_EQ(TableauMethod(hbvm::core::rk4(), "").order(), 4);
+  EXPECT_EQ(TableauMethod(hbvm::core::radau_iia(), "").order(), 3);
+  EXPECT_EQ(TableauMethod(hbvm::core::dopri5(), "").order(), 5);
+  Tableau stated = hbvm::core::rk4();
   stated.order = 7;
   EXPECT_EQ(TableauMethod(stated, "").order(), 7);
   // 50 digits, less ten.
@@ -36,12 +36,12 @@ TEST(TableauMethods, KeepWhatTheirCoefficientsKeep) {
   expect(midpoint_rule, true, true);
   expect(tableau({{"0", "0"}, {"1/2", "1/2"}}, {"1/2", "1/2"}, {"0", "1"}), false, true);        // trapezoidal rule
   expect(tableau({{"1/8", "0"}, {"1/4", "3/8"}}, {"1/4", "3/4"}, {"1/8", "5/8"}), true, false);  // two midpoint steps
-  expect(hbvm::rk4(), false, false);
+  expect(hbvm::core::rk4(), false, false);
 }
 
 TEST(TableauMethods, NameTheirFileAndTheirTableau) {
-  const TableauMethod plain(hbvm::rk4(), "some/file.toml"),
-      projected(hbvm::rk4(), "some/file.toml", OnConstraints::project);
+  const TableauMethod plain(hbvm::core::rk4(), "some/file.toml"),
+      projected(hbvm::core::rk4(), "some/file.toml", OnConstraints::project);
   EXPECT_EQ(plain.text(), "tableau:some/file.toml");
   EXPECT_EQ(projected.text(), "tableau:some/file.toml+project");
   EXPECT_EQ(plain.title(), "test");
@@ -54,7 +54,7 @@ TEST(TableauMethods, NameTheirFileAndTheirTableau) {
 
 TEST(TableauMethods, KeysAreTheirNumbers) {
   const auto key = [](const Tableau& t) { return TableauMethod(t, "a").key(); };
-  EXPECT_EQ(key(hbvm::rk4()), TableauMethod(hbvm::rk4(), "another file").key());
+  EXPECT_EQ(key(hbvm::core::rk4()), TableauMethod(hbvm::core::rk4(), "another file").key());
   const std::set<std::string> keys{key(midpoint_rule), key(tableau({{"1/3"}}, {"1"}, {"1/2"})),
                                    key(tableau({{"1/2"}}, {"2"}, {"1/2"})), key(tableau({{"1/2"}}, {"1"}, {"1/3"})),
                                    TableauMethod(midpoint_rule, "a", OnConstraints::project).key()};
@@ -88,4 +88,4 @@ TEST(TableauMethods, MakeTheStepsOfTheirNumbers) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

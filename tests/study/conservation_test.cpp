@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Kind = ConservedQuantity::Kind;
@@ -68,4 +68,4 @@ TEST(Conservation, RoundOffWalks) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

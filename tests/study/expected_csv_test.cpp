@@ -8,7 +8,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -56,4 +56,4 @@ TEST(ExpectedCsvs, HoldNumbers) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

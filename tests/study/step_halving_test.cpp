@@ -9,7 +9,7 @@
 #include "run/run.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 HalvingRow row(long steps, double ulps) {
@@ -121,7 +121,7 @@ TEST(StepHalving, KeepsTheNumbersOfARunExactly) {
     EXPECT_EQ(run.steps, 16);
     EXPECT_EQ(run.q.size(), 2u);
     EXPECT_EQ(run.lambda.size(), 1u);
-    const RunResult same = hbvm::run({scene, request.method, SolverKind::fixed_point, Expression::parse("1/16"),
+    const RunResult same = core::run({scene, request.method, SolverKind::fixed_point, Expression::parse("1/16"),
                                       request.until, Precision::parse(precision)},
                                      {});
     EXPECT_EQ(run.q, same.q) << precision;
@@ -140,4 +140,4 @@ TEST(StepHalving, KeepsTheNumbersOfARunExactly) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "scalar/text.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -242,4 +242,4 @@ TEST_F(StudyTest, RefusesABadFolderOrFile) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

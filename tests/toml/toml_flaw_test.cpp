@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* sound[] = {
@@ -70,4 +70,4 @@ TEST(TomlFlaws, AnyBeginningEnds) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A text and the table that it is.
@@ -126,4 +126,4 @@ TEST(TomlSources, AreTextOfOneMarkAtMost) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

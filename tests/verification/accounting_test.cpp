@@ -7,7 +7,7 @@
 #include "problem/effect/registry.hpp"
 #include "run/simulate.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Two charged bodies, a fixed charge, nothing that acts on them.
@@ -365,4 +365,4 @@ TEST(Accounting, OneNodeTakesNoProductsWithOne) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

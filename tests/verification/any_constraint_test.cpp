@@ -10,7 +10,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -177,4 +177,4 @@ TEST(AnyConstraint, OfTheSameSurfaceIsTheSameMotion) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

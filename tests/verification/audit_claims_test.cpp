@@ -8,7 +8,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -197,4 +197,4 @@ TEST_F(AuditClaims, TrueOnesNeverFail) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

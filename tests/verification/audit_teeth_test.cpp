@@ -6,7 +6,7 @@
 #include "audit/cell.hpp"
 #include "step/hbvm_method.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Claim claim(Quantity quantity, const std::string& problem, HbvmName method, Span span, Form form, double predicted) {
@@ -253,4 +253,4 @@ TEST(Teeth, OfTheConstraintQuadrature) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

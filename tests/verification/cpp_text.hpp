@@ -4,7 +4,7 @@
 #include <cctype>
 #include <string>
 
-namespace hbvm {
+namespace hbvm::core {
 
 enum class CppPart {
   code,
@@ -52,4 +52,4 @@ inline std::string only(CppPart part, const std::string& text) {
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "verification/cpp_text.hpp"
 #include "verification/sources.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -252,4 +252,4 @@ TEST(EquationIndex, NamesFilesThatCite) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

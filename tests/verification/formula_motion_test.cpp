@@ -12,7 +12,7 @@
 #include "step/hbvm_method.hpp"
 #include "step/registry.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -234,4 +234,4 @@ TYPED_TEST(FormulaMotion, EndsWithATypedErrorWhereTheFormulaEnds) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "scene/scene_text.hpp"
 #include "verification/second_route.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Mpfr number(const char* text) { return literal<Mpfr>(text); }
@@ -321,4 +321,4 @@ TEST_F(JoinedBodies, AFreeChainKeepsItsMomenta) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 
 #include "verification/sources.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Folders = std::set<std::string>;
@@ -36,7 +36,7 @@ std::map<std::string, Folders> allowed() {
   result["report"] = {"", "report"};
   result["long_work"] = {"", "long_work"};
   both_chains.insert({"report", "long_work"});
-  for (const char* folder : {"run", "compare", "audit", "cost", "study", "hard_cases", "cli"}) {
+  for (const char* folder : {"run", "compare", "audit", "cost", "study", "door", "hard_cases", "cli"}) {
     both_chains.insert(folder);
     result[folder] = both_chains;
   }
@@ -178,4 +178,4 @@ TEST(Layering, ReportsHoldNoScalarType) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

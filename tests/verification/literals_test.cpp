@@ -3,7 +3,7 @@
 #include "verification/cpp_text.hpp"
 #include "verification/sources.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 struct Token {
@@ -72,4 +72,4 @@ TEST(FloatingLiterals, AreNotInGenericCode) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

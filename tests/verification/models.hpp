@@ -10,7 +10,7 @@
 #include "linear/matrix.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline std::string scene_path(const std::string& name) {
   return std::string(HBVM_SOURCE_DIR) + "/tests/verification/scenes/" + name + ".toml";
@@ -133,4 +133,4 @@ inline DenseModel bead_on_curve() {
   return model;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

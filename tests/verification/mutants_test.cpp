@@ -10,7 +10,7 @@
 #include "read_file.hpp"
 #include "verification/sources.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,4 +81,4 @@ TEST(Mutants, AHundredInAllFolders) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

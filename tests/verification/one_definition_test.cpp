@@ -6,13 +6,13 @@
 #include "verification/cpp_text.hpp"
 #include "verification/sources.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// A type that is defined in C++ text, outside functions, other types and unnamed namespaces.
 struct Definition {
   std::size_t line;
-  std::string name;  ///< "hbvm::Expression::Node", "std::hash<hbvm::Quad>"
+  std::string name;  ///< "hbvm::Expression::Node", "std::hash<hbvm::core::Quad>"
 };
 
 /// Of a text whose brackets cannot be followed.
@@ -113,10 +113,11 @@ TEST(OneDefinition, OfEachTypeInANamespace) {
       places[definition.name].push_back(source.place(definition.line));
   };
   for (const Source& source : sources()) look(source);
+  for (const Source& source : sources_in("include")) look(source);
   for (const Source& source : sources_in("tests")) look(source);
   EXPECT_GT(places.size(), 300u);
   EXPECT_FALSE(places.contains(unclosed)) << places[unclosed].front();
-  EXPECT_TRUE(places.contains("hbvm::Precision"));
+  EXPECT_TRUE(places.contains("hbvm::core::Precision"));
   for (const auto& [name, where] : places) {
     std::string all;
     for (const std::string& place : where) all += "\n  " + place;
@@ -125,4 +126,4 @@ TEST(OneDefinition, OfEachTypeInANamespace) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

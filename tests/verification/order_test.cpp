@@ -6,7 +6,7 @@
 #include "printing.hpp"
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 double rate(const Mpfr& coarse, const Mpfr& fine) {
@@ -125,4 +125,4 @@ TEST_P(DoublePendulumOrder, IsThatOfEachComponent) {
 INSTANTIATE_TEST_SUITE_P(Stages, DoublePendulumOrder, ::testing::Values(1, 2, 3, 4));
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

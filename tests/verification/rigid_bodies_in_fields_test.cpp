@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "scene/scene_text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// All fields about a centre, the attraction by another body and a formula, on whoever is there.
@@ -104,4 +104,4 @@ TEST(RigidBodiesInFields, AreOffFromADumbBellByTheSquareOfItsSize) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

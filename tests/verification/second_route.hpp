@@ -6,7 +6,7 @@
 
 #include "verification/models.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 using OdeState = std::vector<Mpfr>;
 
@@ -135,4 +135,4 @@ struct IndexReduced {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

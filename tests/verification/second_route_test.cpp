@@ -5,7 +5,7 @@
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// HBVM of high order against an integration by other variables and another method.
@@ -56,4 +56,4 @@ TEST_F(SecondRoute, BeadOnACurve) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "scene/scene.hpp"
 #include "step/hbvm_stepper.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Bodies on a grid with random offsets, some hung from the one before by a rod, at rest, and some effects.
@@ -112,4 +112,4 @@ TYPED_TEST(SolversAgree, OnConstraintsOfAnyKind) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 inline const std::filesystem::path project = HBVM_SOURCE_DIR;
 
@@ -41,4 +41,4 @@ inline std::vector<Source> sources_in(const char* root) {
 /// Of the library and the program.
 inline std::vector<Source> sources() { return sources_in("src"); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "verification/sources.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Sources, by their path in src without the ending, whose tests have another name, and why.
@@ -73,4 +73,4 @@ TEST(Sources, HaveTestsOfTheirName) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

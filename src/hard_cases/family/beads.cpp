@@ -2,7 +2,7 @@
 #include "hard_cases/scenes.hpp"
 #include "hard_cases/walk.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_beads(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "charges on a sphere", collection);
@@ -14,4 +14,4 @@ void add_beads(std::vector<HardCase>& cases, Collection collection) {
                    long_run, 3600);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

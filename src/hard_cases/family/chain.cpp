@@ -3,7 +3,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_chain(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "chain released from horizontal", collection);
@@ -19,4 +19,4 @@ void add_chain(std::vector<HardCase>& cases, Collection collection) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "method/hbvm.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Exact = std::vector<BigFloat>;
@@ -81,4 +81,4 @@ void add_coefficients(std::vector<HardCase>& cases, Collection collection) {
                });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,7 +1,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Accuracy, and what the run says against itself.
@@ -56,4 +56,4 @@ void add_constraints(std::vector<HardCase>& cases, Collection collection) {
       {"hbvm:4,2", "auto", "1/32", "1"}, energy);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

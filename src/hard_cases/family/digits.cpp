@@ -1,6 +1,6 @@
 #include "hard_cases/family.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_digits(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "many digits and stages", collection);
@@ -12,4 +12,4 @@ void add_digits(std::vector<HardCase>& cases, Collection collection) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,7 +1,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_encounters(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "encounters", collection);
@@ -34,4 +34,4 @@ void add_encounters(std::vector<HardCase>& cases, Collection collection) {
         [v] { return near_collision(v); }, {"hbvm:auto,3", "auto", "1/1024", "3"}, energy);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

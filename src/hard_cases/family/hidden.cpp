@@ -3,7 +3,7 @@
 #include "hard_cases/family.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The growth of e_hid from t = 20 to the run's end.
@@ -37,4 +37,4 @@ void add_hidden(std::vector<HardCase>& cases, Collection collection) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/walk.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The same method with as many nodes as its energy needs to be exact in double, in quad and with 50 digits.
@@ -59,4 +59,4 @@ void add_long_runs(std::vector<HardCase>& cases, Collection collection) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,7 +1,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_masses(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "mass ratios and lengths", collection);
@@ -30,4 +30,4 @@ void add_masses(std::vector<HardCase>& cases, Collection collection) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

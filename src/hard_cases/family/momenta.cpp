@@ -2,7 +2,7 @@
 #include "hard_cases/scenes.hpp"
 #include "study/conservation.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Kind = ConservedQuantity::Kind;
@@ -35,4 +35,4 @@ void add_momenta(std::vector<HardCase>& cases, Collection collection) {
                [g](const std::string& precision) { return guarded([&] { return claims_hold(g, precision); }); });
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

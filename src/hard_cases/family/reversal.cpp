@@ -2,7 +2,7 @@
 
 #include "hard_cases/family.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_reversal(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "there and back", collection);
@@ -24,4 +24,4 @@ void add_reversal(std::vector<HardCase>& cases, Collection collection) {
           reversal);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

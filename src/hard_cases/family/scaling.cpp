@@ -6,7 +6,7 @@
 #include "hard_cases/motion.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Powers of two by which lengths, masses and times are multiplied.
@@ -67,4 +67,4 @@ void add_scaling(std::vector<HardCase>& cases, Collection collection) {
     }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

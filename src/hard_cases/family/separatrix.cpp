@@ -1,7 +1,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_separatrix(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "separatrix", collection);
@@ -13,4 +13,4 @@ void add_separatrix(std::vector<HardCase>& cases, Collection collection) {
     }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

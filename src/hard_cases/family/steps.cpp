@@ -3,7 +3,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_steps(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "growing steps", collection);
@@ -22,4 +22,4 @@ void add_steps(std::vector<HardCase>& cases, Collection collection) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

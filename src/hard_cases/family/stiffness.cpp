@@ -6,7 +6,7 @@
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Accuracy, and the energy: with steps much longer than its period, a spring of stiffness k is stretched by what the
@@ -58,4 +58,4 @@ void add_stiffness(std::vector<HardCase>& cases, Collection collection) {
       }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

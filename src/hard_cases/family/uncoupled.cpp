@@ -1,7 +1,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_uncoupled(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "uncoupled systems of unequal scales", collection);
@@ -19,4 +19,4 @@ void add_uncoupled(std::vector<HardCase>& cases, Collection collection) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,7 +1,7 @@
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void add_units(std::vector<HardCase>& cases, Collection collection) {
   const Family family(cases, "SI units", collection);
@@ -14,4 +14,4 @@ void add_units(std::vector<HardCase>& cases, Collection collection) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

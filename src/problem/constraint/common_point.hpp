@@ -11,7 +11,7 @@
 #include "problem/constraint/use.hpp"
 #include "problem/constraint/value.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// g = x_i, a component of a displacement x: linear, so that its gradient is written once. All of them together hold
 /// two points in one place: a ball joint, which in the plane is a pin.
@@ -52,7 +52,7 @@ struct CommonPoint {
   void second_derivatives(Index, Add) const {}
 
   CommonPoint positive() const { return *this; }
-  CommonPoint<double> in_double() const { return {hbvm::in_double(x), component}; }
+  CommonPoint<double> in_double() const { return {hbvm::core::in_double(x), component}; }
 
   template <class Conditions>
   void stays(Conditions& conditions) const {
@@ -94,4 +94,4 @@ struct CommonPoint {
   };
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

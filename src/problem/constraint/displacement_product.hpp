@@ -6,7 +6,7 @@
 #include "problem/constraint/use.hpp"
 #include "problem/constraint/value.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// g = x.y - value for two displacements: the angle between two rods, or of two directors of a rigid body.
 template <Scalar S>
@@ -23,8 +23,8 @@ struct DisplacementProduct {
   }
 
   std::set<Index> coordinates(Index dimension) const {
-    std::set<Index> found = hbvm::coordinates(x, dimension);
-    found.merge(hbvm::coordinates(y, dimension));
+    std::set<Index> found = hbvm::core::coordinates(x, dimension);
+    found.merge(hbvm::core::coordinates(y, dimension));
     return found;
   }
 
@@ -62,9 +62,9 @@ struct DisplacementProduct {
         }
   }
 
-  DisplacementProduct positive() const { return {hbvm::positive(x), hbvm::positive(y), product}; }
+  DisplacementProduct positive() const { return {hbvm::core::positive(x), hbvm::core::positive(y), product}; }
   DisplacementProduct<double> in_double() const {
-    return {hbvm::in_double(x), hbvm::in_double(y), approximately(product)};
+    return {hbvm::core::in_double(x), hbvm::core::in_double(y), approximately(product)};
   }
 
   template <class Conditions>
@@ -97,7 +97,8 @@ struct DisplacementProduct {
     }
 
     OperationCounts operations() const {
-      return hbvm::operations(form_.x, dimension_) + hbvm::operations(form_.y, dimension_) + shares_.operations();
+      return hbvm::core::operations(form_.x, dimension_) + hbvm::core::operations(form_.y, dimension_) +
+             shares_.operations();
     }
 
    private:
@@ -107,4 +108,4 @@ struct DisplacementProduct {
   };
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "problem/constraint/use.hpp"
 #include "problem/constraint/value.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a form of g says of itself, all of it: a constraint at most quadratic in q.
 ///
@@ -45,4 +45,4 @@ concept ConstraintForm = requires(const F& form, Index d, const Vector<S>& q, co
   { gradient.operations() } -> std::same_as<OperationCounts>;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

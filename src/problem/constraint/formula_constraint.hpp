@@ -10,7 +10,7 @@
 #include "problem/effect/execution.hpp"
 #include "problem/effect/term.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// g by a formula of a scene that is not quadratic: its second derivative depends on q. What other forms say of
 /// themselves as ConstraintForm follows here from the trace of the formula, which `term` holds for one instance.
@@ -23,7 +23,7 @@ struct FormulaConstraint {
 
   std::set<Index> coordinates(Index dimension) const {
     std::set<Index> found;
-    for (const Displacement<S>& x : term.displacements) found.merge(hbvm::coordinates(x, dimension));
+    for (const Displacement<S>& x : term.displacements) found.merge(hbvm::core::coordinates(x, dimension));
     return found;
   }
 
@@ -69,7 +69,7 @@ struct FormulaConstraint {
     return sum;
   }
 
-  FormulaConstraint<double> in_double() const { return {hbvm::in_double(term)}; }
+  FormulaConstraint<double> in_double() const { return {hbvm::core::in_double(term)}; }
 
   template <class Conditions>
   void stays(Conditions& conditions) const {
@@ -118,7 +118,7 @@ struct FormulaConstraint {
 
     OperationCounts operations() const {
       OperationCounts counts = form_.term.gradient.operations();
-      for (const Displacement<S>& x : form_.term.displacements) counts += hbvm::operations(x, dimension_);
+      for (const Displacement<S>& x : form_.term.displacements) counts += hbvm::core::operations(x, dimension_);
       for (const Share& share : shares_) counts.add(Op::multiply, 1), counts.add(Op::add, share.first ? 0 : 1);
       return counts;
     }
@@ -187,4 +187,4 @@ struct FormulaConstraint {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

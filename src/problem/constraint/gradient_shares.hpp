@@ -7,7 +7,7 @@
 #include "problem/constraint/gradient_target.hpp"
 #include "problem/space/displacement.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How derivatives by displacements spread over the coordinates that these are made of: columns of a gradient as
 /// weighted sums of the components of a vector x, and of another y.
@@ -81,4 +81,4 @@ class GradientShares {
   std::set<Index> touched_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

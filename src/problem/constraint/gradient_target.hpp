@@ -2,7 +2,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Where the gradient of one constraint goes, in all lanes: a column for each of its coordinates, ascending; and g, if
 /// it is not null. x, y (lanes x dimension) and t are scratch. Count is the type of the number of lanes, as of Lanes.
@@ -17,4 +17,4 @@ struct GradientTarget {
   S* column(Index k) const { return columns + k * lanes; }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

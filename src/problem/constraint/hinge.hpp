@@ -8,7 +8,7 @@
 #include "problem/constraint/common_point.hpp"
 #include "problem/constraint/displacement_product.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A hinge of two rigid bodies, or of one in space: a common point, and a common direction n, fixed in both. With unit
 /// vectors e, f of the second that span the plane across its n, the latter is n.e = 0 and n.f = 0: two independent g,
@@ -61,4 +61,4 @@ struct Hinge {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

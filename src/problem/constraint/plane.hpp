@@ -8,7 +8,7 @@
 #include "problem/constraint/use.hpp"
 #include "problem/constraint/value.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// g = n.q - offset for the coordinates q of one body, or of the blocks that a point of a rigid body is a sum of:
 /// linear, so that its gradient is written once.
@@ -64,7 +64,7 @@ struct Plane {
   void second_derivatives(Index, Add) const {}
 
   Plane positive() const { return *this; }
-  Plane<double> in_double() const { return {blocks, hbvm::in_double(normal), approximately(offset)}; }
+  Plane<double> in_double() const { return {blocks, hbvm::core::in_double(normal), approximately(offset)}; }
 
   template <class Conditions>
   void stays(Conditions& conditions) const {
@@ -98,4 +98,4 @@ struct Plane {
   };
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

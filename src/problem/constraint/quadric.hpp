@@ -4,7 +4,7 @@
 
 #include "problem/constraint/plane.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// g = x^T A x + b^T x + c for the coordinates x of one body, or of several, or of the blocks that a point of a rigid
 /// body is a sum of, A symmetric.
@@ -91,7 +91,9 @@ struct Quadric {
   }
 
   Quadric positive() const { return {blocks, magnitudes(A), b, c}; }
-  Quadric<double> in_double() const { return {blocks, hbvm::in_double(A), hbvm::in_double(b), approximately(c)}; }
+  Quadric<double> in_double() const {
+    return {blocks, hbvm::core::in_double(A), hbvm::core::in_double(b), approximately(c)};
+  }
 
   template <class Conditions>
   void stays(Conditions& conditions) const {
@@ -142,4 +144,4 @@ struct Quadric {
   };
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

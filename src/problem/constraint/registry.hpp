@@ -14,7 +14,7 @@
 #include "problem/constraint/quadric.hpp"
 #include "problem/constraint/rod.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Every form of constraint: those that a scene can name by their kinds, at most quadratic, and g by any other formula.
 /// A new one is its file, and one line here.
@@ -77,4 +77,4 @@ inline std::vector<std::string> constraint_kinds() {
   return kinds;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "problem/constraint/use.hpp"
 #include "problem/constraint/value.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// g = |x|^2 - square for a displacement x: the distance of two bodies, of a body and a fixed point, or the length of a
 /// director of a rigid body.
@@ -26,7 +26,7 @@ struct Rod {
     return {use.pair("between"), S(length * length)};
   }
 
-  std::set<Index> coordinates(Index dimension) const { return hbvm::coordinates(x, dimension); }
+  std::set<Index> coordinates(Index dimension) const { return hbvm::core::coordinates(x, dimension); }
 
   ConstraintValue<S> value(Index dimension, const Vector<S>& q) const {
     const Vector<S> at = displaced(x, dimension, q);
@@ -60,8 +60,8 @@ struct Rod {
         }
   }
 
-  Rod positive() const { return {hbvm::positive(x), square}; }
-  Rod<double> in_double() const { return {hbvm::in_double(x), approximately(square)}; }
+  Rod positive() const { return {hbvm::core::positive(x), square}; }
+  Rod<double> in_double() const { return {hbvm::core::in_double(x), approximately(square)}; }
 
   template <class Conditions>
   void stays(Conditions& conditions) const {
@@ -95,7 +95,7 @@ struct Rod {
     }
 
     OperationCounts operations() const {
-      OperationCounts counts = hbvm::operations(form_.x, dimension_) + shares_.operations();
+      OperationCounts counts = hbvm::core::operations(form_.x, dimension_) + shares_.operations();
       counts.add(Op::add, dimension_);
       return counts;
     }
@@ -140,4 +140,4 @@ struct Rod {
   };
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "hbvm/error.hpp"
 #include "problem/space/displacement.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A key of a [[constraint]] table, and what stands there.
 struct ConstraintKey {
@@ -63,4 +63,4 @@ struct ConstraintUse {
   const Matrix<S>& matrix(std::string_view key) const { return matrices.find(key)->second; }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

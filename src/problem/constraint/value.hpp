@@ -2,7 +2,7 @@
 
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How far from 0, over the size of its terms, a constraint may be that a scene fulfils: each term is a product of up
 /// to three numbers, each an expression of some operations with a rounding each, which 64 units leave room for.
@@ -25,4 +25,4 @@ struct ConstraintValue {
   bool vanishes() const { return magnitude(g) <= consistency_tolerance<S>() * size; }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

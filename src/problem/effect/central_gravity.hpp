@@ -4,7 +4,7 @@
 
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Attraction of each body by a fixed centre: U = strength m / r. (strength is G times the centre's mass.)
 struct CentralGravity {
@@ -21,4 +21,4 @@ struct CentralGravity {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

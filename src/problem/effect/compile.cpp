@@ -2,7 +2,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Second derivatives by very many inputs take that many; what compiles would take as long to run.
@@ -54,4 +54,4 @@ void compile(Trace<S>& trace, typename Trace<S>::Id U, std::size_t inputs, std::
                            const std::vector<std::vector<S>>&, EffectTerm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -3,7 +3,7 @@
 #include "problem/effect/term.hpp"
 #include "problem/effect/trace.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Fills in the programs of a term, for U and its first and second derivatives by the inputs, with their coefficients,
 /// and what follows from the trace: degree and constant_force. `values` has the parameters of each instance.
@@ -18,4 +18,4 @@ void compile(Trace<S>& trace, typename Trace<S>::Id U, std::size_t inputs, std::
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Charges, of bodies or fixed points: U = -strength Q_a Q_b / r; like charges repel for strength > 0.
 struct Coulomb {
@@ -21,4 +21,4 @@ struct Coulomb {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

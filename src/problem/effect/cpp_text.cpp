@@ -6,7 +6,7 @@
 #include "hbvm/error.hpp"
 #include "problem/effect/kernel.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class Printer {
@@ -159,4 +159,4 @@ std::string cpp_text(const Program<double>& program, Index dimension) { return P
 
 std::string cpp_steps(const Program<double>& program, Index dimension) { return Printer(program, dimension).steps(); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "hbvm/error.hpp"
 #include "problem/effect/trace.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The operations of U, recorded at x0 and at x1.
@@ -200,4 +200,4 @@ DiscreteGradient<S> discrete_gradient(const EffectTerm<S>& term, Index inputs) {
 #define HBVM_DEFINE(S) template DiscreteGradient<S> discrete_gradient<S>(const EffectTerm<S>&, Index);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "problem/effect/term.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// DU(x0, x1) of an effect, a discrete gradient: DU . (x1 - x0) = U(x1) - U(x0), symmetric in x0 and x1, and dU/dx
 /// where they meet (Gonzalez 1996). The rules of differentiation are used backwards through U's own operations, with
@@ -29,4 +29,4 @@ DiscreteGradient<S> discrete_gradient(const EffectTerm<S>& term, Index inputs);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "problem/effect/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A program of an effect with the registers to run it for all its bodies or pairs at once, in `lanes` lanes each:
 /// instance after instance, as the displacements stand that it reads.
@@ -36,4 +36,4 @@ class Execution {
   std::vector<const S*> inputs_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What an effect acts on, and so what its displacement x means.
 enum class Acts {
@@ -94,4 +94,4 @@ T power(const T& x, long n) {
   return n % 2 == 0 ? half * half : half * half * x;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The code of one program after another, where what was computed before is not computed again. Each instruction has a
@@ -70,4 +70,4 @@ JointProgram<S> join(const std::vector<JointPart<S>>& parts, std::size_t inputs)
 #define HBVM_DEFINE(S) template JointProgram<S> join<S>(const std::vector<JointPart<S>>&, std::size_t);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

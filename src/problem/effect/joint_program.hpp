@@ -2,7 +2,7 @@
 
 #include "problem/effect/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A program of the gradient of an effect, as one of several that act on the same displacements.
 template <Scalar S>
@@ -29,4 +29,4 @@ JointProgram<S> join(const std::vector<JointPart<S>>& parts, std::size_t inputs)
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "problem/effect/kernel_table.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 const Kernel* find_kernel(const Program<double>& program, Index dimension) {
   const std::string code = cpp_text(program, dimension);
@@ -39,4 +39,4 @@ std::optional<KernelUse> KernelUse::find(const Program<double>& program, Index d
   return use;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

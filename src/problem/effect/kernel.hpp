@@ -9,7 +9,7 @@
 #include "problem/effect/program.hpp"
 #include "problem/space/displacement.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A body, a body and a fixed point, or a pair, with displacement x = q_a + shift or x = q_a - q_b.
 struct KernelSite {
@@ -65,4 +65,4 @@ class KernelUse {
   std::vector<std::vector<double>> coefficients_;  ///< of each site, which points to them
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

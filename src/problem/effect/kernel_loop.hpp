@@ -5,7 +5,7 @@
 #include "linear/constant_count.hpp"
 #include "problem/effect/kernel.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// f(i) for every lane. The forces are another array than q, so that several lanes may be done at a time.
 template <class Count, class F>
@@ -84,4 +84,4 @@ void add_force(const KernelSite* sites, std::size_t count, Lanes<const double> q
     add_force_in<Formula>(sites, count, q, force);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,9 +4,9 @@
 
 #include "problem/effect/kernel.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// All kernels; defined in the source that effect_kernels prints.
 std::span<const Kernel> kernel_table();
 
-}  // namespace hbvm
+}  // namespace hbvm::core

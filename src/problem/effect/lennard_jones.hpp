@@ -4,7 +4,7 @@
 
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The 12-6 potential: U = -4 depth ((diameter/r)^12 - (diameter/r)^6).
 struct LennardJones {
@@ -23,4 +23,4 @@ struct LennardJones {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

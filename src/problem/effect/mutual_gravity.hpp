@@ -4,7 +4,7 @@
 
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Newton's attraction of bodies by one another: U = strength m_a m_b / r.
 struct MutualGravity {
@@ -21,4 +21,4 @@ struct MutualGravity {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

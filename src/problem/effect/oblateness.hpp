@@ -4,7 +4,7 @@
 
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The J2 term of an oblate centre's field, without its monopole (see central_gravity): with the sine z = axis.x/r of
 /// the latitude, U = -strength m J2 radius^2 (3 z^2 - 1) / (2 r^3). The axis may have any length.
@@ -29,4 +29,4 @@ struct Oblateness {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

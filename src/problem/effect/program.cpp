@@ -7,7 +7,7 @@
 #include "scalar/in_place.hpp"
 #include "scalar/sine.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 namespace {
 
@@ -353,4 +353,4 @@ std::vector<S> Program<S>::rounding_sizes(const std::vector<S>& inputs, const st
 #define HBVM_DEFINE(S) template class Program<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "linear/matrix.hpp"
 #include "linear/operation_counts.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Where an operand stands: among the inputs, the constants or the temporaries.
 enum class Bank : std::uint8_t { input, constant, temporary };
@@ -77,4 +77,4 @@ class Program {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The cosine of the distance to a fixed centre, of the paper's satellites (67): U = strength cos r.
 struct RadialCosine {
@@ -22,4 +22,4 @@ struct RadialCosine {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "problem/effect/trap.hpp"
 #include "problem/effect/uniform_gravity.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Every effect a scene can name. A new one is its file, and one line here.
 using Effects = std::tuple<UniformGravity,  //
@@ -35,4 +35,4 @@ bool with_effect(std::string_view kind, F&& f) {
   return with_effect(kind, std::forward<F>(f), static_cast<Effects*>(nullptr));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

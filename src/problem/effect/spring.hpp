@@ -5,7 +5,7 @@
 #include "hbvm/error.hpp"
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A spring, linear for exponent 2: U = -stiffness/exponent |r - rest_length|^exponent, exponent >= 2.
 /// With rest_length 0 and an even exponent U is a polynomial, and computed without a root. Its derivative is evaluated
@@ -45,4 +45,4 @@ struct Spring {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "linear/matrix.hpp"
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// How one use of an effect depends on its displacements, one entry (or row) an instance. It is what the effect
 /// declares of its formula, so that no weakness of a force can hide it; of a formula in a scene it is computed.
@@ -18,4 +18,4 @@ struct EffectSymmetry {
   Matrix<S> conditions;      ///< of Symmetry::computed: rows of equations for (w, t), see symmetry_conditions
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

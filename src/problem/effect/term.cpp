@@ -2,7 +2,7 @@
 
 #include "linear/in_double.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -44,4 +44,4 @@ EffectTerm<double> in_double(const EffectTerm<S>& term) {
 #define HBVM_DEFINE(S) template EffectTerm<double> in_double<S>(const EffectTerm<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "problem/effect/symmetry.hpp"
 #include "problem/space/displacement.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One effect as a scene uses it: a formula for the displacement of a body or pair, or for several positions, and all
 /// the bodies, pairs or groups it holds for. Made by make_term from the effect's one definition.
@@ -56,4 +56,4 @@ EffectTerm<double> in_double(const EffectTerm<S>& term);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 
 #include "hbvm/error.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 template <Scalar S>
 typename Trace<S>::Id Trace<S>::leaf(Kind kind, std::size_t index) {
@@ -330,4 +330,4 @@ typename Trace<S>::Compiled Trace<S>::compile(const std::vector<Id>& outputs, st
 #define HBVM_DEFINE(S) template class Trace<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "problem/effect/program.hpp"
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A formula as a graph of operations, recorded by evaluating it once on Traced values. Equal operations are kept
 /// once, constants are folded, and constant factors move outwards, so that the Program compiled from it does what
@@ -114,4 +114,4 @@ class Traced {
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

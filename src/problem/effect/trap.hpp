@@ -5,7 +5,7 @@
 #include "hbvm/error.hpp"
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A harmonic or quartic well about a fixed centre: U = -stiffness/exponent r^exponent, exponent 2 or 4.
 struct Trap {
@@ -24,4 +24,4 @@ struct Trap {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "problem/effect/interaction.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A uniform field: U = sum m a.q, with a the acceleration (for a mass matrix M: a.M q).
 struct UniformGravity {
@@ -22,4 +22,4 @@ struct UniformGravity {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

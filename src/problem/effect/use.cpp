@@ -6,7 +6,7 @@
 #include "hbvm/error.hpp"
 #include "problem/effect/compile.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// x if it is a whole number of moderate size.
@@ -133,4 +133,4 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
 #define HBVM_DEFINE(S) template EffectTerm<S> make_term<S>(const EffectUse<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "problem/effect/term.hpp"
 #include "problem/effect/trace.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The numbers of one use of an effect: its keys, and for each body or pair its parameters in the order mass matrix
 /// (on_each_body only), masses (two for pairs, else one), charges (two, or one and the centre's).
@@ -31,4 +31,4 @@ EffectTerm<S> make_term(const EffectUse<S>& use);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

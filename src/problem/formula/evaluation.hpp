@@ -10,7 +10,7 @@
 #include "scalar/expression_node.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The value of a formula over a number type T: the scalars S themselves, or `Traced<S>`. Parts without variables are
 /// numbers, right to the last bit of S. Whole powers are products, those of halves have a root; other powers are
@@ -175,4 +175,4 @@ class FormulaEvaluation {
   std::unordered_map<const Node*, bool> varies_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 
 #include "problem/effect/execution.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// g = x^T A x + b^T x + c.
@@ -196,4 +196,4 @@ std::optional<ConstraintForms<S>> quadratic_form(const FormulaUse<S>& use) {
 #define HBVM_DEFINE(S) template std::optional<ConstraintForms<S>> quadratic_form<S>(const FormulaUse<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/constraint/registry.hpp"
 #include "problem/formula/use.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The form that g is where its trace has a degree of 2 at most, its coefficients right to the last bit whatever
 /// cancels in the formula: |x|^2 - c for a sum x of positions with the weights 1 and -1 is a Rod, n.q - c of one body a
@@ -17,4 +17,4 @@ std::optional<ConstraintForms<S>> quadratic_form(const FormulaUse<S>& use);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

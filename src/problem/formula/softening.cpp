@@ -1,6 +1,6 @@
 #include "softening.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 Program<Mpfr> with_exponents_times(const Mpfr& factor, const Program<Mpfr>& program) {
   std::vector<Mpfr> constants = program.constants();
@@ -21,4 +21,4 @@ Program<Mpfr> with_exponents_times(const Mpfr& factor, const Program<Mpfr>& prog
   return {std::move(constants), std::move(code), std::move(outputs), temporaries};
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

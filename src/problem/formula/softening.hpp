@@ -3,7 +3,7 @@
 #include "problem/effect/program.hpp"
 #include "scalar/mpfr.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The program with the arguments of all exp, sinh, cosh and tanh times one factor. These products are further outputs,
 /// after those of the program. Far from a narrow bump its force is hidden, in any number of digits, by what it is added
@@ -11,4 +11,4 @@ namespace hbvm {
 /// exponential is holds with a factor as well: a symmetry of all parts of U that such functions multiply.
 Program<Mpfr> with_exponents_times(const Mpfr& factor, const Program<Mpfr>& program);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "problem/effect/execution.hpp"
 #include "softening.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Numbers from -1 to 1 without a pattern, the same in each run.
@@ -203,4 +203,4 @@ EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<S
                                                  const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

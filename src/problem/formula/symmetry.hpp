@@ -3,7 +3,7 @@
 #include "problem/formula/use.hpp"
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The symmetry of a formula: equations for the motions of space (w, t), as EffectSymmetry::conditions has them, that
 /// keep all instances. A motion that moves the displacements by w x x_a + T_a t, x_a without its shift and T_a the sum
@@ -24,4 +24,4 @@ EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<S
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/effect/execution.hpp"
 #include "problem/formula/evaluation.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <Scalar S>
@@ -64,7 +64,7 @@ class Checking : public FormulaEvaluation<Checking<S>, S, S> {
 
 template <Scalar S>
 Displacement<Mpfr> exactly(const Displacement<S>& x) {
-  const auto same = [](const S& value) { return rounded_to<Mpfr>(raw(hbvm::exactly(value))); };
+  const auto same = [](const S& value) { return rounded_to<Mpfr>(raw(hbvm::core::exactly(value))); };
   Displacement<Mpfr> result;
   for (const auto& block : x.blocks) result.blocks.push_back({block.offset, same(block.weight)});
   result.shift.resize(x.shift.size());
@@ -124,4 +124,4 @@ FormulaUse<Mpfr> exactly(const FormulaUse<S>& use) {
   template FormulaUse<Mpfr> exactly<S>(const FormulaUse<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
-}  // namespace hbvm
+}  // namespace hbvm::core

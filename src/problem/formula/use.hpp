@@ -7,7 +7,7 @@
 #include "problem/effect/term.hpp"
 #include "scalar/expression.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a name in a formula stands for, where it is no constant.
 struct FormulaVariable {
@@ -63,4 +63,4 @@ FormulaUse<Mpfr> exactly(const FormulaUse<S>& use);
 HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
 #undef HBVM_DECLARE
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -9,7 +9,7 @@
 #include "problem/space/lanes.hpp"
 #include "scalar/in_place.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A vector in space made of coordinate blocks: sum_i weight_i q[offset_i .. offset_i + d) + shift. A body's position
 /// is one block; a displacement two, or a block and minus a fixed point; a rigid body's centre four.
@@ -151,4 +151,4 @@ Displacement<double> in_double(const Displacement<S>& x) {
   return result;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Positions (or velocities, forces …) of all coordinates in several lanes, a lane being one node of a quadrature:
 /// coordinate j of lane i is data[j * count + i]. A matrix with a row a lane has this layout, and so has one vector,
@@ -34,4 +34,4 @@ Lanes<S> lanes(Vector<S>& one) {
   return {one.data(), 1};
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

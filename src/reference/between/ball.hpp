@@ -3,7 +3,7 @@
 #include "scalar/arb.hpp"
 #include "scalar/mpfr.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A set of complex numbers: a rectangle about a centre, by Arb's ball arithmetic, whose exponents have no bounds.
 class Ball {
@@ -46,4 +46,4 @@ class Ball {
 inline acb_ptr raw(Ball& x) { return x.raw_ball(); }
 inline acb_srcptr raw(const Ball& x) { return x.raw_ball(); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

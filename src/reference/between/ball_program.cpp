@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr slong bits = Ball::bits;
@@ -443,4 +443,4 @@ bool BallProgram::apply_plain(const Step& step, const Arc& arc) {
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

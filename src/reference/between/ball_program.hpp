@@ -6,7 +6,7 @@
 #include "loop.hpp"
 #include "problem/effect/program.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A program of an effect evaluated over balls along a closed curve in complex time, on which its inputs are loops. It
 /// tells whether the outputs are analytic inside the curve, and how large they are on it.
@@ -97,4 +97,4 @@ class BallProgram {
   Ball t_, u_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 
 #include "scalar/log2_of.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr double nothing = -std::numeric_limits<double>::infinity();
@@ -113,4 +113,4 @@ bool ForceBounds::hold(double log2_h, const LoopOf& loop) {
 
 std::string ForceBounds::obstacle() const { return forces_[failed_].name + ": " + forces_[failed_].program.obstacle(); }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

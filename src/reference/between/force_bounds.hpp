@@ -7,7 +7,7 @@
 #include "ball_program.hpp"
 #include "problem/problem.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Looks at the forces between the points at which a step knows them. Along a closed curve about the step in complex
 /// time, on which positions are polynomials, each force must be analytic inside and not much larger than what the step
@@ -59,4 +59,4 @@ class ForceBounds {
   std::size_t failed_ = 0;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hbvm {
+namespace hbvm::core {
 
 namespace {
 
@@ -202,4 +202,4 @@ Loop ellipse_of(const Mpfr& x_0, const std::vector<Mpfr>& y, double log2_rho) {
   return {coefficients, -static_cast<long>(s), all.exponent, roundings * greatest};
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

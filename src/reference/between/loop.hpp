@@ -7,7 +7,7 @@
 
 #include "ball.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// What a polynomial in time is on a closed curve in complex time: on a circle about a step's start, or on an ellipse
 /// about the step. Both are sums over an angle,
@@ -71,4 +71,4 @@ Loop circle_of(const std::function<const Mpfr&(Index)>& coefficient, Index order
 /// \param y the coefficients y_j in the orthonormal Legendre polynomials P_j
 Loop ellipse_of(const Mpfr& x_0, const std::vector<Mpfr>& y, double log2_rho);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

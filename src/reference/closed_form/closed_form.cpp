@@ -9,12 +9,12 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/text.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 bool is_finite(const Vector<Mpfr>& x) {
   for (Index j = 0; j < x.size(); ++j)
-    if (!hbvm::is_finite(x[j])) return false;
+    if (!hbvm::core::is_finite(x[j])) return false;
   return true;
 }
 
@@ -71,4 +71,4 @@ std::unique_ptr<ClosedForm> closed_form_of(const Assembled<Mpfr>& scene) {
   return nullptr;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A state of an exact motion: p tangential, lambda the multiplier of Theorem 1.
 struct ExactPoint {
@@ -52,4 +52,4 @@ class ClosedForm {
 /// - symmetric heavy top: a rigid body with two equal moments, held at a point of its axis, under a constant force.
 std::unique_ptr<ClosedForm> closed_form_of(const Assembled<Mpfr>& scene);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

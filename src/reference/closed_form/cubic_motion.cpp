@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 Mpfr root_of_part(const Mpfr& part, const Mpfr& whole) { return part > 0 ? Mpfr(sqrt(Mpfr(part / whole))) : Mpfr(0); }
@@ -49,4 +49,4 @@ CubicMotion::Integrals CubicMotion::integrals(const Mpfr& t) const {
           (t + (below_.at(phi) - below_before_) / omega_) / (1 - roots_.z1)};
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "reference/closed_form/elliptic.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// The roots of z^3 + a z^2 + b z + c, ascending, if all are real.
 struct CubicRoots {
@@ -40,4 +40,4 @@ class CubicMotion {
   Mpfr above_before_, below_before_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

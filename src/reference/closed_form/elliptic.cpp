@@ -8,7 +8,7 @@
 #include "reference/closed_form/rounds.hpp"
 #include "scalar/binary_exponent.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Rounds in which the digits have doubled to all there are, and some for rounding.
@@ -194,4 +194,4 @@ StumpffFunctions stumpff_functions(const Mpfr& x) {
   return f;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

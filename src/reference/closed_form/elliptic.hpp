@@ -2,7 +2,7 @@
 
 #include "scalar/scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Elliptic functions and integrals in the digits of the scope. They take the parameter m = kappa^2 and, as it cannot
 /// be had from m without loss where m is near 1, its complement m1 = 1 - m.
@@ -61,4 +61,4 @@ struct StumpffFunctions {
 };
 StumpffFunctions stumpff_functions(const Mpfr& x);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,7 +1,7 @@
 #include "reference/closed_form/elliptic.hpp"
 #include "reference/closed_form/rigid_shape.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Euler's equations (Landau and Lifshitz, Mechanics, 37): with moments I_1, I_2, I_3 in ascending order where L^2 > 2
@@ -155,4 +155,4 @@ std::unique_ptr<ClosedForm> free_rigid_body_of(const Recognition& content) {
   return std::make_unique<FreeRigidBody>(content, std::move(*shape), acceleration);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "reference/closed_form/rounds.hpp"
 #include "scalar/binary_exponent.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// x'' = -mu x/|x|^3 of a body about a centre or of one body from another, mu > 0 or < 0, in the universal variable
@@ -218,4 +218,4 @@ std::unique_ptr<ClosedForm> kepler_of(const Recognition& content) {
   return motion;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

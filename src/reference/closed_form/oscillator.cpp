@@ -2,7 +2,7 @@
 #include "reference/closed_form/recognition.hpp"
 #include "reference/closed_form/symmetric_eigen.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// M q'' = f + A (q - q_0), A = d2U/dq2 constant, without constraints: with M = L L^T and the eigenvectors of L^-1 A
@@ -114,4 +114,4 @@ std::unique_ptr<ClosedForm> oscillator_of(const Recognition& content) {
   return std::make_unique<Oscillator>(content, mass, force, stiffness);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

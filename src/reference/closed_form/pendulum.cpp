@@ -1,7 +1,7 @@
 #include "reference/closed_form/elliptic.hpp"
 #include "reference/closed_form/recognition.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Without a force: a circle at constant speed.
@@ -88,4 +88,4 @@ std::unique_ptr<ClosedForm> pendulum_of(const Recognition& content) {
   return std::make_unique<Pendulum>(content, *sphere, down, across, strength);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "problem/effect/execution.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// The outputs of a program of an effect for one instance at x.
@@ -121,4 +121,4 @@ std::optional<OnSphere> Recognition::on_sphere() const {
   return std::nullopt;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

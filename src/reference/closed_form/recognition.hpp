@@ -6,7 +6,7 @@
 
 #include "reference/closed_form/closed_form.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// One body, pair or group on which an effect acts.
 struct Acting {
@@ -74,4 +74,4 @@ Mpfr norm(const Vector<Mpfr>& a);
 Vector<Mpfr> cross(const Vector<Mpfr>& a, const Vector<Mpfr>& b);
 Matrix<Mpfr> multiplied(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b);
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 
 #include "reference/closed_form/symmetric_eigen.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr Index space = 3;
@@ -147,4 +147,4 @@ void RigidShape::place(const Matrix<Mpfr>& R, const Vector<Mpfr>& omega, const V
   }
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "reference/closed_form/recognition.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A scene in space all of which moves like one rigid body, whatever its coordinates are: points joined by rods, or a
 /// reference point and directors. Every constraint is kept by all rotations (about the pivot, if a point is held), and
@@ -31,4 +31,4 @@ struct RigidShape {
              const Vector<Mpfr>& drift_now, Vector<Mpfr>& q, Vector<Mpfr>& v) const;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

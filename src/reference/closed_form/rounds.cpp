@@ -4,10 +4,10 @@
 
 #include "interruption.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 void Rounds::next() {
-  if (const int signal = interruption) throw Interrupted(signal, fmt::format("{} was not finished", what_));
+  if (stop_asked()) throw Interrupted(stop_request->number(), fmt::format("{} was not finished", what_));
   // Not finite where the numbers of the loop are not.
   if (!(made_ < most_))
     throw IntegrationError(
@@ -15,4 +15,4 @@ void Rounds::next() {
   ++made_;
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

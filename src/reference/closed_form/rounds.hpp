@@ -1,6 +1,6 @@
 #pragma once
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Counts the rounds of a loop that theory says the end of, so that no loop of a closed form goes on without one.
 class Rounds {
@@ -17,4 +17,4 @@ class Rounds {
   double most_, made_ = 0;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "reference/closed_form/elliptic.hpp"
 #include "reference/closed_form/recognition.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// With length 1 and z upwards, g the acceleration, E = v^2/2 + g z and h = x y' - y x':
@@ -88,4 +88,4 @@ std::unique_ptr<ClosedForm> spherical_pendulum_of(const Recognition& content) {
   return std::make_unique<SphericalPendulum>(content, *sphere, down, strength);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

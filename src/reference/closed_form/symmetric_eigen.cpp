@@ -2,7 +2,7 @@
 
 #include "reference/closed_form/rounds.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 SymmetricEigen::SymmetricEigen(Matrix<Mpfr> a) : values(a.rows()), vectors(Matrix<Mpfr>::Identity(a.rows(), a.rows())) {
   const Index n = a.rows();
@@ -35,4 +35,4 @@ SymmetricEigen::SymmetricEigen(Matrix<Mpfr> a) : values(a.rows()), vectors(Matri
   for (Index i = 0; i < n; ++i) values[i] = a(i, i);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

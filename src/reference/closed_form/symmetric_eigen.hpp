@@ -2,7 +2,7 @@
 
 #include "linear/matrix.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A = Q diag(values) Q^T of a symmetric matrix, in the digits of the scope, by Jacobi's rotations (Golub and Van Loan,
 /// Matrix Computations, 8.5).
@@ -12,4 +12,4 @@ struct SymmetricEigen {
   Matrix<Mpfr> vectors;  ///< Q, a vector a column; its determinant is 1
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

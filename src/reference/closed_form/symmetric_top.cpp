@@ -1,7 +1,7 @@
 #include "reference/closed_form/cubic_motion.hpp"
 #include "reference/closed_form/rigid_shape.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Lagrange's top (Whittaker, Analytical Dynamics, 71): held at a point of its axis, with I_1 = I_2, under a constant
@@ -124,4 +124,4 @@ std::unique_ptr<ClosedForm> symmetric_top_of(const Recognition& content) {
   return std::make_unique<SymmetricTop>(content, std::move(*shape), Vector<Mpfr>(-down), axis, across, along, W);
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -32,4 +32,4 @@ embed(${LIBRARY}/dygraph.min.css)
 embed(${FOLDER}/dygraphs_licence.js ${LIBRARY}/dygraph.min.js)
 file(WRITE ${OUTPUT}
      "// Made by src/run/page/embed.cmake.\n#include \"run/page_parts.hpp\"\n\n"
-     "const hbvm::PageParts& hbvm::page_parts() {\n  static const PageParts parts{\n${parts}  };\n  return parts;\n}\n")
+     "const hbvm::core::PageParts& hbvm::core::page_parts() {\n  static const PageParts parts{\n${parts}  };\n  return parts;\n}\n")

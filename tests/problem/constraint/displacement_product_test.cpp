@@ -2,7 +2,7 @@
 
 #include "problem/constraint/form_test.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -20,4 +20,4 @@ TYPED_TEST(DisplacementProductTest, AngleBetweenRodsThatShareABody) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

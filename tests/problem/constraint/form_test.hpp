@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "problem/constraint.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// Forms with whole coefficients, whose values are exact.
 template <class S>
@@ -19,4 +19,4 @@ class FormTest : public ::testing::Test {
   }
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

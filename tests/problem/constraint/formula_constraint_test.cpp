@@ -9,7 +9,7 @@
 #include "scalar/random_values.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Of one body, of a pair, of a group with a fixed point, and of points of rigid bodies, whose weights are not 1.
@@ -191,4 +191,4 @@ TYPED_TEST(FormulaConstraintTest, HasADegree) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

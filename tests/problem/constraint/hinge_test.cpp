@@ -6,7 +6,7 @@
 #include "problem/constraint.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -123,4 +123,4 @@ TYPED_TEST(HingeTest, RefusesWhatHasNoAxis) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

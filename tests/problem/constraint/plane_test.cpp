@@ -2,7 +2,7 @@
 
 #include "problem/constraint/form_test.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -29,4 +29,4 @@ TYPED_TEST(PlaneTest, OfASumOfBlocks) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "problem/constraint/form_test.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -47,4 +47,4 @@ TYPED_TEST(QuadricTest, OfASumOfBlocks) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/constraint_gradient.hpp"
 #include "problem/curvature.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// What every form says of itself fits together, whatever forms there are.
@@ -112,4 +112,4 @@ TEST(ConstraintKinds, AreFoundByTheirNames) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "problem/constraint/form_test.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -28,4 +28,4 @@ TYPED_TEST(RodTest, PinAtAPoint) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

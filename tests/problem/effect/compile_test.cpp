@@ -4,7 +4,7 @@
 #include "printing.hpp"
 #include "problem/effect/execution.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// U = c x y^2 for two instances, c = 2 and 5.
@@ -52,4 +52,4 @@ TEST(Compile, RefusesWhatTakesTooManyOperations) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -182,4 +182,4 @@ TEST(DiscreteGradient, OfASignIsRefused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -8,7 +8,7 @@
 #include "problem/effect/trace.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -102,4 +102,4 @@ TYPED_TEST(JointProgramTest, OneAloneIsItself) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

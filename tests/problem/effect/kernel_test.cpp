@@ -6,7 +6,7 @@
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Instance = EffectUse<double>::Instance;
@@ -229,4 +229,4 @@ TEST(Kernel, EveryShippedSceneUsesThem) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

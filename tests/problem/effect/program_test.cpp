@@ -8,7 +8,7 @@
 #include "scalar/binary_exponent.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -291,4 +291,4 @@ TYPED_TEST(ProgramTest, TellsTheRoundOffOfWhatCancels) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "problem/effect/execution.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Every program of a term with the rounded numbers gives what the term does, but for rounding.
@@ -47,4 +47,4 @@ TEST(EffectTermInDouble, DoesTheSame) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

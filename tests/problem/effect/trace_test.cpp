@@ -7,7 +7,7 @@
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Runs a compiled formula: inputs and parameters are lanes x number.
@@ -309,4 +309,4 @@ TYPED_TEST(TraceTest, RegistersAreReused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -12,7 +12,7 @@
 #include "scalar/random_values.hpp"
 #include "scalar/with_scalar.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Numbers = std::map<std::string, Mpfr>;
@@ -451,4 +451,4 @@ TYPED_TEST(Term, CostOfCentralGravity) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "problem/constraint.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const Constants quadratic_constants{{"L", Expression::parse("1/10")}};
@@ -138,4 +138,4 @@ TYPED_TEST(QuadraticForms, AreNoneOfOtherFormulas) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

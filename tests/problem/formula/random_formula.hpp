@@ -7,7 +7,7 @@
 
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A number with its first and second derivatives by some variables, for formulas evaluated forwards by the rules of
 /// the second order: what a trace, which is differentiated backwards, is held against.
@@ -252,4 +252,4 @@ class RandomFormula {
   std::vector<std::shared_ptr<RandomFormula>> parts_;
 };
 
-}  // namespace hbvm
+}  // namespace hbvm::core

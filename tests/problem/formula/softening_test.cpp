@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// exp x + tanh(exp x), whose exponential overwrites nothing that is read again.
@@ -38,4 +38,4 @@ TEST(Softening, LeavesOtherFunctionsAlone) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include "problem/momenta.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -100,4 +100,4 @@ TYPED_TEST(FormulaSymmetry, IsFoundInANarrowDomain) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

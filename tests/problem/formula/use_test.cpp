@@ -8,7 +8,7 @@
 #include "scalar/ball.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const Constants use_constants{{"k", Expression::parse("3/7")}};
@@ -185,4 +185,4 @@ TEST(Formula, OfTooManyOperationsIsRefused) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

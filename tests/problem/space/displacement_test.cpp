@@ -3,7 +3,7 @@
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 template <class S>
@@ -107,4 +107,4 @@ TYPED_TEST(LanesTest, CountsOperations) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "problem/effect/trace.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 using Value = Traced<Mpfr>;
@@ -173,4 +173,4 @@ TEST(BallProgram, SaysWhatIsInTheWay) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// An oscillator from rest at x = 1, whose motion is cos t, and forces beside it.
@@ -88,4 +88,4 @@ TEST(ForceBounds, ComparesBodiesWithThemselves) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

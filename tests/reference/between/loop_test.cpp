@@ -7,7 +7,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Whether the ball holds the number, but for what double leaves of it.
@@ -149,4 +149,4 @@ TEST(Loop, HasAnyExponent) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

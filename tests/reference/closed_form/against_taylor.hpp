@@ -10,7 +10,7 @@
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// "a/b" between -2 and 2, and between 1/4 and 4, of small numbers.
 class Fractions {
@@ -126,4 +126,4 @@ inline void expect_unknown(const std::string& toml) {
   EXPECT_FALSE(motion) << toml << (motion ? motion->name() : "");
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "reference/store.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Every number of the shipped references that a closed form knows, which two other routes found, to its last digit.
@@ -40,4 +40,4 @@ TEST(ClosedForms, AgreeWithShippedReferences) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(CubicRoots, AreThoseOfTheirPolynomial) {
@@ -58,4 +58,4 @@ TEST(CubicMotion, FulfilsItsEquation) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

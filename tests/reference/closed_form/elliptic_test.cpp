@@ -9,7 +9,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Arguments up to some 10 rounded to 60 digits have errors of 10 epsilon; a few operations follow.
@@ -282,4 +282,4 @@ TEST(Stumpff, AreTheirSeriesAndTheirFunctions) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

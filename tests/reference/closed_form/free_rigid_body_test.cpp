@@ -1,6 +1,6 @@
 #include "reference/closed_form/rigid_scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* body_name = "free rigid body";
@@ -130,4 +130,4 @@ TEST(FreeRigidBody, HasAThousandDigits) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

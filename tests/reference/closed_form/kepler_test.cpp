@@ -1,6 +1,6 @@
 #include "reference/closed_form/against_taylor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* kepler_name = "Kepler";
@@ -113,4 +113,4 @@ TEST(Kepler, ClosesItsEllipse) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

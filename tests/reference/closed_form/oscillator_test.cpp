@@ -1,6 +1,6 @@
 #include "reference/closed_form/against_taylor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* oscillator_name = "harmonic oscillators";
@@ -81,4 +81,4 @@ TEST(Oscillator, HasAThousandDigits) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

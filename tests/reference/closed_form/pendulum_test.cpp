@@ -1,6 +1,6 @@
 #include "reference/closed_form/against_taylor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* pendulum_name = "simple pendulum (Jacobi";
@@ -117,4 +117,4 @@ TEST(Pendulum, HasAThousandDigits) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 const char* const scene_text =
@@ -81,4 +81,4 @@ TEST(Recognition, Vectors) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -2,7 +2,7 @@
 
 #include "reference/closed_form/against_taylor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 
 /// A rigid body with moments of inertia J about its centre of mass in the body frame, as directors that stand
 /// obliquely.
@@ -55,4 +55,4 @@ inline const std::vector<std::array<std::string, 3>> triangle{
     {"1", "0", "1/3"}, {"-2/3", "1/2", "0"}, {"0", "-1", "1/7"}},
     tetrahedron{{"1", "0", "0"}, {"-2/3", "1/2", "0"}, {"0", "-1", "1/7"}, {"1/5", "1/3", "1"}};
 
-}  // namespace hbvm
+}  // namespace hbvm::core

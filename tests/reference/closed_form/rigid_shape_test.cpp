@@ -2,7 +2,7 @@
 
 #include "reference/closed_form/rigid_scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 std::optional<RigidShape> shape_of(const std::string& toml) {
@@ -62,4 +62,4 @@ TEST(RigidShape, IsNoneOfWhatBends) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,9 +4,9 @@
 
 #include <limits>
 
-#include "interruption.hpp"
+#include "interrupting.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(Rounds, AreNoMoreThanTheoryAllows) {
@@ -26,4 +26,4 @@ TEST(Rounds, EndWithASignal) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "reference/closed_form/against_taylor.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* spherical_name = "spherical pendulum";
@@ -94,4 +94,4 @@ TEST(SphericalPendulum, HasAThousandDigits) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -4,7 +4,7 @@
 
 #include "printing.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 TEST(SymmetricEigen, TakesAMatrixApart) {
@@ -33,4 +33,4 @@ TEST(SymmetricEigen, TakesAMatrixApart) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #include "reference/closed_form/rigid_scenes.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 constexpr const char* top_name = "symmetric heavy top";
@@ -60,4 +60,4 @@ TEST(SymmetricTop, HasManyDigits) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

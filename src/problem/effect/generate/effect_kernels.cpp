@@ -14,7 +14,7 @@
 #include "problem/effect/kernel.hpp"
 #include "problem/effect/use.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 /// Times 1/2: 0, 2, 3, 4, and a value that is not whole.
@@ -47,10 +47,10 @@ class Generator {
 
   void print(std::ostream& out) const {
     out << "#include <cmath>\n\n#include \"problem/effect/kernel_loop.hpp\"\n"
-           "#include \"problem/effect/kernel_table.hpp\"\n\nnamespace hbvm {\nnamespace {\n\n"
+           "#include \"problem/effect/kernel_table.hpp\"\n\nnamespace hbvm::core {\nnamespace {\n\n"
         << formulas_ << "constexpr Kernel kernels[] = {\n"
         << table_ << "};\n\n}  // namespace\n\nstd::span<const Kernel> kernel_table() { return kernels; }\n\n"
-        << "}  // namespace hbvm\n";
+        << "}  // namespace hbvm::core\n";
   }
 
  private:
@@ -130,12 +130,12 @@ void add_pairs_of(Generator& generator) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core
 
 // An exception stops the build.
 int main() {  // NOLINT(bugprone-exception-escape)
-  hbvm::Generator generator;
-  hbvm::add_all(generator, static_cast<hbvm::Effects*>(nullptr));
-  hbvm::add_pairs_of<hbvm::CentralGravity, hbvm::RadialCosine, hbvm::Oblateness>(generator);
+  hbvm::core::Generator generator;
+  hbvm::core::add_all(generator, static_cast<hbvm::core::Effects*>(nullptr));
+  hbvm::core::add_pairs_of<hbvm::core::CentralGravity, hbvm::core::RadialCosine, hbvm::core::Oblateness>(generator);
   generator.print(std::cout);
 }

@@ -1,4 +1,4 @@
-#include "report/figure.hpp"
+#include "report/draw.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,10 @@
 #include <filesystem>
 
 #include "hbvm/error.hpp"
+#include "hbvm/figure.hpp"
 #include "read_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 class Environment {
@@ -79,4 +80,4 @@ TEST_F(FigureTest, RefusesAFolderThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core

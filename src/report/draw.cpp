@@ -1,4 +1,4 @@
-#include "report/figure.hpp"
+#include "report/draw.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -8,10 +8,10 @@
 #include "read_file.hpp"
 #include "write_file.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
-/// Numbers of the curves within the drawing, for who reads them from it: hbvm report.
+/// Numbers of the curves within the drawing, which hbvm report reads.
 std::string with_data(std::string svg, const std::string& data) {
   std::string text;
   for (const char c : data)
@@ -35,4 +35,4 @@ void draw(const Figure& figure, const std::string& file) {
   if (file.ends_with(".svg")) write_file(file, with_data(read_file(file), figure_data(figure)));
 }
 
-}  // namespace hbvm
+}  // namespace hbvm::core

@@ -94,7 +94,4 @@ std::string plain(const std::string& text);
 /// \throws InputError for another ending
 std::string gnuplot_script(const Figure& figure, const std::string& file);
 
-/// Runs it. \throws Error if gnuplot is missing or fails, with the name of its package
-void draw(const Figure& figure, const std::string& file);
-
 }  // namespace hbvm

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "hbvm/scene.hpp"
+
+namespace hbvm {
+
+/// A solution whose digits are found by two routes that share only the scene, and by the closed form where there is
+/// one.
+struct ReferenceRequest {
+  Scene scene;
+  Numbers times;           ///< positive, ascending
+  int digits = 30;         ///< after the leading one of each vector's greatest component, 1 to 5000
+  std::string route = {};  ///< "taylor", "hbvm" or "closed_form" alone: nothing is confirmed then
+  bool force = false;      ///< do also what is expected to take more than a day, or 16 GB
+  std::function<void(double part)> progress = {};  ///< called now and then, from any thread
+  std::stop_token stop = {};
+};
+
+/// A decimal text for each number, to `digits` digits after the leading one of its vector's greatest component.
+struct ReferenceState {
+  std::string t;
+  std::vector<std::string> q, p, lambda;  ///< p tangential, lambda of Theorem 1
+  std::string H;
+  std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
+  long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors
+};
+
+struct RouteReport {
+  std::string name, settings;
+  double cpu_seconds = 0;
+};
+
+struct Reference {
+  std::string scene, title, scene_hash;
+  int digits = 0;
+  std::vector<ReferenceState> times;
+  std::vector<std::string> momentum_names;
+  std::vector<RouteReport> routes;
+  double digits_lost = 0;  ///< by which the motion magnifies an error of the start, in decimal digits
+};
+
+/// \throws InputError for digits or times out of range, for what would take too long, and for a closed form that is not
+///         known; IntegrationError where the motion ends, or the routes do not agree, with both values; Interrupted
+Reference reference(const ReferenceRequest& request);
+
+/// One JSON object, as `hbvm reference --json` prints it. \param command that made it, of the program
+std::string to_json(const Reference& reference, const std::string& command = {});
+
+}  // namespace hbvm

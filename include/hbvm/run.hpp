@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hbvm/figure.hpp"
+#include "hbvm/scene.hpp"
+
+namespace hbvm {
+
+/// A run as it is asked for. What method, precision, solver and on_failure may be, methods() and the program's help
+/// say.
+struct RunRequest {
+  Scene scene;
+  std::string method;                ///< "hbvm:4,2"
+  Number step, until;                ///< until is a multiple of the step
+  std::string precision = "double";  ///< or "quad", or "mpfr:50" for 50 decimal digits
+  std::string solver = "auto";       ///< of the stage equations
+  std::string on_failure = "stop";   ///< or "halve": a step that cannot be made is divided
+  bool reverse = false;              ///< back in time
+  bool account = false;              ///< tell where the time goes
+  bool shadow = false;               ///< tell how many digits survived rounding
+  bool error = false;                ///< tell how many digits are right
+  std::string start = {};  ///< JSON with q and p, as to_json() of a run gives it, instead of the scene's start
+  bool picture = false;    ///< also make a figure and a page that moves
+  long every = 1;          ///< steps between two rows of the trajectory; 0: no trajectory is kept
+  std::function<void(long done, long of)> progress = {};  ///< called now and then, with steps
+  std::stop_token stop = {};                              ///< ends the run between two steps
+};
+
+/// A finding that a user should know of: "energy_lost", and what was seen, when, and what to do.
+struct Warning {
+  std::string name, text;
+};
+
+/// What a run is worth, as decimal text.
+struct Health {
+  std::string condition;     ///< of the Gram matrix of the normalised gradients, where these came closest to dependence
+  std::string worst_e_H;     ///< |H_n - H_0| over the greatest term of H
+  std::string worst_hidden;  ///< the greatest cosine of an angle between a velocity and the gradient of a constraint
+  std::vector<Warning> warnings;
+};
+
+/// A quantity the exact motion conserves: its value at the start and its greatest change over the mesh.
+struct Observed {
+  std::string name, initial, drift;
+};
+
+/// What became of the k that hbvm:auto chose.
+struct NodesReport {
+  struct Raise {
+    std::string t;
+    int k, r;  ///< r is 0 if that of the constraints was not raised
+  };
+  int k = 0, r = 0;           ///< that were chosen; r is 0 if all constraints are quadratic
+  std::string because;        ///< why
+  std::vector<Raise> raised;  ///< where it had to be raised
+  bool verified = false;      ///< the energy is conserved to round-off over the run, and k was enough in all of it
+  std::string verdict;        ///< the same for people, with what to do
+};
+
+/// What was done to steps that failed.
+struct HalvingReport {
+  long steps = 0, substeps = 0;
+  int depth = 0;         ///< the smallest substep is the step over 2^depth
+  std::string smallest;  ///< the same as a time
+  std::string first_t;   ///< where the first of them began; empty if there was none
+};
+
+/// How many digits of a run survived rounding: -log10 |x - x_shadow| / max |x| over the path, component by component,
+/// against the same run with 16 more digits, from the exact scene or the state it was started from. At least 0; all
+/// digits of the precision where there is no difference. It says nothing of the error of the method, which both runs
+/// have.
+struct Shadow {
+  std::string precision;     ///< of the shadow: mpfr:32 for double, mpfr:50 for quad, mpfr:N+16 for mpfr:N
+  std::vector<double> q, p;  ///< digits at the end
+  struct Worst {
+    std::string component, t;
+    double digits = 0;
+  } worst;              ///< the component with the fewest digits along the path
+  long every = 1;       ///< steps between two mesh points compared along the path
+  std::string failure;  ///< why the shadow did not reach the end, if it did not; nothing else is known then
+};
+
+/// How far the end of a run is from the exact motion: its difference from a stored reference of this scene and time, if
+/// there is one with enough digits; else from the motion by its Taylor series with 16 more digits (of a Taylor series,
+/// by HBVM), by steps of its own between whose points it looks; where there is no such series, since a force is not
+/// smooth or the start leaves the hidden constraints, from a run with another step, more stages and 16 more digits.
+/// Positions, and the momenta and multipliers of the output state.
+struct ErrorEstimate {
+  std::string reference;                                  ///< "stored reference, 50 digits" or "computed now"
+  std::string method, precision;                          ///< of what was made beside; empty if there is none
+  std::string q, p, lambda;                               ///< the greatest differences; empty without constraints
+  std::vector<double> q_digits, p_digits, lambda_digits;  ///< that are right, of each; at most those of the precision
+  std::string failure;  ///< why the run beside did not reach the end, if it did not; nothing else is known
+};
+
+/// "multiply": how many of them; all there are, in one order.
+using OperationList = std::vector<std::pair<std::string, std::uint64_t>>;
+
+/// One line of the account of a run: what effects and parts of the solver did and took.
+struct AccountEntry {
+  std::string name;
+  bool effect = false;     ///< one that the scene names
+  bool in_double = false;  ///< done in double by a solver in more digits
+  std::uint64_t calls = 0, evaluations = 0;
+  OperationList operations;   ///< in all
+  OperationList done_before;  ///< those that another effect had done already
+  double seconds = 0;         ///< of the processor
+};
+
+/// The mesh points of a run. Every number is decimal text that reads back exactly.
+struct Trajectory {
+  /// "t"; "bob.x" ... of q; "bob.px" ... of p; "lambda1" ...; the same of the output state, as "output.bob.px"; and
+  /// "delta_H", "g" and "hidden".
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+  /// \throws InputError, with the columns there are, for another name
+  std::vector<std::string> text(const std::string& column) const;
+  /// The same as doubles. \throws InputError likewise
+  std::vector<double> values(const std::string& column) const;
+};
+
+/// What came out. Every number of the working precision is decimal text that reads back exactly.
+struct Run {
+  std::string scene, title, scene_toml;
+  std::string method;  ///< with k as chosen
+  std::string solver, precision;
+  std::string step, until, t;
+  bool reverse = false;
+  std::string start;          ///< the file or text it started from, if not the scene's own start
+  std::string start_settled;  ///< how the start was moved to where the constraints hold; empty if it was not
+  long steps = 0;
+  std::vector<std::string> q, p, lambda;             ///< at the end; lambda by (57)
+  std::vector<std::string> q_carry, p_carry;         ///< what rounding took from q and p
+  std::vector<std::string> output_p, output_lambda;  ///< p projected to the tangent space, and the multiplier there
+  std::string output_delta_H;                        ///< H(q, output_p) - H_0
+  std::string e_H, e_g, e_hid;  ///< greatest errors at mesh points, of H, of g and of the hidden constraints
+  double iterations_per_step = 0, cpu_seconds = 0;
+  Health health;
+  std::optional<NodesReport> nodes;      ///< if k was chosen
+  std::optional<HalvingReport> halving;  ///< if steps might be divided
+  std::optional<Shadow> shadow;
+  std::optional<ErrorEstimate> error;
+  bool observes = false;              ///< whether the scene names quantities to be observed
+  std::vector<Observed> observables;  ///< those of them that the motion conserves
+  std::vector<AccountEntry> account;
+  Trajectory trajectory;
+  std::optional<Figure> figure;  ///< motion, multipliers and errors, if a picture was asked for
+  std::string page;              ///< HTML of its own, in which the motion moves; likewise
+  std::string command;           ///< of the program, which makes the same motion
+};
+
+/// \throws InputError, IntegrationError with the time where the run could not go on, Interrupted
+Run run(const RunRequest& request);
+
+/// One JSON object, as `hbvm run --json` prints it; the trajectory is left out.
+std::string to_json(const Run& run);
+
+}  // namespace hbvm

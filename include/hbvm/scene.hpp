@@ -1,0 +1,112 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hbvm/number.hpp"
+
+namespace hbvm {
+
+/// A body that has a place and no extent. One of velocity and momentum is given, or neither: it is at rest then.
+struct Body {
+  std::string name;
+  Number mass = 1;
+  Numbers position;
+  Numbers velocity = {}, momentum = {};
+  std::optional<Number> charge = {};
+  NumberRows mass_matrix = {};  ///< instead of the mass
+};
+
+/// A rigid body, in the plane or in space; see `hbvm help` and the page of scenes for its keys.
+struct RigidBody {
+  std::string name;
+  Number mass = 1;
+  Numbers position;  ///< of its reference point
+  bool fixed = false;
+  Numbers velocity = {};     ///< of its reference point; at rest if absent
+  Numbers center;            ///< of mass, in the body's frame
+  NumberRows second_moment;  ///< integral of X X^T dm about the reference point, in the body's frame
+  NumberRows directors;      ///< row i is director i in space
+  Numbers angular_velocity;  ///< one number in the plane, three in space
+};
+
+/// A condition g(q) = 0 by its kind and keys, as a scene file has them, or by its formula.
+struct Constraint {
+  std::string kind;
+  std::map<std::string, std::vector<std::string>> names = {};  ///< {"between", {"a", "b"}}, {"on", {"a"}}
+  std::map<std::string, Number> numbers = {};
+  std::map<std::string, Numbers> vectors = {};
+  std::map<std::string, NumberRows> matrices = {};
+  std::string g = {};  ///< the formula, of the kind "formula"
+};
+
+/// A term of U by its kind and keys, as a scene file has them, or by its formula. U is minus the potential energy.
+struct Effect {
+  std::string kind;
+  std::map<std::string, Number> numbers = {};
+  std::map<std::string, Numbers> vectors = {};
+  std::string center = {};                                        ///< of an effect about a point
+  std::vector<std::string> on = {};                               ///< all bodies if empty
+  std::vector<std::pair<std::string, std::string>> between = {};  ///< all pairs if empty
+  std::string U = {};                                             ///< the formula, of the kind "formula"
+};
+
+/// A mechanical system and its start, as exact text: no number in it is rounded. It is read from a file, found by the
+/// name of a built-in scene, or built:
+///
+///     hbvm::Scene scene(2);
+///     scene.point("pivot", {0, 0}).body({.name = "bob", .position = {"3/5", "-4/5"}}).rod("pivot", "bob", 1);
+///     scene.effect({.kind = "uniform_gravity", .vectors = {{"acceleration", {0, "-9.81"}}}});
+///
+/// What is built is checked when it is used, or by check().
+class Scene {
+ public:
+  /// One without bodies, to be built. \throws InputError unless dimension is 2 or 3
+  explicit Scene(int dimension, std::string name = "scene");
+
+  /// Each adds something. A name must be new, and names that are used must be there by the end.
+  Scene& title(const std::string& text);
+  Scene& constant(const std::string& name, const Number& value);
+  Scene& point(const std::string& name, const Numbers& position, const std::optional<Number>& charge = {});
+  Scene& body(const Body& body);
+  Scene& rigid_body(const RigidBody& body);
+  /// A point at a place in the frame of a rigid body, which constraints and effects name like a body.
+  Scene& attachment(const std::string& name, const std::string& of, const Numbers& at);
+  Scene& constraint(const Constraint& constraint);
+  Scene& rod(const std::string& a, const std::string& b, const Number& length);
+  Scene& effect(const Effect& effect);
+  /// "energy", "linear_momentum" or "angular_momentum": a run tells how well it is conserved.
+  Scene& observe(const std::string& quantity);
+
+  const std::string& name() const { return name_; }
+  /// As a scene file has it.
+  std::string toml() const;
+  /// \throws InputError with the line of toml() and what is wrong there
+  void check() const;
+
+  friend Scene load_scene(const std::string& path_or_name);
+  friend Scene read_scene(const std::string& toml, const std::string& name);
+
+ private:
+  Scene() = default;
+  /// One that was read, in parts to which others can be added.
+  void take_apart();
+
+  std::string name_;
+  std::string head_;  ///< of one that was read: the whole text
+  std::vector<std::string> constants_ = {}, observables_ = {};
+  std::string tables_ = {};
+  bool in_parts_ = true;
+};
+
+/// The scene of a file, or a built-in one by its name. \throws InputError with file, line and what is wrong
+Scene load_scene(const std::string& path_or_name);
+/// A scene from the text of a file. \param name stands in messages and results
+Scene read_scene(const std::string& toml, const std::string& name = "scene");
+/// The names of those that are built in.
+std::vector<std::string> scene_names();
+
+}  // namespace hbvm

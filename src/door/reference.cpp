@@ -1,0 +1,43 @@
+#include "hbvm/reference.hpp"
+
+#include "door/door.hpp"
+#include "hbvm/version.hpp"
+#include "long_work/json.hpp"
+#include "reference/reference.hpp"
+
+namespace hbvm {
+
+Reference reference(const ReferenceRequest& door) {
+  const core::Admitted admitted(door.stop);
+  core::ReferenceRequest request;
+  request.scene = core::scene_of(door.scene);
+  for (const Number& time : door.times) request.times.push_back(core::expression_of(time, "a time of the reference:"));
+  if (request.times.empty()) throw InputError("a reference of no times: say at which");
+  request.digits = door.digits;
+  if (!door.route.empty()) request.only = core::parse_route(door.route);
+  request.force = door.force;
+  request.progress = core::watched(door.progress);
+  return core::compute_reference(request);
+}
+
+std::string to_json(const Reference& r, const std::string& command) {
+  core::OrderedJson j{{"scene", r.scene}, {"until", r.times.back().t}, {"digits", r.digits}};
+  j["times"] = core::OrderedJson::array();
+  for (const ReferenceState& state : r.times) {
+    core::OrderedJson entry{{"t", state.t}, {"q", state.q}, {"p", state.p}, {"lambda", state.lambda}, {"H", state.H}};
+    entry["momenta"] = core::OrderedJson::object();
+    for (std::size_t i = 0; i < state.momenta.size(); ++i) entry["momenta"][r.momentum_names[i]] = state.momenta[i];
+    entry["agreed"] = r.routes.size() > 1 ? core::OrderedJson(state.agreed) : core::OrderedJson(nullptr);
+    j["times"].push_back(entry);
+  }
+  j["routes"] = core::OrderedJson::array();
+  for (const RouteReport& route : r.routes)
+    j["routes"].push_back({{"name", route.name}, {"settings", route.settings}, {"cpu_seconds", route.cpu_seconds}});
+  j["digits_lost"] = r.digits_lost;
+  j["scene_hash"] = r.scene_hash;
+  j["version"] = version();
+  j["command"] = command;
+  return core::dumped(j, 2);
+}
+
+}  // namespace hbvm

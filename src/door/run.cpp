@@ -1,0 +1,166 @@
+#include "hbvm/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "csv_line.hpp"
+#include "door/door.hpp"
+#include "door/run_of.hpp"
+#include "hbvm/version.hpp"
+#include "run/run.hpp"
+#include "run/run_figure.hpp"
+#include "run/run_page.hpp"
+#include "scene/sketch.hpp"
+#include "step/registry.hpp"
+
+namespace hbvm {
+namespace core {
+namespace {
+
+RunRequest request_of(const hbvm::RunRequest& door) {
+  if (door.every < 0)
+    throw InputError(fmt::format("a trajectory of every {} steps: it must not be negative", door.every));
+  RunRequest request{scene_of(door.scene),
+                     parse_method(door.method),
+                     parse_solver(door.solver),
+                     expression_of(door.step, "step"),
+                     expression_of(door.until, "until"),
+                     Precision::parse(door.precision),
+                     door.account,
+                     door.shadow,
+                     door.error,
+                     parse_on_failure(door.on_failure),
+                     door.reverse ? Direction::backward : Direction::forward};
+  if (!door.start.empty()) request.start = read_start_state(door.start, "the start of the run");
+  return request;
+}
+
+/// What makes the same motion again.
+std::string command_of(const hbvm::RunRequest& door, const RunRequest& request) {
+  return "hbvm run " + door.scene.name() + " --method " + request.method->text() + " --step '" + door.step.text() +
+         "' --until '" + door.until.text() + "' --precision " + request.precision.name() + " --solver " +
+         std::string(name_of(request.solver)) + (door.reverse ? " --reverse" : "") +
+         (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
+}
+
+hbvm::Trajectory trajectory_of(std::istream& lines) {
+  hbvm::Trajectory trajectory;
+  for (std::string line; std::getline(lines, line);)
+    if (trajectory.columns.empty())
+      trajectory.columns = split_csv_line(line);
+    else
+      trajectory.rows.push_back(split_csv_line(line));
+  return trajectory;
+}
+
+OperationList list_of(const OperationCounts& counts) {
+  OperationList list;
+  for (std::size_t op = 0; op < op_count; ++op)
+    list.emplace_back(name_of(static_cast<Op>(op)), counts[static_cast<Op>(op)]);
+  return list;
+}
+
+AccountEntry entry_of(const AccountLine& line) {
+  AccountEntry entry{.name = line.name,
+                     .effect = line.kind == AccountLine::Kind::effect,
+                     .in_double = line.kind == AccountLine::Kind::in_double,
+                     .calls = line.calls,
+                     .evaluations = line.evaluations,
+                     .operations = list_of(line.operations),
+                     .done_before = {},
+                     .seconds = line.seconds};
+  if (line.done_before.total() > 0) entry.done_before = list_of(line.done_before);
+  return entry;
+}
+
+}  // namespace
+
+Run run_of(const RunRequest& request, const RunResult& result, const std::string& command) {
+  Run run;
+  run.scene = request.scene.name;
+  run.title = request.scene.title;
+  run.scene_toml = write_scene(request.scene);
+  run.method = result.method->text();
+  run.solver = name_of(request.solver);
+  run.precision = request.precision.name();
+  run.step = result.step;
+  run.until = result.until;
+  run.t = result.t;
+  run.reverse = request.direction == Direction::backward;
+  if (request.start) run.start = request.start->file;
+  run.start_settled = result.settled;
+  run.steps = result.steps;
+  run.q = result.q;
+  run.p = result.p;
+  run.lambda = result.lambda;
+  run.q_carry = result.q_carry;
+  run.p_carry = result.p_carry;
+  run.output_p = result.output_p;
+  run.output_lambda = result.output_lambda;
+  run.output_delta_H = result.output_delta_H;
+  run.e_H = result.e_H;
+  run.e_g = result.e_g;
+  run.e_hid = result.e_hid;
+  run.iterations_per_step = result.iterations_per_step;
+  run.cpu_seconds = result.cpu_seconds;
+  run.health = result.health;
+  run.nodes = result.nodes;
+  run.halving = result.halving;
+  run.shadow = result.shadow;
+  run.error = result.error;
+  run.observes = !request.scene.observables.empty();
+  run.observables = result.observables;
+  if (request.account)
+    for (const AccountLine& line : result.account.lines) run.account.push_back(entry_of(line));
+  run.command = command;
+  return run;
+}
+
+}  // namespace core
+
+Run run(const RunRequest& door) {
+  const core::Admitted admitted(door.stop);
+  const core::RunRequest request = core::request_of(door);
+  std::stringstream lines;
+  core::Recording recording;
+  core::RunHooks hooks;
+  hooks.progress = door.progress;
+  if (door.every > 0) {
+    hooks.trajectory = &lines;
+    hooks.every = door.every;
+  }
+  if (door.picture) hooks.recording = &recording;
+  const core::RunResult result = core::run(request, hooks);
+  Run run = core::run_of(request, result, core::command_of(door, request));
+  run.trajectory = core::trajectory_of(lines);
+  if (door.picture) {
+    run.figure = core::run_figure(core::sketch(request.scene), recording);
+    run.figure->caption = plain(request.scene.title);
+    run.page = core::run_page(request, recording, run.command);
+  }
+  return run;
+}
+
+std::vector<std::string> Trajectory::text(const std::string& column) const {
+  const auto found = std::find(columns.begin(), columns.end(), column);
+  if (found == columns.end()) {
+    std::string names;
+    for (const std::string& name : columns) names += (names.empty() ? "" : ", ") + name;
+    throw InputError("a trajectory has no column '" + column + "'; there are: " + (names.empty() ? "none" : names));
+  }
+  const auto at = static_cast<std::size_t>(found - columns.begin());
+  std::vector<std::string> cells;
+  for (const std::vector<std::string>& row : rows) cells.push_back(row[at]);
+  return cells;
+}
+
+std::vector<double> Trajectory::values(const std::string& column) const {
+  std::vector<double> numbers;
+  for (const std::string& cell : text(column)) numbers.push_back(std::strtod(cell.c_str(), nullptr));
+  return numbers;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,132 @@
+#include <cmath>
+
+#include "hbvm/run.hpp"
+#include "hbvm/version.hpp"
+#include "long_work/json.hpp"
+
+namespace hbvm {
+namespace {
+
+core::OrderedJson json_of(const Health& health) {
+  core::OrderedJson j{{"condition", health.condition},
+                      {"worst_e_H", health.worst_e_H},
+                      {"worst_hidden", health.worst_hidden},
+                      {"warnings", core::OrderedJson::array()}};
+  for (const Warning& warning : health.warnings)
+    j["warnings"].push_back({{"name", warning.name}, {"text", warning.text}});
+  return j;
+}
+
+std::vector<double> rounded(std::vector<double> digits) {
+  for (double& d : digits) d = std::round(100 * d) / 100;
+  return digits;
+}
+
+core::OrderedJson json_of(const ErrorEstimate& error) {
+  // A stored reference was not made by a run beside.
+  const auto beside = [](const std::string& text) {
+    return text.empty() ? core::OrderedJson(nullptr) : core::OrderedJson(text);
+  };
+  core::OrderedJson j{
+      {"reference", error.reference}, {"method", beside(error.method)}, {"precision", beside(error.precision)}};
+  if (!error.failure.empty()) {
+    j["failure"] = error.failure;
+    return j;
+  }
+  std::vector<double> digits = error.q_digits;
+  digits.insert(digits.end(), error.p_digits.begin(), error.p_digits.end());
+  j["q"] = error.q;
+  j["p"] = error.p;
+  j["lambda"] = error.lambda.empty() ? core::OrderedJson(nullptr) : core::OrderedJson(error.lambda);
+  j["digits"] = rounded(digits);
+  j["lambda_digits"] = rounded(error.lambda_digits);
+  return j;
+}
+
+core::OrderedJson json_of(const Shadow& shadow) {
+  if (!shadow.failure.empty()) return {{"precision", shadow.precision}, {"failure", shadow.failure}};
+  return {{"precision", shadow.precision},
+          {"digits", {{"q", rounded(shadow.q)}, {"p", rounded(shadow.p)}}},
+          {"worst",
+           {{"component", shadow.worst.component},
+            {"digits", rounded({shadow.worst.digits}).front()},
+            {"t", shadow.worst.t},
+            {"every", shadow.every}}}};
+}
+
+}  // namespace
+
+std::string to_json(const Run& run) {
+  core::OrderedJson j;
+  j["scene"] = run.scene;
+  j["method"] = run.method;
+  j["solver"] = run.solver;
+  j["precision"] = run.precision;
+  j["step"] = run.step;
+  j["until"] = run.until;
+  if (run.reverse) j["reverse"] = true;
+  if (!run.start.empty()) j["start"] = run.start;
+  if (!run.start_settled.empty()) j["start_settled"] = run.start_settled;
+  j["steps"] = run.steps;
+  j["t"] = run.t;
+  j["q"] = run.q;
+  j["p"] = run.p;
+  j["q_carry"] = run.q_carry;
+  j["p_carry"] = run.p_carry;
+  j["lambda"] = run.lambda;
+  j["output"] = {{"p", run.output_p}, {"lambda", run.output_lambda}, {"delta_H", run.output_delta_H}};
+  j["e_H"] = run.e_H;
+  j["e_g"] = run.e_g;
+  j["e_hid"] = run.e_hid;
+  j["health"] = json_of(run.health);
+  if (run.shadow) j["shadow"] = json_of(*run.shadow);
+  if (run.error) j["error"] = json_of(*run.error);
+  j["iterations_per_step"] = run.iterations_per_step;
+  j["cpu_seconds"] = run.cpu_seconds;
+  if (run.nodes) {
+    core::OrderedJson raised = core::OrderedJson::array();
+    for (const auto& raise : run.nodes->raised) {
+      raised.push_back({{"t", raise.t}, {"k", raise.k}});
+      if (raise.r > 0) raised.back()["r"] = raise.r;
+    }
+    j["chosen"] = {{"k", run.nodes->k},
+                   {"because", run.nodes->because},
+                   {"raised", raised},
+                   {"verified", run.nodes->verified},
+                   {"verdict", run.nodes->verdict}};
+    if (run.nodes->r > 0) j["chosen"]["r"] = run.nodes->r;
+  }
+  if (run.halving) {
+    const HalvingReport& halving = *run.halving;
+    j["halved"] = {{"steps", halving.steps}, {"substeps", halving.substeps}};
+    if (halving.steps > 0) {
+      j["halved"]["smallest"] = halving.smallest;
+      j["halved"]["first_t"] = halving.first_t;
+    } else {
+      j["halved"]["smallest"] = j["halved"]["first_t"] = nullptr;
+    }
+  }
+  if (run.observes) {
+    j["observables"] = core::OrderedJson::object();
+    for (const Observed& o : run.observables) j["observables"][o.name] = {{"initial", o.initial}, {"drift", o.drift}};
+  }
+  if (!run.account.empty()) {
+    j["account"] = core::OrderedJson::array();
+    for (const AccountEntry& line : run.account) {
+      core::OrderedJson entry{
+          {"name", line.name}, {"effect", line.effect}, {"in_double", line.in_double}, {"calls", line.calls}};
+      if (line.effect) entry["evaluations"] = line.evaluations;
+      for (const auto& [name, count] : line.operations) entry["operations"][name] = count;
+      for (const auto& [name, count] : line.done_before) entry["done_before"][name] = count;
+      entry["seconds"] = line.seconds;
+      j["account"].push_back(entry);
+    }
+  }
+  j["version"] = version();
+  j["command"] = run.command;
+  j["title"] = run.title;
+  j["scene_text"] = run.scene_toml;
+  return j.dump(2, ' ', false, core::OrderedJson::error_handler_t::replace);  // a path need not be UTF-8
+}
+
+}  // namespace hbvm

@@ -1,0 +1,220 @@
+#include "hbvm/scene.hpp"
+
+#include <fmt/format.h>
+
+#include "door/door.hpp"
+#include "hbvm/error.hpp"
+#include "scene/scene.hpp"
+
+namespace hbvm {
+namespace {
+
+/// A string of TOML.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += std::string("\\") + c;
+    else if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+std::string toml(const std::string& text) { return quoted(text); }
+std::string toml(const Number& number) { return quoted(number.text()); }
+std::string toml(bool value) { return value ? "true" : "false"; }
+template <class T>
+std::string toml(const std::vector<T>& list) {
+  std::string result;
+  for (const T& item : list) result += (result.empty() ? "" : ", ") + toml(item);
+  return "[" + result + "]";
+}
+
+/// One table of a scene file, line by line.
+class SceneTable {
+ public:
+  explicit SceneTable(const std::string& kind) : text_("\n[[" + kind + "]]\n") {}
+  template <class T>
+  SceneTable& key(const std::string& name, const T& value) {
+    text_ += name + " = " + toml(value) + "\n";
+    return *this;
+  }
+  /// Unless it is empty.
+  template <class T>
+  SceneTable& some(const std::string& name, const T& value) {
+    return value.empty() ? *this : key(name, value);
+  }
+  template <class T>
+  SceneTable& all(const std::map<std::string, T>& values) {
+    for (const auto& [name, value] : values) key(name, value);
+    return *this;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// A key that TOML takes without quotes, or one within them.
+std::string toml_key(const std::string& name) {
+  const bool bare = !name.empty() && name.find_first_not_of(
+                                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                         "0123456789_-") == std::string::npos;
+  return bare ? name : quoted(name);
+}
+
+std::string constant_line(const std::string& name, const Number& value) { return toml_key(name) + " = " + toml(value); }
+
+}  // namespace
+
+Scene::Scene(int dimension, std::string name) : name_(std::move(name)) {
+  if (dimension != 2 && dimension != 3)
+    throw InputError(fmt::format("a scene has dimension 2 or 3, not {}", dimension));
+  head_ = fmt::format("dimension = {}\n", dimension);
+}
+
+void Scene::take_apart() {
+  if (in_parts_) return;
+  const core::Scene scene = core::scene_of(*this);
+  const std::string text = core::write_scene(scene);
+  head_ = "title = " + quoted(scene.title) + "\n";
+  if (!scene.source.empty()) head_ += "source = " + quoted(scene.source) + "\n";
+  head_ += fmt::format("dimension = {}\n", scene.dimension);
+  observables_ = scene.observables;
+  for (const auto& [name, value] : scene.constants) constants_.push_back(constant_line(name, value.text()));
+  tables_ = text.substr(std::min(text.find("\n[["), text.size()));
+  in_parts_ = true;
+}
+
+Scene& Scene::title(const std::string& text) {
+  take_apart();
+  if (head_.starts_with("title")) head_.erase(0, head_.find('\n') + 1);
+  head_ = "title = " + quoted(text) + "\n" + head_;
+  return *this;
+}
+
+Scene& Scene::constant(const std::string& name, const Number& value) {
+  take_apart();
+  constants_.push_back(constant_line(name, value));
+  return *this;
+}
+
+Scene& Scene::point(const std::string& name, const Numbers& position, const std::optional<Number>& charge) {
+  take_apart();
+  SceneTable table("point");
+  table.key("name", name).key("position", position);
+  if (charge) table.key("charge", *charge);
+  tables_ += table.text();
+  return *this;
+}
+
+Scene& Scene::body(const Body& body) {
+  take_apart();
+  SceneTable table("body");
+  table.key("name", body.name);
+  if (body.mass_matrix.empty())
+    table.key("mass", body.mass);
+  else
+    table.key("mass", body.mass_matrix);
+  table.key("position", body.position).some("momentum", body.momentum);
+  if (body.momentum.empty())
+    table.key("velocity", body.velocity.empty() ? Numbers(body.position.size(), 0) : body.velocity);
+  else
+    table.some("velocity", body.velocity);
+  if (body.charge) table.key("charge", *body.charge);
+  tables_ += table.text();
+  return *this;
+}
+
+Scene& Scene::rigid_body(const RigidBody& body) {
+  take_apart();
+  SceneTable table("rigid_body");
+  table.key("name", body.name).key(body.fixed ? "fixed_at" : "position", body.position);
+  if (!body.fixed) table.key("velocity", body.velocity.empty() ? Numbers(body.position.size(), 0) : body.velocity);
+  table.key("mass", body.mass).key("center", body.center).key("second_moment", body.second_moment);
+  table.key("directors", body.directors);
+  if (body.angular_velocity.size() == 1)
+    table.key("angular_velocity", body.angular_velocity.front());
+  else
+    table.key("angular_velocity", body.angular_velocity);
+  tables_ += table.text();
+  return *this;
+}
+
+Scene& Scene::attachment(const std::string& name, const std::string& of, const Numbers& at) {
+  take_apart();
+  tables_ += SceneTable("attachment").key("name", name).key("of", of).key("at", at).text();
+  return *this;
+}
+
+Scene& Scene::constraint(const Constraint& constraint) {
+  take_apart();
+  SceneTable table("constraint");
+  table.key("kind", constraint.kind).some("g", constraint.g).all(constraint.numbers).all(constraint.vectors);
+  table.all(constraint.matrices);
+  for (const auto& [name, names] : constraint.names)
+    if (names.size() == 1)
+      table.key(name, names.front());
+    else
+      table.key(name, names);
+  tables_ += table.text();
+  return *this;
+}
+
+Scene& Scene::rod(const std::string& a, const std::string& b, const Number& length) {
+  return constraint({.kind = "rod", .names = {{"between", {a, b}}}, .numbers = {{"length", length}}});
+}
+
+Scene& Scene::effect(const Effect& effect) {
+  take_apart();
+  SceneTable table("effect");
+  table.key("kind", effect.kind).some("U", effect.U).some("center", effect.center);
+  table.all(effect.numbers).all(effect.vectors).some("on", effect.on);
+  std::vector<std::vector<std::string>> pairs;
+  for (const auto& [a, b] : effect.between) pairs.push_back({a, b});
+  tables_ += table.some("between", pairs).text();
+  return *this;
+}
+
+Scene& Scene::observe(const std::string& quantity) {
+  take_apart();
+  observables_.push_back(quantity);
+  return *this;
+}
+
+std::string Scene::toml() const {
+  std::string text = head_;
+  if (!observables_.empty()) text += "observables = " + hbvm::toml(observables_) + "\n";
+  if (!constants_.empty()) {
+    text += "\n[constants]\n";
+    for (const std::string& line : constants_) text += line + "\n";
+  }
+  return text + tables_;
+}
+
+void Scene::check() const { core::scene_of(*this); }
+
+Scene read_scene(const std::string& toml, const std::string& name) {
+  Scene scene;
+  scene.name_ = name;
+  scene.head_ = toml;
+  scene.in_parts_ = false;
+  scene.check();
+  return scene;
+}
+
+Scene load_scene(const std::string& path_or_name) {
+  // The text as it is, so that messages name its lines.
+  return read_scene(core::scene_text(path_or_name), path_or_name);
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : core::built_in_scenes()) names.push_back(name);
+  return names;
+}
+
+}  // namespace hbvm

@@ -1,0 +1,38 @@
+#include "hbvm/study.hpp"
+
+#include "door/door.hpp"
+#include "long_work/json.hpp"
+#include "study/study.hpp"
+
+namespace hbvm {
+
+Study study(const StudyRequest& door) {
+  const core::Admitted admitted(door.stop);
+  core::StudyOptions options;
+  options.check = door.check;
+  options.jobs = door.jobs;
+  options.progress = door.progress;
+  if (!door.out.empty()) options.out = door.out;
+  const auto outcomes = core::run_studies({{door.folder, core::Precision::parse(door.precision)}}, options);
+  const core::StudyOutcome& outcome = *outcomes.front();
+  return {.title = outcome.title,
+          .table = outcome.table,
+          .agreed = outcome.agreed,
+          .stated = outcome.stated,
+          .files = outcome.files,
+          .complaints = outcome.complaints,
+          .warnings = outcome.warnings};
+}
+
+std::string to_json(const Study& study) {
+  return core::dumped({{"title", study.title},
+                       {"agreed", study.agreed},
+                       {"stated", study.stated},
+                       {"complaints", study.complaints},
+                       {"files", study.files},
+                       {"warnings", study.warnings},
+                       {"table", study.table}},
+                      2);
+}
+
+}  // namespace hbvm

@@ -1,0 +1,12 @@
+#include <hbvm/hbvm.hpp>
+#include <iostream>
+
+int main() {
+  const hbvm::Run run = hbvm::run({.scene = hbvm::load_scene("modified_pendulum"),
+                                   .method = "hbvm:4,2",
+                                   .step = "1/16",
+                                   .until = 20,
+                                   .precision = "mpfr:50"});
+  std::cout << "energy error " << run.e_H << ", x at the end " << run.trajectory.text("bob.x").back() << '\n'
+            << hbvm::to_json(run) << '\n';
+}

@@ -1,0 +1,44 @@
+#include "hbvm/reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+/// x = cos t, of a unit mass in a trap of strength 1.
+Scene oscillator() {
+  Scene scene(2, "oscillator");
+  scene.title("An oscillator").body({.name = "a", .position = {1, 0}});
+  scene.effect({.kind = "formula", .U = "-(x^2 + y^2)/2"});
+  return scene;
+}
+
+TEST(DoorReference, HasTheDigitsOfTheCosine) {
+  const Reference found = reference({.scene = oscillator(), .times = {"1/2", 1}, .digits = 40});
+  ASSERT_EQ(found.times.size(), 2u);
+  EXPECT_EQ(found.times[1].q[0].substr(0, 41), "0.540302305868139717400936607442976603732");
+  EXPECT_GE(found.times[1].agreed, 40);
+  const nlohmann::json json = nlohmann::json::parse(to_json(found));
+  EXPECT_EQ(json.at("until"), "1");
+  EXPECT_EQ(json.at("times").at(1).at("q"), found.times[1].q);
+}
+
+TEST(DoorReference, RefusesTimesThatAreNone) {
+  EXPECT_THROW(reference({.scene = oscillator(), .times = {}}), InputError);
+  EXPECT_THROW(reference({.scene = oscillator(), .times = {"-1"}}), InputError);
+  EXPECT_THROW(reference({.scene = oscillator(), .times = {1}, .digits = 0}), InputError);
+  EXPECT_THROW(reference({.scene = oscillator(), .times = {1}, .route = "by_foot"}), InputError);
+}
+
+TEST(DoorReference, EndsWhenItIsAskedTo) {
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(reference({.scene = oscillator(), .times = {1}, .stop = source.get_token()}), Interrupted);
+}
+
+}  // namespace
+}  // namespace hbvm

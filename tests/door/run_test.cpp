@@ -1,0 +1,133 @@
+#include "hbvm/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "door/run_of.hpp"
+#include "hbvm/error.hpp"
+
+namespace hbvm {
+namespace {
+
+RunRequest pendulum() {
+  return {.scene = load_scene("modified_pendulum"),
+          .method = "hbvm:4,2",
+          .step = "1/16",
+          .until = 2,
+          .precision = "mpfr:50"};
+}
+
+TEST(DoorRun, KeepsTheTrajectoryInAllDigits) {
+  const hbvm::Run made = run(pendulum());
+  EXPECT_EQ(made.steps, 32);
+  EXPECT_EQ(made.method, "hbvm:4,2");
+  EXPECT_EQ(made.precision, "mpfr:50");
+  ASSERT_EQ(made.trajectory.rows.size(), 33u);
+  const std::vector<std::string> x = made.trajectory.text("bob.x");
+  EXPECT_EQ(x.back(), made.q.front());
+  EXPECT_GT(x.back().size(), 50u);
+  EXPECT_DOUBLE_EQ(made.trajectory.values("t")[1], 0.0625);
+  EXPECT_DOUBLE_EQ(made.trajectory.values("bob.x").back(), std::stod(x.back()));
+  EXPECT_LT(std::stod(made.e_H), 1e-14);
+  EXPECT_GT(std::stod(made.e_H), 1e-40);
+}
+
+/// 50 digits without a scope of them, and whatever another thread or run has.
+TEST(DoorRun, HasItsOwnPrecision) {
+  RunRequest request = pendulum();
+  const hbvm::Run first = run(request);
+  request.precision = "double";
+  const hbvm::Run in_double = run(request);
+  EXPECT_LT(in_double.q.front().size(), 25u);
+  request.precision = "mpfr:50";
+  EXPECT_EQ(run(request).q, first.q);
+}
+
+TEST(DoorRun, KeepsRowsAsAsked) {
+  RunRequest request = pendulum();
+  request.every = 10;
+  EXPECT_EQ(run(request).trajectory.text("t"), (std::vector<std::string>{"0", "0.625", "1.25", "1.875", "2"}));
+  request.every = 0;
+  EXPECT_TRUE(run(request).trajectory.rows.empty());
+  request.every = -1;
+  EXPECT_THROW(run(request), InputError);
+}
+
+TEST(DoorRun, NamesTheColumnsThereAre) {
+  const hbvm::Run made = run(pendulum());
+  try {
+    static_cast<void>(made.trajectory.values("bob.z"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'bob.z'; there are: t, bob.x, bob.y"), std::string::npos) << error.what();
+  }
+}
+
+TEST(DoorRun, GoesOnFromWhereAnotherEnded) {
+  RunRequest request = pendulum();
+  request.until = 1;
+  const hbvm::Run first = run(request);
+  request.start = to_json(first);
+  const hbvm::Run second = run(request), whole = run(pendulum());
+  for (std::size_t i = 0; i < whole.q.size(); ++i) EXPECT_NEAR(std::stod(second.q[i]), std::stod(whole.q[i]), 1e-15);
+}
+
+TEST(DoorRun, EndsWhenItIsAskedTo) {
+  std::stop_source source;
+  RunRequest request = pendulum();
+  request.until = 1000;
+  request.stop = source.get_token();
+  long most = 0;
+  request.progress = [&](long done, long) {
+    most = done;
+    if (done >= 100) source.request_stop();
+  };
+  try {
+    run(request);
+    FAIL() << "it went on to the end";
+  } catch (const Interrupted& end) {
+    EXPECT_EQ(end.signal(), 0);
+    EXPECT_NE(std::string(end.what()).find("stopped after step"), std::string::npos) << end.what();
+  }
+  EXPECT_LT(most, 1000);
+  request.stop = {};
+  request.until = 1;
+  EXPECT_EQ(run(request).steps, 16);  // a run of its own is not asked
+}
+
+TEST(DoorRun, MakesPictures) {
+  RunRequest request = pendulum();
+  request.precision = "double";
+  request.picture = true;
+  const hbvm::Run made = run(request);
+  ASSERT_TRUE(made.figure);
+  EXPECT_GT(made.figure->panels.size(), 1u);
+  EXPECT_NE(made.page.find("<html"), std::string::npos);
+}
+
+TEST(DoorRun, RefusesWhatTheProgramRefuses) {
+  RunRequest request = pendulum();
+  request.method = "hbvn:4,2";
+  EXPECT_THROW(run(request), InputError);
+  request = pendulum();
+  request.step = "1/16 +";
+  EXPECT_THROW(run(request), InputError);
+  request = pendulum();
+  request.until = "1/30";
+  EXPECT_THROW(run(request), InputError);
+  request = pendulum();
+  request.precision = "mpfr:3";
+  EXPECT_THROW(run(request), InputError);
+}
+
+/// A method that needs more than the steps know, by name and without a call before.
+TEST(DoorRun, KnowsEveryMethod) {
+  RunRequest request = pendulum();
+  request.method = "taylor";
+  const hbvm::Run exact = run(request);
+  EXPECT_LT(std::stod(exact.e_H), 1e-45);
+}
+
+}  // namespace
+}  // namespace hbvm

@@ -1,0 +1,102 @@
+#include "hbvm/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hbvm/error.hpp"
+#include "hbvm/run.hpp"
+
+namespace hbvm {
+namespace {
+
+Scene built() {
+  Scene scene(2, "built");
+  scene.title("A pendulum, \"built\"").constant("L", "5/5").point("pivot", {0, 0});
+  scene.body({.name = "bob", .mass = 2.5, .position = {"3*L/5", "-4/5"}}).rod("pivot", "bob", "L");
+  scene.effect({.kind = "uniform_gravity", .vectors = {{"acceleration", {0, -1}}}}).observe("energy");
+  return scene;
+}
+
+double end_of(const Scene& scene) {
+  return std::stod(run({.scene = scene, .method = "hbvm:3,3", .step = "1/32", .until = 1}).q.front());
+}
+
+TEST(DoorScene, CanBeBuilt) {
+  const Scene scene = built();
+  scene.check();
+  const hbvm::Run made = run({.scene = scene, .method = "hbvm:3,3", .step = "1/32", .until = 1});
+  EXPECT_EQ(made.title, "A pendulum, \"built\"");
+  EXPECT_EQ(made.observables.size(), 1u);
+  // The same as a file.
+  const Scene again = read_scene(scene.toml(), "again");
+  EXPECT_EQ(end_of(again), std::stod(made.q.front()));
+}
+
+/// The mass of a lone pendulum does nothing; a spring does.
+TEST(DoorScene, CanBeAddedToOnceItWasRead) {
+  Scene scene = read_scene(built().toml());
+  const double alone = end_of(scene);
+  scene.constant("k", "1/2");
+  scene.effect({.kind = "spring",
+                .numbers = {{"stiffness", "k"}, {"rest_length", 0}, {"exponent", 2}},
+                .between = {{"bob", "far"}}});
+  scene.point("far", {2, 0});
+  EXPECT_GT(end_of(scene), alone + 0.01);
+  Scene shipped = load_scene("double_pendulum");
+  EXPECT_EQ(shipped.name(), "double_pendulum");
+  shipped.title("another").observe("angular_momentum").check();
+  EXPECT_NE(shipped.toml().find("title = \"another\""), std::string::npos);
+}
+
+TEST(DoorScene, TakesFormulas) {
+  Scene scene(3);
+  scene.title("A bead on a sphere");
+  scene.body({.name = "bead", .position = {"3/5", 0, "-4/5"}, .velocity = {0, "1/2", 0}});
+  scene.constraint({.kind = "formula", .names = {{"on", {"bead"}}}, .g = "x^2 + y^2 + z^2 - 1"});
+  scene.effect({.kind = "formula", .U = "-z"});
+  const hbvm::Run made =
+      run({.scene = scene, .method = "hbvm:4,2", .step = "1/32", .until = 1, .precision = "mpfr:30"});
+  EXPECT_LT(std::stod(made.e_g), 1e-25);
+}
+
+TEST(DoorScene, BuildsEveryPart) {
+  // What it takes to say the shipped scenes of rigid bodies and pairs.
+  Scene scene(2);
+  scene.title("parts").point("o", {0, 0}, 1);
+  scene.body({.name = "a", .position = {1, 0}, .momentum = {0, 1}, .charge = "1/2"});
+  scene.body({.name = "b", .position = {0, 2}, .mass_matrix = {{2, 0}, {0, 3}}});
+  scene.rigid_body({.name = "bar",
+                    .mass = 1,
+                    .position = {3, 0},
+                    .center = {"1/2", 0},
+                    .second_moment = {{"1/3", 0}, {0, "1/100"}},
+                    .directors = {{1, 0}, {0, 1}},
+                    .angular_velocity = {"1/10"}});
+  scene.attachment("tip", "bar", {1, 0});
+  scene.effect({.kind = "coulomb", .numbers = {{"strength", "1/10"}}, .between = {{"a", "o"}}});
+  scene.effect({.kind = "formula", .center = "o", .on = {"b", "tip"}, .U = "-r^2/2"});
+  scene.check();
+  EXPECT_GT(run({.scene = scene, .method = "hbvm:4,2", .step = "1/32", .until = "1/4"}).steps, 7);
+}
+
+TEST(DoorScene, SaysWhatIsWrong) {
+  EXPECT_THROW(Scene(4), InputError);
+  Scene scene = built();
+  scene.rod("bob", "nobody", 1);
+  try {
+    scene.check();
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("nobody"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(load_scene("no_such_scene"), InputError);
+  EXPECT_THROW(read_scene("dimension = "), InputError);
+}
+
+TEST(DoorScene, KnowsThoseThatAreBuiltIn) {
+  const std::vector<std::string> names = scene_names();
+  EXPECT_GT(names.size(), 30u);
+  for (const std::string& name : {names.front(), names.back()}) load_scene(name).check();
+}
+
+}  // namespace
+}  // namespace hbvm
