@@ -136,7 +136,8 @@ TEST(ReadmeFigures, CountWhatTheChecksCount) {
 }
 
 TEST(ReadmeFigures, OfTheNodesAreThoseOfTable2) {
-  const MarkdownTable quoted = table_of(page("README.md"), "| k | double | 50 digits");
+  const MarkdownTable quoted =
+      table_of(page("studies/table_2_modified_pendulum/README.md"), "| k | double | 50 digits");
   ASSERT_EQ(quoted.rows.size(), 4u);
   for (const auto& [precision, column, round_off] :
        {std::tuple("double", std::size_t{1}, 1e-15), {"mpfr:50", std::size_t{2}, 1e-45}}) {

@@ -1,4 +1,4 @@
-// The README's "A new effect", with the two lines it asks for: compiled in place of the library's own list of effects.
+// "A new effect" of src/README.md, with its two lines: compiled in place of the library's own list of effects.
 #include <gtest/gtest.h>
 
 #include "problem/effect/use.hpp"
