@@ -8,6 +8,7 @@ namespace hbvm::core {
 
 enum class CppPart {
   code,
+  comments,
   prose  ///< comments and strings
 };
 
@@ -35,11 +36,10 @@ inline std::string only(CppPart part, const std::string& text) {
     const bool in_word = at > 0 && in_name(text[at - 1]);
     end = at + 1;
     CppPart found = CppPart::prose;
-    if (text.compare(at, 2, "//") == 0)
-      end = std::min(text.find('\n', at), text.size());
-    else if (text.compare(at, 2, "/*") == 0)
-      end = past("*/", at + 2);
-    else if (text.compare(at, 2, "R\"") == 0 && !in_word)
+    if (text.compare(at, 2, "//") == 0 || text.compare(at, 2, "/*") == 0) {
+      end = text[at + 1] == '*' ? past("*/", at + 2) : std::min(text.find('\n', at), text.size());
+      if (part == CppPart::comments) found = part;
+    } else if (text.compare(at, 2, "R\"") == 0 && !in_word)
       end = past_raw(at);
     else if (text[at] == '"' || (text[at] == '\'' && !in_word))  // 1'000 has no quotes
       end = past_quote(at);
