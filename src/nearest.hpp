@@ -6,8 +6,8 @@
 
 namespace hbvm::core {
 
-/// The candidate of the fewest edits (a character put in, taken out or replaced) from `word`, if at most half of its
-/// characters differ; else empty.
+/// The candidate that `word` becomes by the fewest edits: a character put in, taken out or replaced. Empty if more than
+/// half of its characters differ.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// The end of a message about an unknown word: ": did you mean 'length'?", or nothing if no candidate is near.

@@ -23,8 +23,8 @@ struct Axis {
   std::vector<std::string> names = {};
 };
 
-/// Of curves, one after another: Okabe and Ito's, told apart by all eyes, then three that differ from these by how dark
-/// they are. Black is for what is no curve.
+/// The colours of curves, one after another: Okabe and Ito's, told apart by all eyes. Then come three that differ from
+/// these by how dark they are. Black is for what is no curve.
 inline constexpr std::array<std::string_view, 9> curve_colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00",
                                                                "#56B4E9", "#5B2A86", "#7A4A1E", "#7F7F7F"};
 
@@ -49,7 +49,7 @@ struct Bar {
   double x, from, to;
   std::size_t colour = 0;
 };
-/// Of a unit of x.
+/// The width of a bar, as a share of a unit of x.
 inline constexpr double bar_width = 0.7;
 
 /// A place of the scene.

@@ -87,9 +87,9 @@ class LegendreRoots {
     }
   }
 
-  /// Taylor coefficients a_j of P_n at x: a_0 = P_n, (1 - x^2) a_1 = n (P_{n-1} - x P_n), and from
-  /// (1 - x^2) P'' - 2 x P' + n (n+1) P = 0
-  ///   (j+1)(j+2)(1 - x^2) a_{j+2} = 2 (j+1)^2 x a_{j+1} + (j (j+1) - n (n+1)) a_j.
+  /// Taylor coefficients a_j of P_n at x. The first are a_0 = P_n, (1 - x^2) a_1 = n (P_{n-1} - x P_n). The others
+  /// follow from (1 - x^2) P'' - 2 x P' + n (n+1) P = 0:
+  ///     (j+1)(j+2)(1 - x^2) a_{j+2} = 2 (j+1)^2 x a_{j+1} + (j (j+1) - n (n+1)) a_j.
   /// Each is computed to the digits that a_j delta^j needs beside a_1 delta; stops where that needs none, and returns
   /// the number of coefficients.
   std::size_t expand() {
@@ -169,7 +169,7 @@ class LegendreRoots {
       mpfr_div(raw(t_), raw(t_), raw(slope_), MPFR_RNDN);
       mpfr_sub(raw(delta_), raw(delta_), raw(t_), MPFR_RNDN);
     }
-    // The slope at the new delta, t_ = P/P' away: P' - t P'' with (1 - x^2) P'' = 2 x P' - n (n+1) P; what is left out
+    // The slope at the new delta, t_ = P/P' away: P' - t P'' with (1 - x^2) P'' = 2 x P' - n (n+1) P. What is left out
     // is of the order of t^2, below round-off.
     mpfr_set_prec(raw(u_), bits_);
     mpfr_mul_ui(raw(u_), raw(t_), static_cast<unsigned long>(n_) * static_cast<unsigned long>(n_ + 1), MPFR_RNDN);
@@ -223,7 +223,8 @@ Quadrature<S> gauss_legendre(int n) {
     throw InputError("Gauss-Legendre nodes: n = " + std::to_string(n) + " is not between 1 and " +
                      std::to_string(max_quadrature_nodes));
   // The recurrence loses up to n ulps, 1 - x and 1 - x^2 near 1 another factor of n^2. The 32 bits beyond that make it
-  // unlikely that a number so near the middle of two is met that it goes the wrong way: with 2 none is up to n = 100.
+  // unlikely that a number so near the middle of two is met that it goes the wrong way. With 2 bits none is up to n =
+  // 100.
   const long bits = significand_bits<S>() + 32 + 4L * std::bit_width(static_cast<unsigned>(n));
   LegendreRoots roots(n, bits);
   Quadrature<S> formula{Vector<S>(n), Vector<S>(n)};

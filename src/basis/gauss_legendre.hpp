@@ -13,13 +13,13 @@ struct Quadrature {
   Vector<S> b;  ///< weights
 };
 
-/// Abscissae and weights within 1 ulp of the truth (half an ulp and a trifle: computed with guard digits, rounded
-/// once), those near 0 with full relative accuracy. Symmetric to the last bit: c_{n+1-i} = fl(1 - c_i) for
-/// c_i < 1/2, and b_{n+1-i} = b_i; take c_{n+1-i} where 1 - c_i is needed. Nothing is cached.
+/// Abscissae and weights are within 1 ulp of the truth. It is half an ulp and a trifle, as they are computed with guard
+/// digits and rounded once. Those near 0 have full relative accuracy. Symmetric to the last bit: c_{n+1-i} = fl(1 -
+/// c_i) for c_i < 1/2, and b_{n+1-i} = b_i; take c_{n+1-i} where 1 - c_i is needed. Nothing is cached.
 ///
-/// A root of the Legendre polynomial is found in double, where its polynomial and derivative are then computed in
-/// full precision (the products by a 53-bit argument are cheap); Legendre's equation gives the Taylor series there,
-/// and Newton's method on that series the root and the derivative at the root.
+/// A root of the Legendre polynomial is found in double. Polynomial and derivative are computed there in full
+/// precision, since products by a 53-bit argument are cheap. Legendre's equation gives the Taylor series there.
+/// Newton's method on that series gives the root and the derivative at the root.
 ///
 /// \throws InputError unless 1 <= n <= max_quadrature_nodes
 template <Scalar S>

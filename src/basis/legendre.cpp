@@ -76,8 +76,8 @@ Matrix<S> legendre_integrals(const Matrix<S>& values) {
 
 template <Scalar S>
 Matrix<S> legendre_shift(int count) {
-  // (j + 1) L_{j+1} = (2 j + 1) x L_j - j L_{j-1} at x = 2 c + 1 = (2 c - 1) + 2, where (2 c - 1) L_i is
-  // ((i + 1) L_{i+1} + i L_{i-1}) / (2 i + 1), for polynomials L with L(1) = 1.
+  // (j + 1) L_{j+1} = (2 j + 1) x L_j - j L_{j-1} at x = 2 c + 1 = (2 c - 1) + 2. There (2 c - 1) L_i is ((i + 1)
+  // L_{i+1} + i L_{i-1}) / (2 i + 1), for polynomials L with L(1) = 1.
   Matrix<S> T = Matrix<S>::Zero(count, count);
   if (count > 0) T(0, 0) = 1;
   for (int j = 0; j + 1 < count; ++j)

@@ -134,8 +134,8 @@ class Exact {
   std::array<Vector<Mpfr>, 3> vectors_;
 };
 
-/// What a file has at t = 0 beside the start of the scene. Its last two digits may be rounding: of what it was printed
-/// with, and of a start computed in double, whatever digits of that are printed.
+/// What a file has at t = 0 beside the start of the scene. Its last two digits may be rounding. That may be of what it
+/// was printed with, or of a start computed in double, whatever digits of that are printed.
 void compare_start(const ResultsColumns& columns, const ResultsTable& rows, const Exact& start, FileAgainst& out) {
   const ResultsColumns::Reading& time = *columns.find("t");
   std::size_t row = 0;

@@ -19,22 +19,22 @@ struct ResultsFile {
   bool step_given = false;  ///< by a user: it must be a number; one that is stored may say anything
 };
 
-/// The step that a file of results says it was made with: "hbvm:step" of what describes it (JSON, as hbvm run writes it
-/// beside its CSV), or else a comment "# step = 1/64" of its own; empty if there is none.
+/// The step that a file of results says it was made with. It is "hbvm:step" of what describes it (JSON, as hbvm run
+/// writes it beside its CSV), or else a comment "# step = 1/64" of its own. Empty if there is none.
 std::string step_stored(const std::string& csv, const std::string& metadata);
 
 struct AgainstRequest {
   Scene scene;
   std::vector<ResultsFile> files;
   /// What theirs is, an expression in the names of their columns, and which of ours that is: "t", "bob.x", "bob.px" or
-  /// "bob.vx". Columns of these names need not be mapped, nor "time", "q_3", "p_3" and "v_3"; of "bob.px" and
+  /// "bob.vx". Columns of these names need not be mapped, nor "time", "q_3", "p_3" and "v_3". Of "bob.px" and
   /// "output.bob.px" of a trajectory of hbvm run the second, which is tangential, is taken.
   std::vector<std::pair<std::string, std::string>> map;
   std::function<void(double)> progress = {};
 };
 
-/// One component of one file: right digits at each time. Of a vector that is exactly 0 they are counted by the greatest
-/// one of its kind, q, p or v, at any of the times; where all are 0 there are none to count: NaN.
+/// One component of one file: right digits at each time. If a vector is exactly 0, they are counted by the greatest one
+/// of its kind, q, p or v, at any of the times. Where all are 0 there are none to count: NaN.
 struct ComponentDigits {
   std::string name;
   std::vector<double> digits;
@@ -54,8 +54,8 @@ struct FileAgainst {
   std::vector<std::string> unused;  ///< "2 times before the start", one a reason
   bool stored = false;              ///< the reference was found in the store, and not computed
   std::vector<ComponentDigits> components;
-  /// log10 of what H and the constraints g are off by, over the size of their terms, at each time, where the state is
-  /// complete; else empty.
+  /// log10 of what H and the constraints g are off by, over the size of their terms, at each time. Empty unless the
+  /// state is complete.
   std::vector<double> H_drift, g_drift;
   bool has_start = false;              ///< a row at t = 0
   std::vector<StartDifference> start;  ///< what is another there, to more than the digits of the file explain
@@ -64,8 +64,8 @@ struct FileAgainst {
   double error = 0;  ///< log10 of the greatest error of a component at the last time, over its vector's size
 };
 
-/// Between two files, as log of the errors' ratio over that of the steps; NaN where the steps are equal or unknown, or
-/// the last times are not the same.
+/// The order between two files, as log of the errors' ratio over that of the steps. NaN where the steps are equal or
+/// unknown, or the last times are not the same.
 struct Convergence {
   std::size_t coarse = 0, fine = 0;
   double order = 0;
@@ -77,13 +77,13 @@ struct Against {
   /// Digits that an error of the size of the first file's first would have left at its times by the growth of errors
   /// alone.
   std::vector<double> by_growth;
-  /// Between each file and that of the next smaller step, whatever their names.
+  /// The order between each file and that of the next smaller step, whatever their names.
   std::vector<Convergence> orders;
 
   /// The least right digits of all files, components and times that were compared. A component without digits to count
   /// has the place of its error after the point.
   double least_digits() const;
-  /// Of the two smallest steps; NaN if there is none.
+  /// The order of the two smallest steps; NaN if there is none.
   double order() const { return orders.empty() ? std::numeric_limits<double>::quiet_NaN() : orders.back().order; }
 };
 

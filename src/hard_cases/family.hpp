@@ -17,7 +17,7 @@ class Family {
       : cases_(cases), name_(std::move(name)), full_(collection == Collection::full) {}
 
   bool full() const { return full_; }
-  /// Of each: all in the full collection, the first alone in the quick one.
+  /// The precisions of each case: all in the full collection, the first alone in the quick one.
   std::vector<std::string> precisions(std::vector<std::string> all = {"double", "quad", "mpfr:50"}) const {
     if (!full_) all.resize(1);
     return all;

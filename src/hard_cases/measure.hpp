@@ -23,9 +23,10 @@ RunRequest request_of(Scene scene, std::string_view method, std::string_view sol
 ///
 ///     |x_i - X_i| / (epsilon scale_i + |Y_i - X_i|),
 ///
-/// scale_i the greatest of what x_i is a sum of, over the run, and Y a run like X that is put off, at the start and at
-/// every eighth of the run, by an ulp of the working precision in each coordinate, constraint and hidden constraint:
-/// the problem's own condition and growth. Its bound is that of a few roundings a step, of either sign.
+/// scale_i is the greatest of what x_i is a sum of, over the run. Y is a run like X that is put off at the start and at
+/// every eighth of the run. Each coordinate, constraint and hidden constraint is put off by an ulp of the working
+/// precision. That is the problem's own condition and growth. Its bound is that of a few roundings a step, of either
+/// sign.
 CaseResult accuracy(const RunRequest& request);
 
 /// The worst coordinate of a run against the same run in more digits, and one there that was kicked: see accuracy.
@@ -35,7 +36,7 @@ CaseResult compared(const RunRequest& request, const SampledMotion& motion, cons
 /// The start, after as many steps back as forth, likewise.
 CaseResult reversal(const RunRequest& request);
 
-/// The energy's greatest change over the run, in units of epsilon times the size of its terms, and the warnings that
+/// The energy's greatest change over the run, in units of epsilon times the size of its terms. Then the warnings that
 /// the run gives of itself. The number of nodes may be the program's choice.
 CaseResult energy(const RunRequest& request);
 

@@ -78,9 +78,9 @@ class Recorder final : public Observer<S> {
 /// Signs without a pattern.
 bool positive(Index i) { return (7919 * (i + 1) + 4271) % 10'007 % 2 == 0; }
 
-/// Changes each constraint and each hidden constraint by so much of its terms, through the smallest changes of
-/// positions and momenta that do, M^-1 grad g Gram^-1 r and grad g Gram^-1 r. Redundant constraints cannot be changed
-/// one by one.
+/// Changes each constraint and each hidden constraint by so much of its terms. It does so through the smallest changes
+/// of positions and momenta that do, M^-1 grad g Gram^-1 r and grad g Gram^-1 r. Redundant constraints cannot be
+/// changed one by one.
 template <Scalar S>
 void kick_constraints(const Problem<S>& problem, State<S>& state, const S& relative) {
   const Index nu = problem.nu();

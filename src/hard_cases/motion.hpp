@@ -21,8 +21,8 @@ struct SampledMotion {
 };
 
 /// Changes that a run makes on purpose. A kick multiplies each coordinate by 1 + 2^-bits or 1 - 2^-bits, and changes
-/// each constraint and hidden constraint by 2^-bits of its terms: where the constraints' gradients are nearly
-/// dependent, by far more than the former of the coordinates.
+/// each constraint and hidden constraint by 2^-bits of its terms. Where the constraints' gradients are nearly
+/// dependent, that is far more than the former of the coordinates.
 struct Twist {
   long kick_bits = 0;  ///< kicks at the start and at every eighth of the run; 0: none
   bool back = false;   ///< at the end momenta are reversed, and as many steps lead back

@@ -20,9 +20,10 @@ std::string to_json(const std::vector<CaseFinding>& findings, const std::string&
 /// "200 cases: 180 hold, 15 fail as expected, 4 warn as expected, 1 is not as expected".
 std::string summary(const std::vector<CaseFinding>& findings);
 
-/// The figures of studies/stability, with their data in files of this folder: growth of round-off, digits near the
-/// separatrix, a light body beside a heavy one, the hidden constraint by parity of s. `before` is a folder with
-/// separatrix_before.csv and light_body_before.csv, what an earlier program gave; without them there is no such curve.
+/// The figures of studies/stability, with their data in files of this folder. They show the growth of round-off, digits
+/// near the separatrix, a light body beside a heavy one, the hidden constraint by parity of s. `before` is a folder
+/// with separatrix_before.csv and light_body_before.csv, what an earlier program gave; without them there is no such
+/// curve.
 /// \throws InputError if the folder cannot be written to, StepError
 std::vector<Figure> stability_figures(const std::string& folder, const std::string& before);
 

@@ -197,9 +197,9 @@ Scene stretched_rods(const std::string& height) {
 }
 
 Scene folding_linkage(const std::string& difference) {
-  // b closes the linkage: |b - (2, 0)| = 1 + d and |b - (0, 1)| = 2, to first order at (2, 1). Its exact place: with
-  // w = 1 + d, b = (2 - x, y), x^2 + y^2 = w^2 and (2 - x)^2 + (y - 1)^2 = 4, so that 4 x + 2 y = w^2 + 1 and
-  // 5 x^2 - 4 c x + c^2 - w^2 = 0, c = (w^2 + 1)/2.
+  // b closes the linkage: |b - (2, 0)| = 1 + d and |b - (0, 1)| = 2, to first order at (2, 1). Its exact place, with w
+  // = 1 + d, is b = (2 - x, y). There x^2 + y^2 = w^2 and (2 - x)^2 + (y - 1)^2 = 4. So 4 x + 2 y = w^2 + 1 and 5 x^2 -
+  // 4 c x + c^2 - w^2 = 0, c = (w^2 + 1)/2.
   const std::string w = "(1+" + difference + ")", c = "((" + w + "^2+1)/2)";
   const std::string x = "((2*" + c + "-sqrt(5*" + w + "^2-" + c + "^2))/5)", y = "(" + c + "-2*" + x + ")";
   // Its velocity (u, v) keeps both: u x = v y and (2 - x) (u - 2) + (y - 1) v = 0.

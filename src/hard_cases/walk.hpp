@@ -8,7 +8,7 @@
 
 namespace hbvm::core {
 
-/// How far a quantity strays within n steps, for every power of two n: the mean, over the windows of n steps that
+/// How far a quantity strays within n steps, for every power of two n. It is the mean, over the windows of n steps that
 /// follow one another, of the greatest distance from the value at the window's start. A mean of many windows scatters
 /// far less than the one greatest distance of the whole run.
 class Straying {
@@ -19,7 +19,7 @@ class Straying {
     long steps;
     double distance;
   };
-  /// From n = 1 to the longest window that was completed.
+  /// The points from n = 1 to the longest window that was completed.
   std::vector<Point> points() const;
 
  private:
@@ -41,8 +41,8 @@ struct Walk {
 /// \throws StepError, InputError
 Walk walk_of(const RunRequest& request);
 
-/// Exponents of the growth of energy and constraints, at most 0.6 where round-off walks at random, and their sizes: a
-/// few roundings of what each step adds, of either sign, and those of their evaluation.
+/// Exponents of the growth of energy and constraints, at most 0.6 where round-off walks at random, and their sizes.
+/// These are a few roundings of what each step adds, of either sign, and those of their evaluation.
 CaseResult long_run(const RunRequest& request);
 
 }  // namespace hbvm::core

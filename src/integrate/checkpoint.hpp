@@ -26,7 +26,7 @@ struct Checkpoint {
   std::string state;
 };
 
-/// The file is there as a whole or, if this fails, as it was before: it is written beside as FILE.part, put on the disk
+/// The file is there as a whole or, if this fails, as it was before. It is written beside as FILE.part, put on the disk
 /// and renamed. Text: a first line with the format's number, an Archive, a line with the checksum of all before.
 /// \throws InputError if it cannot be written, or is there and no checkpoint
 void write_checkpoint(const std::string& file, const Checkpoint& checkpoint);

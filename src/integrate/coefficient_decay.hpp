@@ -12,13 +12,14 @@ namespace hbvm::core {
 ///
 ///     gamma_s = (p1 - sum_{j < s} P_j(1) gamma_j)/P_s(1),   P_j(1) = sqrt(2j + 1).
 ///
-/// Its greatest size over the run is compared with that of sum_{1 <= j <= s} |gamma_j|, what the momentum varies by;
-/// the mean gamma_0 is left out, so that a common motion hides nothing. A body that turns by the angle x a step has x/8
-/// for s = 2, and so on by Bessel's functions; a free one has 0. With s = 1 nothing but gamma_1 would be left, and the
+/// Its greatest size over the run is compared with that of sum_{1 <= j <= s} |gamma_j|, what the momentum varies by.
+/// The mean gamma_0 is left out, so that a common motion hides nothing. A body that turns by the angle x a step has x/8
+/// for s = 2, and so on by Bessel's functions. A free one has 0. With s = 1 nothing but gamma_1 would be left. Then the
 /// change of the mean force from one step to the next is compared with the force.
 ///
-/// Coefficients within round-off do not count: 1024 epsilon of the momentum, of h times the force, and of what would
-/// move the body by its position in a step. Bodies are blocks of `dimension` coordinates, each compared with its own.
+/// Coefficients within round-off do not count. It is 1024 epsilon of the momentum, of h times the force, and of what
+/// would move the body by its position in a step. Bodies are blocks of `dimension` coordinates, each compared with its
+/// own.
 template <Scalar S>
 class CoefficientDecay {
  public:
@@ -37,7 +38,7 @@ class CoefficientDecay {
     double ratio = 0;
     Index offset = 0;  ///< of the block of coordinates
   };
-  /// With the positions of any mesh point.
+  /// The worst ratio over the run so far; q are the positions at any mesh point.
   Worst worst(const Vector<S>& q) const;
   /// A step is too large where the ratio exceeds 1/limit.
   int limit() const { return s_ > 1 ? 8 : 2; }

@@ -7,16 +7,16 @@
 
 namespace hbvm::core {
 
-/// How close the constraints come to dependence over the mesh, seen by angles alone, so that neither units nor a light
-/// body beside a heavy one nor the order of the constraints count: sin^2 of the angle, in the metric M^-1, between each
-/// gradient and the span of the others, which is 1/(C^-1)_aa of the Gram matrix C of the normalised gradients; and the
-/// length of each gradient. Both vanish where (3) does not hold.
+/// How close the constraints come to dependence over the mesh. It is seen by angles alone, so that units, a light body
+/// beside a heavy one, and the order of the constraints do not count. For each gradient there is sin^2 of its angle, in
+/// the metric M^-1, with the span of the others. That is 1/(C^-1)_aa of the Gram matrix C of the normalised gradients.
+/// There is also the length of each gradient. Both vanish where (3) does not hold.
 ///
-/// A motion that crosses a singular position does so along a line, nearly, seen from the mesh: a sine or length is
-/// proportional to |n - n*| there, for the real n* of the crossing. Of the mesh points next to n* and those beyond, two
-/// neighbours then differ by a factor of 3 at least (n* in the middle of a step), whatever the step. So neighbours
-/// that differ by 2 tell of a position passed that is singular, or nearer to it than the step resolves; where the step
-/// resolves the passage the factor goes to 1.
+/// Seen from the mesh, a motion that crosses a singular position does so nearly along a line. A sine or length is
+/// proportional to |n - n*| there, for the real n* of the crossing. Among the mesh points next to n* and those beyond,
+/// two neighbours then differ by a factor of 3 at least, whatever the step. It is 3 with n* in the middle of a step. So
+/// neighbours that differ by 2 tell of a position passed that is singular, or nearer to it than the step resolves.
+/// Where the step resolves the passage the factor goes to 1.
 template <Scalar S>
 class ConstraintAngles {
  public:

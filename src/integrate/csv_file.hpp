@@ -8,7 +8,7 @@
 
 namespace hbvm::core {
 
-/// A text file of lines that always ends with a complete one, also when the disk is full or the process is ended: what
+/// A text file of lines that always ends with a complete one, also when the disk is full or the process is ended. What
 /// is written to it reaches the file in whole lines, and a line that does not fit is taken back.
 class CsvFile final : public std::ostream {
  public:

@@ -32,7 +32,7 @@ class NotFinite final : public IntegrationError {
   std::string place_;
 };
 
-/// The paper's errors e_H, e_g and e_hid: maxima over the mesh, t = 0 included, of |H_n - H_0|, |g|_max and
+/// The paper's errors e_H, e_g and e_hid. They are maxima over the mesh, t = 0 included, of |H_n - H_0|, |g|_max and
 /// |grad g^T M^-1 p|_max, redundant constraints included.
 template <Scalar S>
 class Drift final : public Observer<S> {

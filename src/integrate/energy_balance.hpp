@@ -7,8 +7,8 @@
 
 namespace hbvm::core {
 
-/// The greatest |H_n - H_0| over the mesh, and what it is to be compared with: the greatest of the terms of H along the
-/// path, |T| and each effect's |U|.
+/// The greatest |H_n - H_0| over the mesh, and what it is to be compared with. That is the greatest of the terms of H
+/// along the path, |T| and each effect's |U|.
 template <Scalar S>
 class EnergyBalance {
  public:
@@ -24,8 +24,8 @@ class EnergyBalance {
   const S& size() const { return size_; }
   /// Where the error is greatest.
   const S& t() const { return t_; }
-  /// What rounding the coordinates by epsilon changes H by there: the size, or sum_i |q_i dU/dq_i| if that is more, as
-  /// where a stiff spring is far from the origin.
+  /// What rounding the coordinates by epsilon changes H by there. It is the size, or sum_i |q_i dU/dq_i| if that is
+  /// more, as where a stiff spring is far from the origin.
   S rounding();
   /// Terms of the sums that H is.
   long count() const { return count_; }

@@ -5,8 +5,8 @@
 
 namespace hbvm::core {
 
-/// What an energy error is to be compared with: maxima over the mesh of the size of the terms of H, and of what its
-/// round-off is proportional to.
+/// What an energy error is to be compared with. These are maxima over the mesh: of the size of the terms of H, and of
+/// what its round-off is proportional to.
 template <Scalar S>
 class EnergyScale final : public Observer<S> {
  public:
@@ -16,9 +16,9 @@ class EnergyScale final : public Observer<S> {
 
   const S& size() const { return size_; }
 
-  /// The energy error that rounding explains: in every step and every evaluation of H, epsilon times what H is
-  /// sensitive to; steps, and the terms of its sum, add as independent errors do (Brouwer's law), twice over:
-  /// 2 sqrt(steps + terms).
+  /// The energy error that rounding explains. Every step and every evaluation of H has epsilon times what H is
+  /// sensitive to. Steps, and the terms of its sum, add as independent errors do (Brouwer's law), twice over: 2
+  /// sqrt(steps + terms).
   S round_off(long steps) const;
 
  private:

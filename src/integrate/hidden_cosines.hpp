@@ -10,13 +10,13 @@ namespace hbvm::core {
 /// The hidden constraints relative to the speed: for each constraint the greatest |grad g_a^T v| over the mesh, divided
 /// by the greater of two speeds. The one is that of what it touches: the greatest sum over the bodies (or directors) of
 /// |grad_i g_a| |v_i|. At most 1: the cosine of the angle at which the constraint is left. Masses do not enter, so that
-/// a light body counts as much as a heavy one; the greatest speed over the path does, so that turning points do not.
+/// a light body counts as much as a heavy one. The greatest speed over the path does, so that turning points do not.
 ///
-/// The other is that of the mechanism: what the constraint touches may be at rest, as the bearing of a bar that turns
-/// about it, where there is no angle to speak of. It is what grad g_a^T v may amount to if the bodies that it touches
-/// move as fast as the fastest of those that constraints join to them: the sum over these bodies of
-/// sqrt(grad_b g_a^T M_b^-1 grad_b g_a m_b) V, with V the greatest over path and bodies of sqrt(v_b^T M_b v_b / m_b),
-/// the root of the mean square of the speeds of a body's matter. Of points it is the sum of |grad_b g_a| V.
+/// The other is that of the mechanism. What the constraint touches may be at rest, as the bearing of a bar that turns
+/// about it. There is no angle to speak of then. The bodies that it touches may move as fast as the fastest of those
+/// that constraints join to them. The speed is what grad g_a^T v may then amount to. It is the sum over these bodies of
+/// sqrt(grad_b g_a^T M_b^-1 grad_b g_a m_b) V. V is the greatest, over path and bodies, of sqrt(v_b^T M_b v_b / m_b).
+/// That is the root of the mean square of the speeds of a body's matter. Of points it is the sum of |grad_b g_a| V.
 template <Scalar S>
 class HiddenCosines {
  public:
@@ -36,12 +36,12 @@ class HiddenCosines {
     Index constraint = 0;
     S t = 0;
   };
-  /// Of mechanisms that are held at rest there is none: what constraint forces in a step of this length leave by
-  /// rounding, `rounding` of them, is no speed.
+  /// Mechanisms that are held at rest have none. What rounding leaves of the constraint forces in a step of this
+  /// length, `rounding` of them, is no speed.
   Worst worst(const S& step, const S& rounding) const;
 
-  /// The greatest ratio of a constraint's maximum in the last quarter of the run to that in the first, among those that
-  /// grew from quarter to quarter and to more than `least`; 0 if none did.
+  /// The greatest ratio of a constraint's maximum in the last quarter of the run to that in the first. It is of
+  /// constraints that grew from quarter to quarter, and to more than `least`. 0 if none did.
   struct Growth {
     double factor = 0;
     Index constraint = 0;

@@ -19,7 +19,7 @@ struct Integration {
 };
 
 /// Steps through the grid from `state` and shows t_0, t_1, …, t_N to the observers. With `checkpoints` the run is kept
-/// at the start, whenever that is due, when a signal ends it, and at the end; one that resumes goes on where it was,
+/// at the start, whenever that is due, when a signal ends it, and at the end. One that resumes goes on where it was,
 /// with stepper and observers as they were, and shows what comes after.
 /// \throws StepError
 /// \throws Interrupted if a signal asks for it: between two steps, or within one that is made of many parts; then what

@@ -10,8 +10,8 @@
 
 namespace hbvm::core {
 
-/// Writes every `every`-th mesh point and the last as a line of comma-separated decimals that read back exactly:
-/// t, q, p, (57), the output state's p and multiplier, H - H_0, and the max-norms of g and of the hidden
+/// Writes every `every`-th mesh point and the last as a line of comma-separated decimals that read back exactly. These
+/// are t, q, p, (57), the output state's p and multiplier, H - H_0, and the max-norms of g and of the hidden
 /// constraint. Multipliers are those of all constraints, redundant ones included. The first line has the names of the
 /// columns.
 template <Scalar S>

@@ -13,8 +13,8 @@ struct TrajectoryColumn {
   std::string description;  ///< what it is, with its formula
 };
 
-/// The columns that Trajectory writes, in order: t; "upper.x", ... of q; "upper.px", ... of p; "lambda1", ... of
-/// (57); the same of the output state, as "output.upper.px" and "output.lambda1"; delta_H, g and hidden.
+/// The columns that Trajectory writes, in order: t; "upper.x", ... of q; "upper.px", ... of p; "lambda1", ... of (57).
+/// Then the output state's, as "output.upper.px" and "output.lambda1"; delta_H, g and hidden.
 /// \param constraints what each multiplier belongs to, as names_of_constraints() says it
 std::vector<TrajectoryColumn> trajectory_columns(const Scene& scene, const std::vector<std::string>& constraints);
 

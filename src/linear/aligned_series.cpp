@@ -78,7 +78,7 @@ void AlignedSeries::set(Index n, const Mpfr& a) {
 void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first, Index last) {
   if (!a.finite_ || !b.finite_) return mpfr_set_nan(raw(r));
   if (first > last) return set_zero(r);
-  // Of a product of used and used limbs those from limb L - 1 of 2 L on count; as many limbs of either factor make
+  // Of a product of used and used limbs those from limb L - 1 of 2 L on count. As many limbs of either factor make
   // them, but for one if either is as long as can be. The longest product takes that many of all.
   const int L = static_cast<int>(a.limbs_);
   const int* const own = a.used_.data() + first;

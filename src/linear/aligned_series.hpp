@@ -7,16 +7,16 @@
 namespace hbvm::core {
 
 /// The coefficients of a power series as whole multiples of one unit, far below the last digit of the largest. Where
-/// they fall, the later ones are shorter numbers, and a convolution multiplies of each pair only what counts beside the
-/// largest: of a series that falls to round-off a sixth to a third of what rounded numbers take.
+/// they fall, the later ones are shorter numbers. A convolution multiplies of each pair only what counts beside the
+/// largest. Of a series that falls to round-off it does a sixth to a third of what rounded numbers take.
 ///
-/// Errors are those of rounding every coefficient of l limbs to l 2^-(bits + guard_bits) of the largest so far: what is
+/// Errors are those of rounding every coefficient of l limbs to l 2^-(bits + guard_bits) of the largest so far. What is
 /// small beside the others counts as much as they do where the series is summed.
 class AlignedSeries {
  public:
   static constexpr int guard_bits = 24;
 
-  /// Of `length` coefficients in the digits of the scope.
+  /// A series of `length` coefficients in the digits of the scope.
   explicit AlignedSeries(Index length);
 
   /// Coefficient n; those before it are set. Coefficient 0 begins a new series.

@@ -9,8 +9,8 @@
 
 namespace hbvm::core {
 
-/// f(n), with n as a constant of its type where it is one of the small numbers of stages that are usual in double:
-/// there the compiler unrolls what would be mostly loop. The formulas are the same, and so is the order of their sums.
+/// f(n), with n as a constant of its type where it is one of the small numbers of stages that are usual in double.
+/// There the compiler unrolls what would be mostly loop. The formulas are the same, and so is the order of their sums.
 template <Scalar S, class F>
 decltype(auto) with_constant_count(Index n, F&& f) {
   if constexpr (std::same_as<S, double>) {

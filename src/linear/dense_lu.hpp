@@ -8,8 +8,9 @@
 
 namespace hbvm::core {
 
-/// The factors of the columns from `first` to `end` of an n x n matrix, from row `first` on: P a = L U of a whole one.
-/// Row k was exchanged with row pivots[k], in these columns alone. n and `end` may be constants of their types.
+/// The factors of the columns from `first` to `end` of an n x n matrix, from row `first` on. Of a whole matrix this is
+/// P a = L U. Row k was exchanged with row pivots[k], in these columns alone. n and `end` may be constants of their
+/// types.
 /// \return false if a pivot is 0 or not finite
 template <class Count>
 [[nodiscard, gnu::always_inline]] inline bool factor_columns(double* a, Count n, Index first, Count end,

@@ -4,7 +4,7 @@
 
 namespace hbvm::core {
 
-/// Of rows, columns and coordinates; Eigen's.
+/// The type of numbers of rows, columns and coordinates, as in Eigen.
 using Index = std::ptrdiff_t;
 
 }  // namespace hbvm::core

@@ -7,12 +7,13 @@
 
 namespace hbvm::core {
 
-/// The diagonal of the inverse of a symmetric positive definite matrix with all entries a_ij, |i - j| > b, zero, by
-/// A = L D L^T without pivoting and, from the last row to the first, what A^-1 = D^-1 L^-1 + (I - L^T) A^-1 says of the
-/// entries within the band (Takahashi, Fagan and Chin 1973). It takes O(n b^2) operations, and storage is kept.
+/// The diagonal of the inverse of a symmetric positive definite matrix with all entries a_ij, |i - j| > b, zero. First
+/// A = L D L^T is found without pivoting. Then rows are taken from the last to the first (Takahashi, Fagan and Chin
+/// 1973). A^-1 = D^-1 L^-1 + (I - L^T) A^-1 tells the entries within the band. It takes O(n b^2) operations, and
+/// storage is kept.
 ///
-/// In a Gram matrix of unit vectors the entry a of that diagonal is 1/sin^2 of the angle between vector a and the span
-/// of all the others.
+/// For a Gram matrix of unit vectors, entry a is 1/sin^2 of an angle: that between vector a and the span of all the
+/// others.
 template <Scalar S>
 class InverseDiagonal {
  public:

@@ -16,7 +16,7 @@ class LimbProducts {
     const mp_limb_t *x, *y;
     int sign;
   };
-  /// Those of next() for n = 0, 1, ... count - 1.
+  /// Takes the products that next() returns for n = 0, 1, ... count - 1.
   template <class Next>
   void set(std::size_t count, Next next) {
     if (count + 1 > positive_.size()) {
@@ -37,7 +37,7 @@ class LimbProducts {
   }
 
   /// sum, in two's complement with limbs + 2 limbs, = the sum of all over b^(limbs - 1), b = 2^limb_bits, without
-  /// products of limbs of lower order: each misses less than `limbs` units of the sum's second limb.
+  /// products of limbs of lower order. Each misses less than `limbs` units of the sum's second limb.
   void set_upper_sum(mp_limb_t* sum, long limbs);
 
  private:

@@ -8,9 +8,9 @@
 
 namespace hbvm::core {
 
-/// P a = L U with partial pivoting in the working precision, of a square matrix with all entries a_ij, |i - j| > b,
-/// zero for a half bandwidth b; b = n - 1 is a dense matrix. It takes O(n b^2) operations, and O(n b) to solve. Storage
-/// is kept from one factorisation to the next. A large dense matrix in double is factored block by block. Of the pivots
+/// P a = L U with partial pivoting in the working precision. The matrix is square, with all entries a_ij, |i - j| > b,
+/// zero for a half bandwidth b; b = n - 1 is a dense one. It takes O(n b^2) operations, and O(n b) to solve. Storage is
+/// kept from one factorisation to the next. A large dense matrix in double is factored block by block. Of the pivots
 /// the reciprocals are kept, so that to solve takes no division.
 template <Scalar S>
 class Lu {

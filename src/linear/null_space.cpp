@@ -26,7 +26,7 @@ std::optional<std::size_t> largest(const UncertainRow& row, Columns columns) {
 Mpfr relative_error(const Uncertain& x) { return x.error / magnitude(x.value); }
 
 /// A pivot that is the largest of its row in these columns. The row is the one with the smallest entries in the columns
-/// still to come, so that others keep theirs when it is subtracted from them; then the one known best.
+/// still to come. So others keep theirs when it is subtracted from them. Among equals it is the one known best.
 std::optional<Place> pivot(const Rows& a, std::size_t first_row, Columns columns, Columns to_come) {
   std::optional<Place> best;
   Mpfr least_rest = 0, least_error = 0;

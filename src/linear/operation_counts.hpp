@@ -7,8 +7,8 @@
 
 namespace hbvm::core {
 
-/// The operations a formula is made of; sinc, sinhc, atanhc and atanc, which differences of it need, are sin x / x,
-/// sinh x / x and so on, 1 at 0.
+/// The operations a formula is made of. Differences of it need sinc, sinhc, atanhc and atanc, which are sin x / x, sinh
+/// x / x and so on, 1 at 0.
 enum class Op : std::uint8_t {
   add,
   subtract,
@@ -62,7 +62,7 @@ class OperationCounts {
     return *this;
   }
   friend OperationCounts operator+(OperationCounts a, const OperationCounts& b) { return a += b; }
-  /// Of what is counted here, without what is counted there.
+  /// The operations counted in a that are not counted in b.
   friend OperationCounts operator-(OperationCounts a, const OperationCounts& b) {
     for (std::size_t i = 0; i < op_count; ++i) a.counts_[i] -= b.counts_[i];
     return a;

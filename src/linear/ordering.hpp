@@ -13,7 +13,7 @@ struct Ordering {
   Index half_bandwidth = 0;     ///< largest distance of two that share an entry
 };
 
-/// By reverse Cuthill-McKee, or as they come if that is no worse.
+/// Finds the order by reverse Cuthill-McKee, or keeps the order given if that is no worse.
 Ordering order_for_band(Index n, const std::vector<std::pair<Index, Index>>& entries);
 
 }  // namespace hbvm::core

@@ -10,14 +10,14 @@
 
 namespace hbvm::core {
 
-/// Values of functions at nodes that lie symmetrically about 1/2, each function even or odd about it by turns, like the
-/// Legendre polynomials and their integrals from 1/2: a(n-1-i, j) = a(i, j) for an even j-th function, -a(i, j) for an
-/// odd one. Nodes stand for rows or for columns.
+/// Values of functions at nodes that lie symmetrically about 1/2. The functions are even and odd about it by turns,
+/// like the Legendre polynomials and their integrals from 1/2. So a(n-1-i, j) = a(i, j) for an even j-th function,
+/// -a(i, j) for an odd one. Nodes stand for rows or for columns.
 ///
-/// Products take half of the multiplications of a full matrix: sums over the even functions and those over the odd ones
-/// give a node by their sum, its mirror by their difference; and the other way round for sums over nodes. A matrix
-/// whose entries do not mirror each other to a few units in the last place is multiplied as it stands; in double a
-/// small one as well, where the loops cost more than the multiplications.
+/// Products take half of the multiplications of a full matrix. Sums over the even functions and those over the odd ones
+/// give a node by their sum, its mirror by their difference. For sums over nodes it is the other way round. A matrix
+/// whose entries do not mirror each other to a few units in the last place is multiplied as it stands. So is a small
+/// one in double, where the loops cost more than the multiplications.
 template <Scalar S>
 class ParityMatrix {
  public:
@@ -28,7 +28,7 @@ class ParityMatrix {
 
   /// c = a b, resized.
   void times(Matrix<S>& c, const Matrix<S>& b);
-  /// The same with its numbers of rows and columns, which may be constants: then c must have its size, and it is so
+  /// The same with its numbers of rows and columns, which may be constants. Then c must have its size, and it is so
   /// small a matrix of double that it is multiplied as it stands.
   template <class Rows, class Terms>
   [[gnu::always_inline]] void times(Rows, Terms, Matrix<S>& c, const Matrix<S>& b) {

@@ -34,7 +34,7 @@ void set_times(S* r, const Matrix<S>& a, const S* x, Index x_stride);
 template <Scalar S>
 S dot(const Vector<S>& a, const Vector<S>& b);
 
-/// r = sum_i x_i y_i for i < n, where x_i stands at x[i * x_stride], rounded about once: what is lost of products and
+/// r = sum_i x_i y_i for i < n, where x_i stands at x[i * x_stride], rounded about once. What is lost of products and
 /// sums is summed, too, and added at the end (Ogita, Rump and Oishi 2005, Dot2). In quad, where an exact product is
 /// software upon software, every product and sum is rounded. r is none of them.
 template <Scalar S>

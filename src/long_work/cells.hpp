@@ -31,13 +31,13 @@ struct Shard {
 };
 
 /// A file of results, a line a cell, {"key", "version", "result", "checksum"}. It grows as they come, so that a run
-/// that was ended at any moment goes on from it; put in order it is the same file however the work was divided.
+/// that was ended at any moment goes on from it. Put in order it is the same file however the work was divided.
 class CellStore {
  public:
-  /// Without a file.
+  /// A store without a file.
   CellStore() = default;
-  /// With what the file holds, if it is there. Lines that were cut off or damaged, or that another version of the
-  /// program wrote, are left out. \throws InputError if it cannot be written to
+  /// A store with what the file holds, if it is there. Lines that were cut off or damaged, or that another version of
+  /// the program wrote, are left out. \throws InputError if it cannot be written to
   explicit CellStore(std::filesystem::path file);
 
   /// The result under a key, or null.
@@ -70,10 +70,10 @@ using TakeResult = std::function<void(std::size_t cell, std::string result)>;
 using CellRunner = std::function<void(const std::vector<std::size_t>& cells, const TakeResult& take)>;
 
 /// Runs the cells of the shard that the store does not know, in threads. The first exception of one ends all once those
-/// at work are done, and is thrown; what was made before is in the store, which is put in order in the end.
+/// at work are done, and is thrown. What was made before is in the store, which is put in order in the end.
 /// \return a result a cell, in order; none for cells of other shards that the store does not know either
 std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options);
-/// The same by something else than threads, which minds the number of jobs itself.
+/// Runs the cells by something else than threads. The runner minds the number of jobs itself.
 std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& cells, const CellOptions& options,
                                                   const CellRunner& runner);
 

@@ -15,7 +15,7 @@ struct ProcessEnd {
   double cpu_seconds = 0;
 };
 
-/// Runs cells in so many processes at a time, each of which is ended after its seconds of processor time: one that
+/// Runs cells in so many processes at a time, each of which is ended after its seconds of processor time. One that
 /// crashes takes no other with it. To be called while the program has a single thread.
 /// \param seconds of a cell, by its place; \param result made of how it ended
 CellRunner in_processes(const std::vector<WorkCell>& cells, int jobs, std::function<double(std::size_t)> seconds,

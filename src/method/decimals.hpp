@@ -15,7 +15,7 @@ struct Decimals {
 };
 
 /// The decimals of a tableau, with the digits that its author says. If none are said: decimals of eight digits or more
-/// are taken for rounded, unless they are whole multiples of 2^-30; the digits are the median of those that have a
+/// are taken for rounded, unless they are whole multiples of 2^-30. The digits are the median of those that have a
 /// value from 1/10 to 1, if any have, and 16 for what a double prints. None if nothing is rounded.
 std::optional<Decimals> decimals_of(const Tableau& tableau);
 

@@ -10,7 +10,7 @@ namespace hbvm::core {
 ///
 /// With r = s nodes for the constraints, the paper's method, the multipliers are unknown, and the hidden constraints
 /// imposed, at these nodes. With r > s, for constraints that are not quadratic, the multiplier is a polynomial,
-/// lambda(c) = sum_l P_l(c) lambda_l with s coefficients, and so many Legendre coefficients of the hidden constraint
+/// lambda(c) = sum_l P_l(c) lambda_l, with s coefficients. So many Legendre coefficients of the hidden constraint
 /// vanish: the coefficient of P_0 is what keeps g. For r = s that says the same.
 template <Scalar S>
 struct Hbvm {

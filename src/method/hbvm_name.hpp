@@ -25,7 +25,7 @@ struct HbvmName {
 };
 
 /// Gauss nodes that integrate a polynomial of a degree d exactly along a curve of degree s: d s / 2, and s at least.
-/// 	hrows InputError if these are more than max_k
+/// \throws InputError if these are more than max_k
 int exact_nodes(int degree, int s);
 
 }  // namespace hbvm::core

@@ -7,8 +7,8 @@
 
 namespace hbvm::core {
 
-/// How far the method is from each order: entry p - 1 is the largest |sum_i b_i Phi_i(t) - 1/gamma(t)| over the trees
-/// t of order p, where Phi_i([t_1 .. t_n]) = prod_k sum_j A_ij Phi_j(t_k) (Hairer, Norsett, Wanner: Solving Ordinary
+/// How far the method is from each order. Entry p - 1 is the largest |sum_i b_i Phi_i(t) - 1/gamma(t)| over the trees t
+/// of order p. There Phi_i([t_1 .. t_n]) = prod_k sum_j A_ij Phi_j(t_k) (Hairer, Norsett, Wanner: Solving Ordinary
 /// Differential Equations I, theorem II.2.13). These are the conditions of autonomous systems: c is not used, and
 /// condition_C(method, 1) tells how far it is from the row sums of A.
 /// \throws InputError unless 0 <= max_order <= max_tree_order
@@ -31,8 +31,8 @@ S condition_C(const RungeKutta<S>& method, int q);
 template <Scalar S>
 S condition_D(const RungeKutta<S>& method, int r);
 
-/// The order that the conditions show when defects up to the tolerance count as 0: by the trees as far as
-/// max_tree_order; a higher one by Butcher's theorem, as min(p, 2 q + 2, q + r + 1) for B(p), C(q) and D(r).
+/// The order that the conditions show when defects up to the tolerance count as 0. The trees decide it as far as
+/// max_tree_order. A higher one follows from Butcher's theorem, as min(p, 2 q + 2, q + r + 1) for B(p), C(q) and D(r).
 template <Scalar S>
 int order(const RungeKutta<S>& method, const S& tolerance);
 

@@ -37,7 +37,7 @@ class ConstraintGradient {
   /// The operations of one update, and of M^-1 grad g, in all lanes.
   OperationCounts operations() const;
   OperationCounts weighing_operations() const;
-  /// Those of transposed_times() for one constraint, and of add_times(), in all lanes.
+  /// The operations of transposed_times() for one constraint, and of add_times(), in all lanes.
   OperationCounts transposed_operations(Index a) const;
   OperationCounts times_operations() const;
   /// Numbers stored for grad g in one lane.
@@ -91,7 +91,7 @@ class ConstraintGradient {
       }
     });
   }
-  /// f(a, b, at) for each pair that couples, with at(i, j) = grad g_a(q_i)^T M^-1 grad g_b(q_j): of (a, b) and (b, a),
+  /// f(a, b, at) for each pair that couples, with at(i, j) = grad g_a(q_i)^T M^-1 grad g_b(q_j). Of (a, b) and (b, a),
   /// which are each other's transposes, one is computed, in `result`. The number of lanes may be a constant of its
   /// type.
   template <class Count, class F>
@@ -135,8 +135,8 @@ class ConstraintGradient {
   }
 
  private:
-  /// Where stored columns next to each other belong, all as many: what they are derivatives of, by which coordinate the
-  /// first is, and by which one its negative.
+  /// The place of stored columns next to each other, always as many. It says what they are derivatives of, by which
+  /// coordinate the first is, and by which one its negative.
   struct Run {
     Index column, constraint, coordinate, opposite;
   };

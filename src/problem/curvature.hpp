@@ -34,7 +34,7 @@ class Curvature {
   };
   const std::vector<Entry>& constraints() const { return entries_; }
 
-  /// Likewise of g that is not quadratic: by nodes, column after column of what varying() returns.
+  /// The entries of a g that is not quadratic. They vary from node to node: each is a column of what varying() returns.
   struct VaryingEntry {
     Index constraint, pair;
   };

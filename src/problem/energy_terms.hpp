@@ -21,9 +21,9 @@ class EnergyTerms {
   const S& H() const { return H_; }
   /// The magnitudes of its terms: sum_j |p_j (M^-1 p)_j|/2 + sum |U| over the bodies and pairs of all effects.
   const S& size() const { return size_; }
-  /// The size, and what H is sensitive to: sum_j |p_j (M^-1 p)_j| for relative errors of p, and of every body and pair
-  /// the sum of |dU/dx| times |x| and the magnitudes of the positions that the displacement x is the sum of. Times
-  /// epsilon it is the round-off of H at a state of the working precision.
+  /// The size, and what H is sensitive to. For relative errors of p that is sum_j |p_j (M^-1 p)_j|. Every body and pair
+  /// adds |dU/dx| times a length. That is |x| plus the magnitudes of the positions that the displacement x is the sum
+  /// of. Times epsilon it is the round-off of H at a state of the working precision.
   const S& round_off_size() const { return round_off_size_; }
   /// Terms of the sum that H is.
   long count() const { return count_; }

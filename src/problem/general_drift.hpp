@@ -17,7 +17,8 @@ class GeneralDrift {
   bool empty() const { return constraints_.empty(); }
   void start(const Vector<S>& q);
   /// The greatest |g(q) - g(start)| over twice epsilon times the greatest size of g, which its round-off is
-  /// proportional to, of all q that were looked at since the start: 1 is what rounding once at either end makes of it.
+  /// proportional to. It is taken of all q that were looked at since the start: 1 is what rounding once at either end
+  /// makes of it.
   const S& in_units(const Vector<S>& q);
 
   template <class Archive>

@@ -6,11 +6,11 @@
 
 namespace hbvm::core {
 
-/// From so many constraints on the Gram matrix grad g^T M^-1 grad g is factored by its band.
+/// From this number of constraints on, the Gram matrix grad g^T M^-1 grad g is factored by its band.
 constexpr Index many_constraints = 128;
 
 /// The factors of the Gram matrix of many constraints at the q of a gradient in one lane. Constraints that share no
-/// body leave zeros there: in the order that gathers the others beside the diagonal, it takes O(nu b^2) operations for
+/// body leave zeros there. In the order that gathers the others beside the diagonal, it takes O(nu b^2) operations for
 /// a half bandwidth b.
 template <Scalar S>
 class GramFactor {

@@ -8,7 +8,7 @@ namespace hbvm::core {
 template <Scalar S>
 Problem<double> in_double(const Problem<S>& problem);
 
-/// Whether x, and whether the problem, is that with all its digits but the last: the exponents of x, and of the masses,
+/// Whether x, and whether the problem, is that with all its digits but the last. The exponents of x, and of the masses,
 /// leave room for products of two.
 template <Scalar S>
 bool fits_double(const S& x);

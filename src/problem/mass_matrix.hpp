@@ -28,8 +28,8 @@ class MassMatrix {
   Index m() const { return m_; }
   const std::vector<Block>& blocks() const { return blocks_; }
 
-  /// v = M^-1 p in every lane, in double and MPFR with about one rounding; v must not be p. The roundings of a sum of
-  /// rounded products are not of either sign alike along the motion of a rigid body: H of a heavy top drifts by them.
+  /// v = M^-1 p in every lane, in double and MPFR with about one rounding; v must not be p. Along the motion of a rigid
+  /// body the roundings of a sum of rounded products are not of either sign alike. H of a heavy top drifts by them.
   void velocity(Lanes<const S> p, Lanes<S> v) const;
   /// The same with the number of lanes as a constant if it is one of its type.
   template <class Count>

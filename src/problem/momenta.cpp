@@ -49,7 +49,7 @@ std::optional<Mpfr> short_number(const Mpfr& x, const Mpfr& error, int bits) {
   return result;
 }
 
-/// The fraction of a short number and a small denominator that x may be, or x: the same in any units, if these are
+/// The fraction of a short number and a small denominator that x may be, or x. It is the same in any units that are
 /// powers of two.
 Mpfr near_fraction(const Uncertain& x, int bits) {
   for (int denominator = 1; denominator <= 20; ++denominator)

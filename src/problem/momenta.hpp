@@ -7,8 +7,8 @@
 
 namespace hbvm::core {
 
-/// A component of momentum, linear.P + angular.L: P = sum p over what translates with space, L = sum q x p, about the
-/// origin, over all blocks of coordinates. With both parts it is an angular momentum about another point (or a
+/// A component of momentum, linear.P + angular.L. There P = sum p over what translates with space, L = sum q x p, about
+/// the origin, over all blocks of coordinates. With both parts it is an angular momentum about another point (or a
 /// screw's).
 template <Scalar S>
 struct MomentumComponent {
@@ -33,12 +33,12 @@ template <Scalar S>
 MomentumValue<S> momentum(const Problem<S>& problem, const MomentumComponent<S>& component, const Vector<S>& q,
                           const Vector<S>& p);
 
-/// A basis of the components that the problem conserves because of a symmetry: the translation, rotation or screw along
-/// it changes neither the kinetic energy nor any one effect nor any one constraint, however weak that is beside others.
-/// It is decided from what they depend on, with no tolerance but the round-off of the scene's numbers, and scales
-/// exactly with units that are powers of two. (Effects that break a symmetry and would restore it together are taken to
-/// break it.) Linear components come first; each is led by the coefficient 1, and a component along an axis that is
-/// conserved stands alone.
+/// A basis of the components that the problem conserves because of a symmetry. The translation, rotation or screw along
+/// it changes neither the kinetic energy nor any one effect or constraint, however weak that is beside others. It is
+/// decided from what they depend on, with no tolerance but the round-off of the scene's numbers. It scales exactly with
+/// units that are powers of two. (Effects that break a symmetry and would restore it together are taken to break it.)
+/// Linear components come first; each is led by the coefficient 1, and a component along an axis that is conserved
+/// stands alone.
 template <Scalar S>
 std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem);
 

@@ -11,15 +11,15 @@
 
 namespace hbvm::core {
 
-/// How often the force of an effect ran: calls, evaluations at a node (each for all bodies or pairs it acts on), and
-/// the operations of one evaluation by its formula, of which some are not done again where an effect before it has done
-/// them. `seconds` is measured if asked for.
+/// How often the force of an effect ran. It has calls, evaluations at a node (each for all bodies or pairs it acts on),
+/// and the operations of one evaluation by its formula. Of these some are not done again where an effect before it has
+/// done them. `seconds` is measured if asked for.
 struct EffectCount {
   std::uint64_t calls = 0, evaluations = 0;
   OperationCounts per_evaluation{}, done_before{};
   double seconds = 0;
 
-  /// What an evaluation takes.
+  /// The operations that an evaluation takes.
   OperationCounts done() const { return per_evaluation - done_before; }
 
   template <class Archive>

@@ -8,8 +8,8 @@
 
 namespace hbvm::core {
 
-/// Coordinates offset .. offset + dimension are a vector in space: the position of a body, which translates with space,
-/// or a director of a rigid body, which only turns with it.
+/// Coordinates offset .. offset + dimension are a vector in space. It is the position of a body, which translates with
+/// space, or a director of a rigid body, which only turns with it.
 struct SpaceBlock {
   Index offset;
   bool translates;

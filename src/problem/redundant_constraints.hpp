@@ -8,8 +8,8 @@
 
 namespace hbvm::core {
 
-/// The constraints of a problem that its solvers do not see, because they follow from the others: whether they are kept
-/// to, and the multipliers of all constraints. Owns its storage; one a thread.
+/// The constraints of a problem that its solvers do not see, because they follow from the others. It knows whether they
+/// are kept to, and the multipliers of all constraints. Owns its storage; one a thread.
 template <Scalar S>
 class RedundantConstraints {
  public:
@@ -26,8 +26,9 @@ class RedundantConstraints {
   /// grad g^T M^-1 p of the redundant ones.
   const Vector<S>& hidden(const Vector<S>& q, const Vector<S>& p);
 
-  /// The multipliers of all constraints that exert the same force at q as those of the independent ones do, the ones of
-  /// least Euclidean norm: with grad g_r = grad g X they are lambda - X mu and mu, (1 + X^T X) mu = X^T lambda.
+  /// The multipliers of all constraints that exert the same force at q as those of the independent ones do. They are
+  /// the ones of least Euclidean norm. With grad g_r = grad g X they are lambda - X mu and mu, (1 + X^T X) mu = X^T
+  /// lambda.
   /// \throws IntegrationError if the gradients of the independent constraints are dependent at q
   Vector<S> multipliers(const Vector<S>& q, const Vector<S>& lambda);
 
@@ -38,7 +39,7 @@ class RedundantConstraints {
   Vector<S> values_, sizes_, hidden_, v_;
 };
 
-/// Of all constraints, in order.
+/// The names of all constraints, redundant ones included, in order.
 template <Scalar S>
 std::vector<std::string> names_of_constraints(const Problem<S>& problem);
 

@@ -123,9 +123,9 @@ const Mpfr* find(const Entries& entries, Index at) {
   return place != entries.end() && place->at == at ? &place->value : nullptr;
 }
 
-/// Cholesky's factor of a Gram matrix whose rows and columns are taken in some order: grad g_a is, but for what is left
-/// over, a combination of the gradients of `pivots`, with the scalar products L_a. in an orthonormal basis of theirs.
-/// Constraints that share no body have no entry: what is not 0 is all that is stored and computed.
+/// Cholesky's factor of a Gram matrix whose rows and columns are taken in some order. But for what is left over, grad
+/// g_a is a combination of the gradients of `pivots`. Row a of L has its scalar products with an orthonormal basis of
+/// theirs. Constraints that share no body have no entry: what is not 0 is all that is stored and computed.
 struct Cholesky {
   std::vector<Entries> gram, L;  ///< rows
   std::vector<Index> pivots;
@@ -214,8 +214,8 @@ struct Cholesky {
     return found;
   }
 
-  /// The scalar product of grad g_a with the next vector of the basis, which grad g_b is to give, times the length of
-  /// what is left of grad g_b.
+  /// The scalar product of grad g_a with the next vector of the basis, which grad g_b is to give. It is times the
+  /// length of what is left of grad g_b.
   Mpfr left_over(Index a, Index b) const {
     const Mpfr* const product = find(row(gram, a), b);
     Mpfr sum = product ? *product : Mpfr(0);

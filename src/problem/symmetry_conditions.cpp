@@ -11,8 +11,8 @@ namespace {
 
 using UncertainVector = std::vector<Uncertain>;
 
-/// A vector in space that depends on q, x = sum_b weight_b q_b + shift. The motion changes it by w x x + u with
-/// u = T t - w x shift, T being the sum of the weights of what translates.
+/// A vector in space that depends on q, x = sum_b weight_b q_b + shift. The motion changes it by w x x + u with u = T t
+/// - w x shift. T is the sum of the weights of what translates.
 struct Place {
   std::map<Index, Uncertain> weights;  // by the offset of the block
   UncertainVector shift;
@@ -50,8 +50,8 @@ class Conditions {
   /// n.x.
   void component_stays(const Vector<S>& n, const Displacement<S>& x) { component_stays(vector(n), place(x)); }
 
-  /// x.y changes by u_x.y + u_y.x, the rotations of both cancelling: for each block of coordinates
-  /// y_b u_x + x_b u_y = 0, and u_x.(shift of y) + u_y.(shift of x) = 0, where those of w cancel again.
+  /// x.y changes by u_x.y + u_y.x, where the rotations of both cancel. For each block of coordinates y_b u_x + x_b u_y
+  /// = 0, and u_x.(shift of y) + u_y.(shift of x) = 0, where those of w cancel again.
   void product_stays(const Displacement<S>& first, const Displacement<S>& second) {
     const Place x = place(first), y = place(second);
     std::map<Index, std::pair<Uncertain, Uncertain>> blocks;
@@ -69,8 +69,8 @@ class Conditions {
     add(std::move(r));
   }
 
-  /// The sum over blocks of q_a^T A_ab q_b and b_a.q_a changes by that of q_a^T (A_ab w - w A_ab) q_b,
-  /// q_a.(2 A_ab t + b_a x w) and b_a.t, with t for what translates.
+  /// The sum is over blocks of q_a^T A_ab q_b and b_a.q_a. It changes by the sum of q_a^T (A_ab w - w A_ab) q_b, q_a.(2
+  /// A_ab t + b_a x w) and b_a.t, with t for what translates.
   void quadratic_stays(const std::vector<Index>& blocks, const Matrix<S>& A, const Vector<S>& linear) {
     blocks_stay(A);
     const Index d = problem_.dimension;

@@ -97,7 +97,7 @@ Agreement::Agreement(const Assembled<Mpfr>& scene, const std::vector<Expression>
         add(momenta[i].name(), single(values[i].value), momenta[i].is_linear() ? linear : angular);
     }
   }
-  // What is conserved must be what it was at the start, too: nothing that the routes' states are compared by is as
+  // What is conserved must be what it was at the start, too. Nothing that the routes' states are compared by is as
   // blind to a formula of H that does not belong to the forces.
   for (State& state : states_) {
     const auto add = [&](std::size_t v, const Mpfr& value) {

@@ -28,10 +28,10 @@ class Disagreement : public IntegrationError {
   std::vector<Value> values;  ///< of every run
 };
 
-/// Runs of one motion beside each other: q, p, lambda, H and each conserved momentum at each time, every run with every
-/// other; and what is conserved beside what it was at the start. Digits are counted after the leading one of a vector's
-/// greatest component; what is 0 but for rounding is measured by the terms that it is a sum of, or by what it is at
-/// other times.
+/// Runs of one motion beside each other. q, p, lambda, H and each conserved momentum are compared at each time, every
+/// run with every other. So is what is conserved with what it was at the start. Digits are counted after the leading
+/// one of a vector's greatest component. What is 0 but for rounding is measured by the terms that it is a sum of, or by
+/// what it is at other times.
 class Agreement {
  public:
   /// In the scope of the runs' digits. \param runs one at least; of one alone nothing is compared

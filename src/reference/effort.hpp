@@ -7,15 +7,16 @@
 
 namespace hbvm::core {
 
-/// What a route will take, from what a motion at low precision took: to be believed within a factor of some.
+/// The time and memory that a route will take, extrapolated from a motion at low precision. It is right to a small
+/// factor.
 struct Effort {
   std::string route;
   double seconds = 0, bytes = 0;
 };
 
-/// Of a Taylor series with so many digits.
+/// The effort of a Taylor series with so many digits.
 Effort effort_of_taylor(const Problem<Mpfr>& problem, const MotionNature& nature, unsigned digits);
-/// Of HBVM(s,s) with so many digits.
+/// The effort of HBVM(s,s) with so many digits.
 Effort effort_of_hbvm(const Problem<Mpfr>& problem, const MotionNature& nature, unsigned digits);
 
 /// "3 minutes", "2.5 days", "4e+06 years".

@@ -104,8 +104,8 @@ void HbvmWalk::shorten(double by, const std::string& why) {
 }
 
 void HbvmWalk::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step) {
-  // log2 of how many times as long a step may be at least, is when its length is chosen, and may be at most before
-  // another length is worth its new matrix.
+  // log2 of how many times as long a step may be. These are the least, that when its length is chosen, and the most
+  // before another length is worth its new matrix.
   constexpr double least_room = double{5} / 100, usual_room = double{2} / 10, much_room = double{5} / 10, most_rise = 1,
                    most_fall = 4, fall = double{1} / 2, most_trend = double{3} / 10;
   // As of a Taylor series: what forces may be beside the terms that are left out.

@@ -11,10 +11,10 @@
 
 namespace hbvm::core {
 
-/// A motion by HBVM(s,s) that chooses its steps by itself. Where the motion is analytic within an ellipse about a step,
-/// whose half axes add up to rho/2 steps, the Legendre coefficients of the momenta fall by rho each, and the error of
-/// the output state is rho^(-2s). A step is so short that its coefficients fall as fast as the digits need, and that
-/// the forces are bounded along such an ellipse, see ForceBounds.
+/// A motion by HBVM(s,s) that chooses its steps by itself. Let the motion be analytic within an ellipse about a step,
+/// whose half axes add up to rho/2 steps. Then the Legendre coefficients of the momenta fall by rho each, and the error
+/// of the output state is rho^(-2s). A step is so short that its coefficients fall as fast as the digits need. It is
+/// also so short that the forces are bounded along such an ellipse, see ForceBounds.
 class HbvmWalk {
  public:
   /// From this state on, with so many digits right, by steps of `longest` at most to begin with. Problem and method
@@ -33,8 +33,8 @@ class HbvmWalk {
   long steps() const { return steps_; }
 
  private:
-  /// log2 of a part of the time in which velocity or acceleration carry a body, or a director, as far as it is from the
-  /// origin; infinite where nothing moves.
+  /// log2 of a part of a time, in which velocity or acceleration carry a body or director as far as it is from the
+  /// origin. Infinite where nothing moves.
   double first_length();
   /// log2 of how many times as long the last step might have been.
   double room(double log2_h) const;

@@ -8,7 +8,7 @@
 namespace hbvm::core {
 
 /// The Taylor coefficients of a program's outputs where its inputs are power series, one recurrence an operation
-/// (Griewank and Walther, Evaluating Derivatives, 2008, chapter 13): with z_n for z^(n)/n!,
+/// (Griewank and Walther, Evaluating Derivatives, 2008, chapter 13). With z_n for z^(n)/n!,
 ///
 ///     z = a b      z_n = sum_{i <= n} a_i b_{n-i}
 ///     z = 1/a      z_n = -z_0 sum_{1 <= i <= n} a_i z_{n-i}

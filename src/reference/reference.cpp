@@ -131,8 +131,8 @@ class Attempt {
   }
 
  private:
-  /// Where HBVM has not stages enough for so many digits it would take ten times as long as Taylor series and more; a
-  /// closed form confirms them as well.
+  /// HBVM has not stages enough for very many digits, and would take ten times as long as Taylor series and more. There
+  /// a closed form confirms them as well.
   bool closed_form_serves() const {
     if (static_cast<int>(digits_) <= most_digits_of_hbvm) return false;
     const PrecisionScope scope(digits_);

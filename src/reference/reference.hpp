@@ -13,8 +13,8 @@
 
 namespace hbvm::core {
 
-/// The ways to a reference solution that share nothing but the scene: the Taylor series of TaylorMotion, Gauss methods
-/// of high order, HBVM(s,s), with their output state, and the closed form of the motion where one is known.
+/// The ways to a reference solution that share nothing but the scene. They are the Taylor series of TaylorMotion,
+/// HBVM(s,s) of high order with its output state, and the closed form where one is known.
 enum class Route { taylor, hbvm, closed_form };
 inline constexpr Route all_routes[] = {Route::taylor, Route::hbvm, Route::closed_form};
 const char* name_of(Route route);
@@ -34,22 +34,24 @@ struct ReferenceRequest {
   bool force = false;  ///< do also what will take more than a day, or more memory than most machines have
 };
 
-/// What a route finds in the digits of the scope, of which so many are to be right; nothing if it does not serve a
+/// What a route finds in the digits of the scope, of which so many are to be right. Nothing if it does not serve a
 /// scene.
 using RouteFunction = std::function<std::optional<RouteRun>(const RouteWork&, double digits)>;
 /// The route of that name.
 RouteFunction function_of(Route route);
 
-/// The state at the times, each digit found by two routes, and by the closed form, too, of a motion that has one;
-/// order, step, precision and guard digits are chosen here: from the growth of a small change of the start and the
-/// radius of convergence of the series, at low precision. Where the routes agree in fewer digits, both are made again
-/// with more. \throws InputError for digits or times out of range, for what would take too long, or if `only` is a
-/// closed form and none is known; IntegrationError where the motion ends, or the routes never agree, with both values
+/// The state at the times. Each digit is found by two routes, and by the closed form, too, of a motion that has one.
+/// Order, step, precision and guard digits are chosen here. They follow from the growth of a small change of the start
+/// and the radius of convergence of the series, at low precision. Where the routes agree in fewer digits, both are made
+/// again with more.
+/// \throws InputError for digits or times out of range, for what would take too long, or if `only` names an unknown
+/// closed form
+/// \throws IntegrationError where the motion ends, or the routes never agree, with both values
 /// \param function what makes each route
 Reference compute_reference(const ReferenceRequest& request,
                             const std::function<RouteFunction(Route)>& function = function_of);
 
-/// Of what a scene says, its name and comments apart.
+/// A hash of what a scene says, whatever its name and comments.
 std::string scene_hash(const Scene& scene);
 
 inline constexpr int least_reference_digits = 1, most_reference_digits = 5000;

@@ -18,10 +18,10 @@ struct StepPolynomials {
   void at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<Mpfr>& u, Vector<Mpfr>& v) const;
 };
 
-/// The exact motion from a consistent state over a time, as Gauss methods of more and more stages give it, in the
-/// digits of the scope: a run by the fixed-point iteration, whose error is estimated by what changed from the run
-/// before with fewer stages, which Newton's iteration made. q, the projected p and the multiplier there converge with
-/// order 2s.
+/// The exact motion from a consistent state over a time, in the digits of the scope. Gauss methods of more and more
+/// stages give it. It is a run by the fixed-point iteration. Its error is estimated by what changed from the run
+/// before, which Newton's iteration made with fewer stages. At the end q, the projected p and the multiplier there
+/// converge with order 2s.
 class ReferenceMotion {
  public:
   /// \param stages of the first run; every further one has two more
@@ -30,7 +30,7 @@ class ReferenceMotion {
   ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0, const Mpfr& duration,
                   long steps, int stages, std::function<void()> after_step = {});
 
-  /// At the end of the time.
+  /// The state at the end of the time.
   const Vector<Mpfr>& q() const { return q_; }
   const Vector<Mpfr>& p() const { return p_; }
   const Vector<Mpfr>& lambda() const { return lambda_; }
@@ -39,7 +39,7 @@ class ReferenceMotion {
     double q, p, lambda;
   };
   const Errors& errors() const { return errors_; }
-  /// Of the last step.
+  /// The polynomials of the last step.
   const StepPolynomials& polynomials() const { return polynomials_; }
 
   /// Whether the errors of q and p are round-off: each a thousand units of its own at most.

@@ -9,14 +9,14 @@
 
 namespace hbvm::core {
 
-/// Where the legs of a long way are kept, JSON under a key, so that work that was ended goes on after the last of them.
-/// Called by several threads at once.
+/// Keeps the legs of a long way, JSON under a key. Work that was ended goes on after the last of them. Called by
+/// several threads at once.
 struct LegKeeper {
   std::function<std::optional<std::string>(const std::string& key)> find;
   std::function<void(const std::string& key, const std::string& json)> keep;
 };
 
-/// From one state to another, with those asked for on the way.
+/// A part of the way from one state to another, with the states asked for on it.
 struct Leg {
   Vector<Mpfr> q, p;  ///< at its end
   std::vector<ExactPoint> points;

@@ -111,8 +111,8 @@ struct StartScales {
   Mpfr q = 0, p = 0;
 };
 
-/// The start, changed by some parts of what it consists of, vector by vector in space: of a position also the way, and
-/// of a momentum also what each force does to it, in so long a time.
+/// The start, changed by some parts of what it consists of, vector by vector in space. A position also consists of the
+/// way in so long a time, and a momentum of what each force does to it.
 StartScales change_start(const Assembled<Mpfr>& scene, const Mpfr& parts, const Mpfr& time, Vector<Mpfr>& q,
                          Vector<Mpfr>& p) {
   StartScales greatest;
@@ -144,7 +144,7 @@ StartScales change_start(const Assembled<Mpfr>& scene, const Mpfr& parts, const 
 }  // namespace
 
 MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times, const RouteProgress& progress) {
-  // A change that grows to a thousandth of what the start consists of tells its rate: from there on it is taken to grow
+  // A change that grows to a thousandth of what the start consists of tells its rate. From there on it is taken to grow
   // like that. Digits are lost of what there is, which may be less: of the momentum of a body that is nearly at rest.
   constexpr double lost = -3;
   constexpr int change = 15, pieces = 64;

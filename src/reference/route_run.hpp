@@ -47,16 +47,17 @@ struct MotionNature {
 
 /// The stages s of HBVM(s,s) for so many digits, at most max_s.
 int stages_of_route(double digits);
-/// With more digits HBVM has not the stages that it would need.
+/// The most digits for which HBVM has the stages that it needs.
 inline constexpr int most_digits_of_hbvm = 20 * max_s / 9;
 
 /// The states by HBVM(s,s) with so many digits right, by steps that it chooses itself: see HbvmWalk.
 /// \throws IntegrationError
 RouteRun hbvm_route(const RouteWork& work, double digits);
 
-/// From two motions at low precision, the start of one changed a little. Where the change has grown so far that it
-/// tells no more, its rate until then is taken for that of all the time, and the radius for the least. \param progress
-/// is called with the part of the time that is done, and may throw to end the work \throws IntegrationError
+/// The nature of a motion, from two motions at low precision that start close to each other. Where the change has grown
+/// so far that it tells no more, its rate until then is taken for all of the time. The radius is taken for the least.
+/// \param progress is called with the part of the time that is done, and may throw to end the work \throws
+/// IntegrationError
 MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times, const RouteProgress& progress);
 
 }  // namespace hbvm::core

@@ -15,8 +15,8 @@ struct StoredReference {
   std::string version, date;
 };
 
-/// As a TOML file: the scene's name and hash, the routes' settings, version and date, and each time with its numbers as
-/// texts of as many digits as are certain.
+/// Writes a TOML file. It has the scene's name and hash, the routes' settings, version and date. Each time has its
+/// numbers as texts of as many digits as are certain.
 std::string to_toml(const StoredReference& stored);
 
 /// What such a file says; `name` is for messages.
@@ -32,8 +32,8 @@ struct FoundReference {
   int digits = 0;
   ReferenceState state;
 };
-/// That of a scene that says the same, whatever its name, at exactly this time, whatever its text, with so many digits
-/// at least; of several that with the most.
+/// The reference of a scene that says the same, whatever its name, at exactly this time, whatever its text, with so
+/// many digits at least. Of several it is that with the most.
 /// \throws InputError for a time without a value
 std::optional<FoundReference> find_reference(const Scene& scene, const Expression& t, int digits);
 
@@ -42,7 +42,7 @@ struct Difference {
   std::string t, what;  ///< "q_3"
   std::string stored, found;
 };
-/// By their texts, digit by digit; what one has and the other has not is a difference, too.
+/// Compares the texts of numbers digit by digit. A number that only one reference has is a difference, too.
 std::vector<Difference> differences(const Reference& stored, const Reference& found);
 
 }  // namespace hbvm::core

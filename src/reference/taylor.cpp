@@ -22,7 +22,7 @@ constexpr double longest = 40;
 
 }  // namespace
 
-/// Jorba and Zou have half of the bits, in units of e, from the work of the convolutions alone; what is linear in the
+/// Jorba and Zou have half of the bits, in units of e, from the work of the convolutions alone. What is linear in the
 /// order makes a fifth more the best (measured from 30 to 1000 digits).
 Index TaylorMotion::order_for(int bits) {
   return std::max<Index>(8, static_cast<Index>(std::ceil(6 * bits * std::numbers::ln2 / 10)) + 1);
@@ -255,8 +255,8 @@ void TaylorMotion::project() {
   problem_.mass.velocity(lanes(std::as_const(shift)), lanes(weighted_));
   for (Index j = 0; j < m; ++j) set_difference(q_series(j)[0], q_series(j)[0], weighted_[j]);
   set_forms(0);
-  // By the matrix from before the multiplier would be wrong by what the shift was right by, and errors grow from step
-  // to step by the square of the angle that a body turns through.
+  // By the matrix from before, the multiplier would be wrong by what the shift was right by. Errors would grow from
+  // step to step by the square of the angle that a body turns through.
   factor_gram();
   // Of the momenta, by G_0 there.
   for (Index a = 0; a < nu; ++a) set_zero(rhs_[a]);
@@ -463,7 +463,7 @@ void TaylorMotion::take_up() {
 }
 
 double TaylorMotion::bounded_length(double most) {
-  // Terms beyond the order are to be below 2^-(bits - slack) of the momenta: that far in, nothing is seen of how the
+  // Terms beyond the order are to be below 2^-(bits - slack) of the momenta. That far in, nothing is seen of how the
   // series converges at its own step, which makes its last terms round-off.
   constexpr double slack = 20, rise = double{1} / 2;
   const double order = static_cast<double>(order_), bits = significand_bits<Mpfr>();

@@ -13,37 +13,36 @@ namespace hbvm::core {
 class ForceBounds;
 
 /// The motion by its Taylor series, in the digits of the scope: no quadrature, no stage equations, no basis, no
-/// iteration. In a unit of time h, about as long as the step, q' = h M^-1 p, p' = h (grad U(q) - grad g(q) lambda) and
-/// grad g is affine in q, or by a formula. Coefficient after coefficient,
+/// iteration. The unit of time h is about as long as the step. In it q' = h M^-1 p, p' = h (grad U(q) - grad g(q)
+/// lambda), and grad g is affine in q, or by a formula. Coefficient after coefficient,
 ///
 ///     (n+1) q_{n+1} = v_n,  v = h M^-1 p,  (n+1) p_{n+1} = h (F_n - sum_{i <= n} G_i lambda_{n-i})
 ///
-/// where F is grad U, by the program of its gradient, and G = grad g by its second derivatives and values, or by the
-/// program of its gradient, too; lambda_n by
-/// coefficient n + 1 of the hidden constraint G^T v = 0,
+/// where F is grad U, by the program of its gradient. G = grad g is by its second derivatives and values, or by the
+/// program of its gradient, too. lambda_n is found by coefficient n + 1 of the hidden constraint G^T v = 0,
 ///
 ///     G_0^T M^-1 G_0 lambda_n = G_0^T M^-1 (F_n - sum_{0 < i <= n} G_i lambda_{n-i})
 ///                               + (n+1)/h^2 sum_{0 < i <= n+1} G_i^T v_{n+1-i}
 ///
-/// whose matrix is factored once a step; for n = 0 that is the multiplier of Theorem 1. Order and step after Jorba
-/// and Zou (Experimental Mathematics 14, 2005): the step is so long that the last two terms are round-off of every
-/// body's position and momentum. As h is that long, coefficients fall to round-off, and so do the numbers of which
-/// convolutions consist, AlignedSeries. After each step the state is moved to the constraints and their tangent space,
-/// by round-off.
+/// whose matrix is factored once a step; for n = 0 that is the multiplier of Theorem 1. Order and step are those of
+/// Jorba and Zou (Experimental Mathematics 14, 2005). The step is so long that the last two terms are round-off of
+/// every body's position and momentum. As h is that long, coefficients fall to round-off, and so do the numbers of
+/// which convolutions consist, AlignedSeries. After each step the state is moved to the constraints and their tangent
+/// space, by round-off.
 ///
-/// The coefficients tell only what is near the start of a step. So it is no longer than ForceBounds allow, which look
-/// at the forces on a circle of radius R about its start in complex time: with |F| <= M there, and F analytic inside,
-/// the terms of F from order N on add up to at most M (h/R)^N / (1 - h/R).
+/// The coefficients tell only what is near the start of a step. So it is no longer than ForceBounds allow. They look at
+/// the forces on a circle of radius R about its start in complex time. With |F| <= M there, and F analytic inside, the
+/// terms of F from order N on add up to at most M (h/R)^N / (1 - h/R).
 class TaylorMotion {
  public:
-  /// From (q0, p0), consistent, at t = 0. The problem must outlive it.
+  /// The motion from the consistent state (q0, p0) at t = 0. The problem must outlive it.
   /// \throws IntegrationError if there is no series there
   /// \param while_working is called after every coefficient, and may throw to end the work
   TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,
                std::function<void()> while_working = {});
   ~TaylorMotion();
 
-  /// Of the series with so many bits.
+  /// The order of a series with so many bits.
   static Index order_for(int bits);
 
   /// The state at t, not before the last.
@@ -60,8 +59,8 @@ class TaylorMotion {
   double least_radius() const { return least_radius_; }
 
  private:
-  /// A component of grad g, which several coordinates have but for the sign: an affine form of q, or a sum of outputs
-  /// of a formula's gradient.
+  /// A component of grad g, which several coordinates have but for the sign. It is an affine form of q, or a sum of
+  /// outputs of a formula's gradient.
   struct Form {
     Mpfr constant;
     std::vector<std::pair<Index, Mpfr>> terms;
@@ -111,8 +110,8 @@ class TaylorMotion {
   void set_unit(double log2);
   /// The series from start_q_, start_p_, in a unit in which they do not grow, and the step.
   void take_up();
-  /// What some coefficients of a body's position or momentum say, as log2: `step` units that the series may take,
-  /// `radius` units of convergence, and by how much terms are larger than what it is in a unit.
+  /// What some coefficients of a body's position or momentum say, as log2. These are `step` units that the series may
+  /// take, and `radius` units of convergence. The last is by how much terms are larger than what it is in a unit.
   struct Extent {
     double step, radius, growth;
   };

@@ -20,21 +20,21 @@ struct Tic {
   std::string text;
 };
 
-/// The tics of an axis at round numbers, and what its label has to say besides: a power of ten that all of them have in
-/// common, as gnuplot writes it ("10^{-9}"); empty if none.
+/// The tics of an axis at round numbers, and what its label has to say besides. That is a power of ten that all of them
+/// have in common, as gnuplot writes it ("10^{-9}"). Empty if none.
 struct Tics {
   std::vector<Tic> tics;
   std::string factor;
 };
 
-/// From the least to the greatest of the finite values; of one value, or none, as far about it as can be shown, and on
-/// the axes of powers as far as makes room for a tic with a number.
+/// The range from the least to the greatest of the finite values. One value, or none, has a range about it as wide as
+/// can be shown. On axes of powers it makes room for a tic with a number.
 AxisRange range_of(const std::vector<double>& values, AxisScale scale = AxisScale::linear);
 
-/// The same with this share of it left free at both ends.
+/// The range, made wider by this share of it at both ends.
 AxisRange widened(const AxisRange& range, double share);
 
-/// At most so many numbers at an axis.
+/// The tics of an axis, with at most so many numbers.
 Tics tics_of(const AxisRange& range, AxisScale scale, int most);
 
 }  // namespace hbvm::core

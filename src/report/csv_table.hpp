@@ -12,8 +12,7 @@ struct CsvTable {
 };
 
 /// Reads RFC 4180, cells of several lines included. \param file its name, for messages
-/// \throws InputError with file and line for a row with other than the columns' number of cells, for a quote that does
-/// not end and for what is no text
+/// \throws InputError with file and line: for a row with another number of cells, a quote that does not end, or no text
 CsvTable read_csv_table(const std::string& text, const std::string& file);
 
 }  // namespace hbvm::core

@@ -33,12 +33,13 @@ struct CsvMetadata {
 /// The name under which readers look for it: "FILE.csv-metadata.json".
 std::string csvw_file(const std::string& csv);
 
-/// As JSON of W3C's "Metadata Vocabulary for Tabular Data", CSVW. \param csv the file, named from beside it
+/// The metadata as JSON of W3C's "Metadata Vocabulary for Tabular Data", CSVW. \param csv the file, named from beside
+/// it
 std::string to_csvw(const CsvMetadata& metadata, const std::string& csv);
 
 /// Writes a table as CSV, and beside it what describes it. \throws InputError if a file cannot be written
 void write_csv(const std::string& file, const Table& table, const CsvMetadata& metadata);
-/// The same described by its caption and, line by line, its provenance.
+/// Writes a table as CSV, described by its caption and, line by line, its provenance.
 void write_csv(const std::string& file, const Table& table);
 
 }  // namespace hbvm::core

@@ -32,9 +32,9 @@ bool has_names(const Panel& panel);
 /// How many letters are seen of UTF-8.
 std::size_t letters(const std::string& text);
 
-/// What a drawing of the figure says of itself, as JSON: {"size": [width, height], "panels": [{"title", "box": [left,
-/// top, width, height], "x": {"label", "scale", "from", "to"}, "y": the same, "curves": [{"label", "points": [[x, y],
-/// ...]}]}]}; bars are a curve of their own, names of an axis its "names". Scales are named as AxisScale does.
+/// What a drawing of the figure says of itself, as JSON. It is {"size": [width, height], "panels": [{"title", "box":
+/// [left, top, width, height], "x": {"label", "scale", "from", "to"}, "y": likewise, "curves": [{"label", "points":
+/// [[x, y], ...]}]}]}. Bars are a curve of their own, names of an axis its "names". Scales are named as AxisScale does.
 std::string figure_data(const Figure& figure);
 
 }  // namespace hbvm::core

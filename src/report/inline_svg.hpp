@@ -5,8 +5,8 @@
 namespace hbvm::core {
 
 /// A drawing as part of an HTML page: its outermost element without what draws nothing. Nothing of it can act or ask
-/// the network: only elements that draw are kept, no scripts, styles, pictures or links, and references only to what
-/// is in it.
+/// the network. Only elements that draw are kept, no scripts, styles, pictures or links. References are kept only to
+/// what is in it.
 struct InlineSvg {
   std::string svg;
   std::string data;  ///< the JSON of figure_data, or nothing

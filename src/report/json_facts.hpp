@@ -18,7 +18,7 @@ void add_fact(std::vector<Fact>& facts, const Fact& fact);
 /// Whether a name tells how a result was made.
 bool is_provenance(const std::string& name);
 
-/// The numbers and texts of a JSON object under their names, those of objects in it as "pick.method"; of a list its
+/// The numbers and texts of a JSON object under their names, those of objects in it as "pick.method". Of a list its
 /// numbers and texts if it is short, else its length. \param file its name, for messages
 /// \throws InputError with file and line if it is none
 std::vector<Fact> read_facts(const std::string& text, const std::string& file);

@@ -4,8 +4,9 @@
 
 namespace hbvm::core {
 
-/// An mpfr_t with a number of bits of its own, whatever the precision of the scope: for code that works with guard
-/// bits and rounds once at the end. (A Boost number takes the digits of the scope whenever it is copied or moved.)
+/// An mpfr_t with a number of bits of its own, whatever the precision of the scope. It is for code that works with
+/// guard bits and rounds once at the end. (A Boost number takes the digits of the scope whenever it is copied or
+/// moved.)
 class BigFloat {
  public:
   explicit BigFloat(long bits) { mpfr_init2(value_, bits); }

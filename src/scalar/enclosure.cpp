@@ -1,4 +1,4 @@
-// The value of an Expression by interval arithmetic: every operation rounds its lower bound down and its upper bound
+// The value of an Expression by interval arithmetic. Every operation rounds its lower bound down and its upper bound
 // up, so that the truth lies between them whatever the cancellation.
 
 #include <algorithm>
@@ -31,7 +31,7 @@ constexpr int max_depth = 700;  // of nodes, those of constants included: no sta
 
 class Encloser {
  public:
-  /// An argument between bounds that hold 0 counts as 0 if they have become narrow, or with `last` set; what then has
+  /// An argument between bounds that hold 0 counts as 0 if they have become narrow, or with `last` set. What then has
   /// no value is an error. Narrow is below 2^-2N, for a result of N bits and from 4 N working bits on.
   /// \param work bits of results that may still be computed
   Encloser(const Constants& constants, long bits, int target_bits, bool last, long& work)

@@ -46,8 +46,8 @@ class Expression {
   static Expression parse(std::string_view text, Syntax syntax = Syntax::number);
 
   /// The value rounded correctly, to nearest, to `bits` significand bits. The expression is enclosed between bounds of
-  /// growing working precision until both round to the same number. What still cannot be told from 0 at four
-  /// times `bits` is 0, provided it is less than 2^(-2 bits) there; else digits are added as long as they can help.
+  /// growing working precision until both round to the same number. What still cannot be told from 0 at four times
+  /// `bits` is 0, provided it is less than 2^(-2 bits) there. Else digits are added as long as they can help.
   /// \throws ExpressionError for an unknown or circular name, a division by 0, a root or logarithm outside its
   ///         domain, magnitudes beyond 2^131072, and if it would take too long
   BigFloat evaluate_to_bits(int bits, const Constants& constants = {}) const;

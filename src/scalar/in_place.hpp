@@ -88,7 +88,7 @@ void set_quotient(S& r, const S& a, const S& b) {
     r = a / b;
 }
 
-/// a + b without any rounding, as r + rest with r = fl(a + b) (Moller and Knuth, TwoSum); r and rest are neither a nor
+/// a + b without any rounding, as r + rest with r = fl(a + b) (Moller and Knuth, TwoSum). r and rest are neither a nor
 /// b, and t is scratch.
 template <Scalar S>
 void set_exact_sum(S& r, S& rest, const S& a, const S& b, S& t) {
@@ -111,8 +111,8 @@ requires(!std::same_as<S, Quad>) void set_exact_product(S& r, S& rest, const S& 
     rest = std::fma(a, b, -r);
 }
 
-/// A number as a loop holds it: a copy, which stays in a register whatever is written to memory; of Mpfr, where a copy
-/// is an allocation, the number itself.
+/// A number as a loop holds it. A copy stays in a register whatever is written to memory. Of Mpfr it is the number
+/// itself, since a copy is an allocation.
 template <Scalar S>
 using Held = std::conditional_t<std::same_as<S, Mpfr>, const S&, S>;
 /// The same of scratch.

@@ -12,8 +12,8 @@ namespace hbvm::core {
 namespace {
 
 // Numbers here are fractions of 1, n limbs with the least first. What is cut off below the last limb is a few units
-// each time, and less than 2^bits_lost of them all together: four of the series, and twice those of its parts and five
-// more for each level of the table.
+// each time, and less than 2^bits_lost of them all together. These are four of the series, and twice those of its parts
+// and five more for each level of the table.
 using Limbs = std::vector<mp_limb_t>;
 constexpr long limb_bits = GMP_NUMB_BITS;
 constexpr long bits_lost = 8;
@@ -32,9 +32,9 @@ Limbs limbs_of(mpfr_ptr a, long n) {
   return limbs;
 }
 
-/// What evaluations start from. An angle below 1 is k 2^-7 + l 2^-14, where k and l are below 2^7, and a rest, of which
-/// a few terms of the series are enough. Of the angles k 2^-7 and l 2^-14 the table has the sine and the versine 1 -
-/// cos, with most_limbs each; shorter numbers are the upper limbs of these.
+/// What evaluations start from. An angle below 1 is k 2^-7 + l 2^-14 and a rest. k and l are below 2^7, and of the rest
+/// a few terms of the series are enough. The table has the sine and the versine 1 - cos of the angles k 2^-7 and l
+/// 2^-14, with most_limbs each. Shorter numbers are the upper limbs of these.
 class SineTable {
  public:
   static constexpr int levels = 2, step_bits = 7, steps = 1 << step_bits, rest_bits = levels * step_bits;

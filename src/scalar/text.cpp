@@ -32,8 +32,8 @@ bool reads_back(const Decimal& d, const BigFloat& x) {
   return mpfr_equal_p(raw(back), raw(x)) != 0;
 }
 
-/// The fewest digits that read back. If d digits do, so do d + 1, which makes a binary search right (but at powers of
-/// two, below which numbers lie denser: so one more look down); most numbers need nearly all digits, so that the search
+/// The fewest digits that read back. If d digits do, so do d + 1, which makes a binary search right. Below powers of
+/// two numbers lie denser, so that it takes one more look down. Most numbers need nearly all digits, so that the search
 /// starts there.
 Decimal shortest(const BigFloat& x) {
   const std::size_t enough = mpfr_get_str_ndigits(10, mpfr_get_prec(raw(x)));

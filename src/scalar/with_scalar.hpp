@@ -7,9 +7,9 @@
 
 namespace hbvm::core {
 
-/// Calls `f.operator()<S>()` with the scalar that `precision` names, inside a PrecisionScope of its digits. This is
-/// the only place where the choice made at run time becomes a type; what f returns must hold no scalar, so that
-/// nothing outlives its working precision:
+/// Calls `f.operator()<S>()` with the scalar that `precision` names, inside a PrecisionScope of its digits. This is the
+/// only place where the choice made at run time becomes a type. What f returns must hold no scalar, so that nothing
+/// outlives its working precision:
 ///
 ///     std::string pi = with_scalar(Precision::parse("mpfr:50"),
 ///                                  []<Scalar S>() { return to_text(literal<S>("pi")); });

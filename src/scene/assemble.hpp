@@ -29,10 +29,10 @@ struct Assembled {
 enum class Consistency { checked, unchecked };
 
 /// Evaluates a scene in the working precision. Coordinates: the bodies in file order, then the rigid bodies (reference
-/// point unless fixed, directors). Constraints: those of the rigid bodies, then those of the file, in order.
-/// If checked, constraints that follow from others at the start, which leave the multipliers undetermined, are set
-/// aside; those that stand best apart are kept. A start that is consistent to the digits it is written with, 15 or
-/// more, is moved to the nearest one that is so in S, if S has more. \throws InputError for Mpfr without a
+/// point unless fixed, directors). Constraints: those of the rigid bodies, then those of the file, in order. If
+/// checked, constraints that follow from others at the start, which leave the multipliers undetermined, are set aside;
+/// those that stand best apart are kept. A start may be consistent to the digits it is written with, 15 or more. It is
+/// then moved to the nearest one that is consistent in S, if S has more. \throws InputError for Mpfr without a
 /// PrecisionScope; for a mass that is not positive (definite), for a rigid body that no distribution of mass makes,
 ///         and for an effect that acts on nobody; if checked, also for an initial state that is not
 ///         consistent, (7), naming the constraint and its residual (the tolerance is the round-off of the

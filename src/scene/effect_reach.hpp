@@ -8,7 +8,7 @@
 
 namespace hbvm::core {
 
-/// Whom an effect of a scene acts on, by names: a body, a pair or a group each, in the order of the instances of its
+/// The bodies, pairs or groups that an effect of a scene acts on, by their names, in the order of the instances of its
 /// term.
 struct EffectReach {
   std::vector<std::vector<std::string>> on;

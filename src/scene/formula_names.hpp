@@ -16,7 +16,7 @@ using FormulaNames = std::map<std::string, FormulaName, std::less<>>;
 /// The names that a formula may use besides the constants.
 FormulaNames formula_names(const SceneFormula& formula, int dimension);
 
-/// Those that it does use.
+/// The names of formula_names() that the formula does use.
 /// \throws ExpressionError at a name that is neither one of them nor a constant, or that is both
 FormulaNames names_used(const SceneFormula& formula, int dimension, const Constants& constants);
 

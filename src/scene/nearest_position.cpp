@@ -8,8 +8,8 @@
 
 namespace hbvm::core {
 
-/// Each sweep minimises the distance under the constraints linearised at the last q: q = target - M^-1 grad g mu with
-/// grad g^T M^-1 grad g mu = g(q) + grad g^T (target - q).
+/// Each sweep minimises the distance under the constraints linearised at the last q. So q = target - M^-1 grad g mu
+/// with grad g^T M^-1 grad g mu = g(q) + grad g^T (target - q).
 template <Scalar S>
 Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target) {
   const Index nu = problem.nu();

@@ -15,8 +15,8 @@ struct MassDistribution {
 };
 
 /// A second moment that moves the body as the given one does and makes its mass matrix positive definite. In space it
-/// is the given one. In the plane only the trace moves anything: where the given matrix makes a mass matrix that is not
-/// definite, it is another one of this trace, with half the moment of inertia along each director.
+/// is the given one. In the plane only the trace moves anything. Where the given matrix makes a mass matrix that is not
+/// definite, it is another one of this trace. That has half the moment of inertia along each director.
 /// \param fixed whether the reference point is
 /// \throws InputError for one that no distribution of mass has: about the centre of mass, S - m c c^T is not positive
 ///         semidefinite, or its trace, which in the plane is all that counts,

@@ -28,12 +28,12 @@ struct Sketch {
   std::vector<Place> places;
   std::vector<Link> links;
 
-  /// Where place i is. \param q of scene's coordinates
+  /// The position of place i. \param q of scene's coordinates
   std::array<double, 3> position(std::size_t i, const std::vector<double>& q) const;
 };
 
 /// Bodies, points and rigid bodies of a scene, with its rods and those of its springs that it names. A rigid body has
-/// its name at its centre of mass; lines lead there from its reference point, and to its attachments, or to the ends of
+/// its name at its centre of mass. Lines lead there from its reference point, and to its attachments, or to the ends of
 /// its directors if it has none.
 Sketch sketch(const Scene& scene);
 

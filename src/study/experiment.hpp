@@ -35,7 +35,7 @@ struct Part {
   std::function<Outcome(const std::vector<std::string>& results)> conclude;
 };
 
-/// What comes out: columns and groups of the table, and the comparison.
+/// The findings of a study: columns and groups of its table, and the comparison.
 struct Findings {
   Table table;
   Table full;  ///< the same with all digits, and empty cells where there is no number

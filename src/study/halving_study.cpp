@@ -27,8 +27,8 @@ struct HalvingTable {
   std::map<std::string, Expression> orders;
 };
 
-/// Every printed figure above round-off, to all printed digits; beyond double also that what was round-off in double
-/// is round-off here, and that the rates double could not show (***) are there.
+/// Every printed figure above round-off, to all printed digits. Beyond double also that what was round-off in double is
+/// round-off here, and that the rates double could not show (***) are there.
 StudyAgreement check(const Experiment& experiment, const std::vector<Block>& blocks, double above_round_off,
                      const std::vector<std::string>& round_off, const std::map<std::string, Expression>& orders) {
   StudyAgreement agreement;

@@ -31,7 +31,7 @@ struct HalvingRow {
   /// The cell of the column of this name, "---" if there is none.
   std::string cell(const std::string& column) const;
   /// Whether the error of this column, e_lambda, e_hid, e_g or e_H, is no more than what roundings add up to. A step
-  /// leaves a few in g and H, and more in the hidden constraint, which has those of the multipliers at all nodes; they
+  /// leaves a few in g and H, and more in the hidden constraint, which has those of the multipliers at all nodes. They
   /// have random signs, so that over the steps they grow like the square root of their number. A multiplier is a
   /// momentum over a step, and so are its roundings, the last step's alone.
   bool is_round_off(const std::string& column) const;

@@ -39,8 +39,9 @@ struct StudyOptions : CellOptions {
 };
 
 /// Runs the experiments that study.toml describes: a cell for each of their runs. Tables (CSV, Markdown, LaTeX, and a
-/// CSV with all digits) and pictures (SVG, with the trajectories they show) are the same whatever the number of threads
-/// and shards, but for a column of seconds. If a run fails, the studies that are complete are written all the same.
+/// CSV with all digits) and pictures (SVG, with the trajectories they show) come out. They are the same whatever the
+/// number of threads and shards, but for a column of seconds. If a run fails, the studies that are complete are written
+/// all the same.
 /// \return an outcome a request, in order; none for one with runs in other shards that the store does not know
 /// \throws InputError, before anything is run if a study.toml is wrong; IntegrationError
 std::vector<std::optional<StudyOutcome>> run_studies(const std::vector<StudyRequest>& requests,

@@ -25,8 +25,8 @@ class TomlSource {
   [[noreturn]] void fail(std::size_t line, const std::string& what) const;
   /// Where in the text a place is; its end if it is none.
   std::size_t offset_of(const toml::source_position& place) const;
-  /// Line and column, from 1, of the first character of a string that the text has literally between two places;
-  /// column 0 if it is written with escapes.
+  /// Line and column, from 1, of the first character of a string that the text has literally between two places. Column
+  /// 0 if it is written with escapes.
   toml::source_position begin_of(std::string_view string, const toml::source_region& region) const;
   /// The characters of a number that stands at this place.
   std::string number_at(const toml::source_position& begin) const;

@@ -91,8 +91,8 @@ void expect_symmetric(int n) {
   EXPECT_LT(formula.c[n - 1], one);
 }
 
-/// B(2n): sum_i b_i c_i^(j-1) = 1/j for j = 1 ... 2n, summed with guard digits so that only the rounding of the
-/// nodes and weights remains: each c_i^(j-1) is off by (j - 1) eps, each b_i by eps.
+/// B(2n): sum_i b_i c_i^(j-1) = 1/j for j = 1 ... 2n, summed with guard digits so that only the rounding of the nodes
+/// and weights remains. Each c_i^(j-1) is off by (j - 1) eps, each b_i by eps.
 template <Scalar S>
 void expect_moments(int n) {
   const Quadrature<S> formula = gauss_legendre<S>(n);
@@ -159,7 +159,7 @@ TYPED_TEST(GaussLegendreFormula, RefusesANumberOfNodesOutOfRange) {
     EXPECT_THROW(gauss_legendre<TypeParam>(n), InputError) << n;
 }
 
-/// None of these lies so near the middle of two numbers that the guard bits would not tell which is the nearer: all are
+/// None of these lies so near the middle of two numbers that the guard bits would not tell which is the nearer. All are
 /// those of 30 more digits, rounded.
 TYPED_TEST(GaussLegendreFormula, IsRoundedCorrectly) {
   using S = TypeParam;

@@ -1,4 +1,4 @@
-// `reference`, `cost`, `run --error` and `audit` of a file of any bytes, in the program's own words: each ends with a
+// `reference`, `cost`, `run --error` and `audit` of a file of any bytes, in the program's own words. Each ends with a
 // result of finite numbers or with a typed error of one line, and soon after it is asked to end.
 
 #include <unistd.h>

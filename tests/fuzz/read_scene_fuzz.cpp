@@ -1,4 +1,4 @@
-// Any bytes are read as a scene or refused with an InputError of one line; a scene that was read is written and read
+// Any bytes are read as a scene or refused with an InputError of one line. A scene that was read is written and read
 // back the same, and each of its numbers has a value or is refused.
 
 #include <cstdint>

@@ -54,7 +54,7 @@ std::string bits_of(State<S>& state, Stepper<S>& stepper) {
   return bits.text();
 }
 
-/// A run that is kept and taken up by a new stepper after each of its steps has the same bits as one that is not, and
+/// A run is kept and taken up by a new stepper after each of its steps. It has the same bits as one that is not, and
 /// takes as many sweeps.
 template <Scalar S>
 void expect_same_steps(const Scene& scene, int k, int s, const char* step, SolverKind solver, long steps, int r = 0) {

@@ -12,8 +12,8 @@ class Rods : public ::testing::Test {
  protected:
   PrecisionScope digits{50};
 
-  /// Two bodies of uneven masses on rods, the second as long as this at the mesh points, in this unit of length and so
-  /// far from the origin.
+  /// Two bodies of uneven masses on rods, in this unit of length and so far from the origin. The second rod is as long
+  /// as this at the mesh points.
   typename ConstraintDrift<S>::Worst of(const std::vector<const char*>& lengths, const char* unit = "1",
                                         const char* away = "0") {
     const std::string u = unit, x = away;

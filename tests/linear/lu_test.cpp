@@ -18,8 +18,8 @@ class LuTest : public ::testing::Test {
     return lu.factor();
   }
 
-  /// a x = b is solved with a residual that partial pivoting allows for: n^2 eps |a| |x|, times the growth of the
-  /// pivots, which is below 2^(n-1) and in practice below n.
+  /// a x = b is solved with a residual that partial pivoting allows for. That is n^2 eps |a| |x|, times the growth of
+  /// the pivots, which is below 2^(n-1) and in practice below n.
   void expect_solves(const Matrix<S>& a) {
     const Index n = a.rows();
     ASSERT_TRUE(factor(a)) << "n = " << n;

@@ -20,7 +20,7 @@ Matrix<S> some(Index rows, Index columns) {
   return b;
 }
 
-/// The products as they stand, entry by entry; each entry of b is at most 1, and of a as well but for a factor 2 sqrt.
+/// The products as they stand, entry by entry. Each entry of b is at most 1, and of a as well but for a factor 2 sqrt.
 template <Scalar S>
 void expect_product(ParityMatrix<S>& parity, const Matrix<S>& a, const char* what) {
   const Matrix<S> b = some<S>(a.cols(), 3);

@@ -287,8 +287,8 @@ TYPED_TEST(PerturbationTest, TwentyFifthDigitIsOfMpfrAlone) {
   expect(this->changed(before, mistake(Part::node, 0, 0, "1e-25", true)), "node of the potential");
 }
 
-/// More nodes for the constraints than stages: A = P X P^T Omega, and lambda has coefficients, whose sum at 1 no node
-/// and no weight enters.
+/// More nodes for the constraints than stages: A = P X P^T Omega, and lambda has coefficients. No node and no weight
+/// enters their sum at 1.
 template <class S>
 class PerturbationOfCoefficients : public PerturbationTest<S> {
  protected:

@@ -44,7 +44,7 @@ plain::Mechanics<S> mechanics_of(const Problem<S>& problem) {
   return mechanics;
 }
 
-/// The rows of a matrix one after the other, and back: what is s x m in the library is s blocks of m numbers there.
+/// The rows of a matrix one after the other, and back. What is s x m in the library is s blocks of m numbers there.
 template <class S>
 Vector<S> blocks_of(const Matrix<S>& rows) {
   const Matrix<S> columns = rows.transpose();

@@ -38,8 +38,8 @@ class PlainStep : public ::testing::Test {
  protected:
   PrecisionScope digits{50};
 
-  /// Three steps of either lead to the same state and multiplier, but for rounding: of the momenta, by their greatest,
-  /// and of the multipliers, which come from momenta over the step.
+  /// Three steps of either lead to the same state and multiplier, but for rounding. That is of the momenta, by their
+  /// greatest, and of the multipliers, which come from momenta over the step.
   static void expect_same_states(const std::string& name, const HbvmName& n) {
     const Assembled<S> start = assemble<S>(scene_of(name));
     const S h = S(1) / 20;

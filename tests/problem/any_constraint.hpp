@@ -6,7 +6,7 @@
 
 namespace hbvm::core {
 
-/// A constraint of this form as a scene would make it, the first if it makes several, with random numbers: its pairs
+/// A constraint of this form as a scene would make it, the first if it makes several, with random numbers. Its pairs
 /// are bodies 0 and 1, 1 and 2, ..., its bodies the bodies 1, 2, ... of d coordinates each.
 template <class Form, Scalar S>
 Constraint<S> any_constraint(Index d, RandomValues<S>& random) {

@@ -27,8 +27,8 @@ TYPED_TEST(EnergyOfTerms, IsThatOfAPoint) {
   }
 }
 
-/// A spring of stiffness 3 and rest length 2 along x, stretched to 4 between bodies at 1 and 5, that move with 2 and 4;
-/// masses 1 and 1/2: T = 2 + 4, |U| = 3/2 2^2 = 6, and |dU/dx| = 6 times 4 + (1 + 5).
+/// A spring of stiffness 3 and rest length 2 along x, stretched to 4 between bodies at 1 and 5. They move with 2 and 4
+/// and have masses 1 and 1/2. So T = 2 + 4, |U| = 3/2 2^2 = 6, and |dU/dx| = 6 times 4 + (1 + 5).
 TEST(EnergyTermsByHand, OfASpring) {
   const Assembled<double> scene = assemble<double>(
       read_scene("dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [1, 0], velocity = [2, 0] },\n"

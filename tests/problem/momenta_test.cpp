@@ -370,8 +370,9 @@ TYPED_TEST(Momenta, ConservedByAnAngleBetweenPoints) {
             "P_x, P_y");
 }
 
-/// The second route: by how much forces, gradients of constraints and the kinetic energy change along every motion of
-/// space at random points, of a problem whose numbers are all about 1, and by singular values what changes nothing.
+/// The second route. It tells by how much forces, gradients of constraints and the kinetic energy change along every
+/// motion of space at random points. The numbers of the problem are all about 1. Singular values tell what changes
+/// nothing.
 class MomentaBySampling : public ::testing::Test {
  protected:
   RandomValues<double> random{311};

@@ -149,8 +149,8 @@ TYPED_TEST(PointTest, ATangentialMomentumIsNotChanged) {
   EXPECT_EQ(point.tangential(q, this->vector({"5/3", "7"})), p);
 }
 
-// q'' = g - 2 lambda q on a rod of length 1: from q.q'' = -|q'|^2, lambda = (|p|^2 + q.g) / 2; below the pivot
-// (1 + 1) / 2, at rest on the side 0, above the pivot (|p|^2 - 1) / 2.
+// q'' = g - 2 lambda q on a rod of length 1. From q.q'' = -|q'|^2 follows lambda = (|p|^2 + q.g) / 2. It is, below the
+// pivot, (1 + 1) / 2, at rest on the side 0, above the pivot (|p|^2 - 1) / 2.
 TYPED_TEST(PointTest, MultiplierOfTheSimplePendulum) {
   const auto problem = this->pendulum(2, TypeParam(1), TypeParam(1));
   Point<TypeParam> point(problem);
@@ -160,7 +160,7 @@ TYPED_TEST(PointTest, MultiplierOfTheSimplePendulum) {
 }
 
 // m q'' = m g - 2 lambda q and |q| = l give lambda = (|p|^2 / m + m q.g) / (2 l^2).
-/// Along p' = grad U - grad g lambda and q' = M^-1 p the hidden constraints keep their value: their derivative, by
+/// Along p' = grad U - grad g lambda and q' = M^-1 p the hidden constraints keep their value. Their derivative, by
 /// differences that are exact for what is quadratic, is 0.
 TYPED_TEST(PointTest, ForcesKeepTheHiddenConstraints) {
   using S = TypeParam;

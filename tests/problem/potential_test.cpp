@@ -101,8 +101,8 @@ TYPED_TEST(PotentialTest, CountsOperationsOfAnEvaluation) {
   EXPECT_EQ(evaluator.counts()[0].per_evaluation, expected);
 }
 
-/// Two attractions of the same pair have its distance in common: to displace the pair and to find its distance is the
-/// first one's, and what they add to the force, and in which order, is as it was. In double each is a kernel.
+/// Two attractions of the same pair have its distance in common. To displace the pair and to find its distance is the
+/// first one's. What they add to the force, and in which order, is as it was. In double each is a kernel.
 TYPED_TEST(PotentialTest, EffectsThatActAlikeShareWhatTheyHaveInCommon) {
   using S = TypeParam;
   const auto both = this->potential({this->attraction(), this->trap(), this->attraction(5), this->trap()});

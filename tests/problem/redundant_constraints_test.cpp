@@ -94,8 +94,8 @@ TYPED_TEST(RedundantConstraintsTest, ShareTheMultipliers) {
   for (Index a = 0; a < 3; ++a) EXPECT_LE(magnitude(S(shares[a] - 2 * (a + 1))), this->tolerance()) << a;
 }
 
-/// The same force, by multipliers without a part that exerts none: lambda is grad g^T y for some y, so that it is
-/// orthogonal to the combinations of gradients that vanish.
+/// The same force, by multipliers without a part that exerts none. So it is grad g^T y for some y, and it is orthogonal
+/// to the combinations of gradients that vanish.
 TYPED_TEST(RedundantConstraintsTest, HaveMultipliersOfLeastNorm) {
   using S = TypeParam;
   for (const Index d : {2, 3}) {

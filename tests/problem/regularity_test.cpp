@@ -166,8 +166,8 @@ TYPED_TEST(Regularity, DoesNotDependOnScales) {
     }
 }
 
-/// |x|^2 = 1 and x_1 = 1 at (1, 0): with velocity (0, v) the circle bends away from the line by 2 v^2, or the line
-/// from the circle by v^2.
+/// |x|^2 = 1 and x_1 = 1 at (1, 0). With velocity (0, v) the circle bends away from the line by 2 v^2, or the line from
+/// the circle by v^2.
 TYPED_TEST(Regularity, SeesTheRedundantBendAway) {
   auto problem = this->bodies({2});
   this->pin(problem, 0);
@@ -280,8 +280,8 @@ TYPED_TEST(Regularity, ConditionIsTheRatioOfTheEigenvalues) {
   this->hold(apart, 0, {"0", "3"});
   this->hold(apart, 1, {"1", "0"});
   this->expect_condition(apart, this->vector({"0", "0", "0", "0"}), 22.5);
-  // A stretched chain from the origin, masses 1, steps (1, 0): gradients 2 (1, -1 and 1): Gram 4 [[1, -1], [-1, 2]],
-  // whose eigenvalues are 4 (3 -+ sqrt(5))/2.
+  // A stretched chain from the origin, masses 1, steps (1, 0): gradients 2 (1, -1 and 1). Gram's matrix is 4 [[1, -1],
+  // [-1, 2]], whose eigenvalues are 4 (3 -+ sqrt(5))/2.
   auto chain = this->bodies({1, 1});
   this->pin(chain, 0);
   this->tie(chain, 0, 1);
@@ -289,8 +289,8 @@ TYPED_TEST(Regularity, ConditionIsTheRatioOfTheEigenvalues) {
   this->expect_condition(chain, this->vector({"1", "0", "2", "0"}), (3 + root) / (3 - root));
 }
 
-/// A stretched chain of n rods from the origin: 4 times the matrix with 1, 2, 2, ... on the diagonal and -1 beside it,
-/// whose eigenvalues are 2 - 2 cos((2 k - 1) pi/(2 n + 1)).
+/// A stretched chain of n rods from the origin. Gram's matrix is 4 times that with 1, 2, 2, ... on the diagonal and -1
+/// beside it. The eigenvalues of that are 2 - 2 cos((2 k - 1) pi/(2 n + 1)).
 TYPED_TEST(Regularity, ConditionOfManyConstraints) {
   for (const Index n : {127, 128, 400}) {
     auto chain = this->bodies({});
@@ -302,7 +302,7 @@ TYPED_TEST(Regularity, ConditionOfManyConstraints) {
     const double angle = std::acos(-1.0) / static_cast<double>(2 * n + 1);
     const double expected = (1 - std::cos(static_cast<double>(2 * n - 1) * angle)) / (1 - std::cos(angle));
     EXPECT_NEAR(gram_condition(chain, q) / expected, 1, 1e-3) << n;
-    // Heavier by the same factor and in another unit of length: the angles are as they were, and the first gradient is
+    // Heavier by the same factor and in another unit of length. The angles are as they were, and the first gradient is
     // as long as the others' where its body is half as heavy.
     EXPECT_GT(angle_condition(chain, q) / expected, 0.2) << n;
     EXPECT_LT(angle_condition(chain, q) / expected, 1) << n;

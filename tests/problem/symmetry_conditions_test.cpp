@@ -10,7 +10,7 @@ namespace {
 using Motion = Vector<Mpfr>;  // (w, t)
 
 /// A motion fulfils the conditions of a problem with one constraint, effect or mass matrix if and only if it changes
-/// that nowhere: by derivatives along the motion at random positions.
+/// that nowhere. Derivatives along the motion at random positions tell.
 class SymmetryConditions : public ::testing::Test {
  protected:
   PrecisionScope digits{50};

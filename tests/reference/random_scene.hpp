@@ -10,9 +10,9 @@
 
 namespace hbvm::core {
 
-/// A scene of a few bodies with masses, lengths and times over many orders, rods, chains, loops, surfaces and rigid
-/// bodies, and some of all the effects. Its start is consistent in any number of digits: every part moves as a rigid
-/// one, or link by link about the one before, by exact expressions. The same numbers everywhere.
+/// A scene of a few bodies with masses, lengths and times over many orders. It has rods, chains, loops, surfaces and
+/// rigid bodies, and some of all the effects. Its start is consistent in any number of digits. By exact expressions
+/// every part moves as a rigid one, or link by link about the one before. The same numbers everywhere.
 class RandomScene {
  public:
   explicit RandomScene(std::uint64_t seed) : engine_(seed) {}

@@ -23,8 +23,8 @@ constexpr double most_seconds = 60;
 struct TooLong {};
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Two radii of convergence of the series at the start: a characteristic time, whatever masses and forces are; of a
-/// motion that is a polynomial any. As a power of two, which is an exact text.
+/// Two radii of convergence of the series at the start: a characteristic time, whatever masses and forces are. Of a
+/// motion that is a polynomial it is any. As a power of two, which is an exact text.
 Expression characteristic_time(const Scene& scene) {
   const PrecisionScope digits(30);
   const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);

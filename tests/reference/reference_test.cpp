@@ -17,7 +17,7 @@ ReferenceRequest request_of(const char* scene, const std::vector<const char*>& t
   return request;
 }
 
-/// Every digit but the last is that of the closed form, and the last is off by one half; as many are there as were
+/// Every digit but the last is that of the closed form, and the last is off by one half. As many are there as were
 /// asked for after the leading one of the greatest component, and no more.
 TEST(ReferenceSolution, HasTheDigitsOfClosedForms) {
   for (const int digits : {5, 30, 80})
@@ -154,7 +154,7 @@ TEST(ReferenceSolution, SeesForcesBetweenThePoints) {
   }
 }
 
-/// A route that is off by a part in 10^8 in one component, whichever route and component: nothing is given out, and
+/// A route that is off by a part in 10^8 in one component, whichever route and component. Nothing is given out, and
 /// both values are said.
 TEST(ReferenceSolution, GivesNothingOutWhereARouteIsWrong) {
   for (const Route liar : all_routes)

@@ -55,7 +55,7 @@ TEST(Routes, KnowHowErrorsGrow) {
   EXPECT_NEAR(nature.digits_lost, grown, grown / 2);
 }
 
-/// A change is one of each body's own size: in SI units a kick in parts of the Earth's momentum would send a satellite
+/// A change is one of each body's own size. In SI units a kick in parts of the Earth's momentum would send a satellite
 /// out of the solar system.
 TEST(Routes, KnowHowErrorsOfUnevenMassesGrow) {
   const Scene scene = read_scene(R"(dimension = 2

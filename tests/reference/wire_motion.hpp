@@ -13,8 +13,9 @@ struct WireMotion {
   Vector<Mpfr> q, p, lambda;
 };
 
-/// Of the scenes bead_on_helix, z = 3 t/2 - t^2/4 there, and bead_on_cycloid, z = (1/4)/w sin(w t) with w^2 = 4/17.
-/// lambda follows from p' = F - grad g lambda, of which the constraints x - ... and y - ... have one component each.
+/// The motion of two scenes. In bead_on_helix z = 3 t/2 - t^2/4, and in bead_on_cycloid z = (1/4)/w sin(w t) with w^2 =
+/// 4/17. The multiplier lambda follows from p' = F - grad g lambda, of which the two constraints for x and y have one
+/// component each.
 inline WireMotion wire_motion(const std::string& scene, const Mpfr& t) {
   WireMotion result{Vector<Mpfr>(3), Vector<Mpfr>(3), Vector<Mpfr>(2)};
   Mpfr x, dx, ddx, y, dy, ddy, z, dz, ddz, F_y = 0;

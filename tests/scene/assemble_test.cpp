@@ -73,8 +73,8 @@ TEST_F(EveryKey, VelocitiesBecomeMomentaAndMomentaStay) {
   expect_equal(scene.p0, a, {"4/5", "0", "3/5"});
   expect_equal(scene.p0, b, {"87/16", "-3/2", "9/8"});
   expect_equal(scene.p0, c, {"2", "-1", "0"});
-  // The stone: v = (1, -1, 1/3), rates of its directors omega x d = (0, 5, -3), (-5, 0, 2), (3, -2, 0),
-  // m = 4, centre (0, 1/8, 0): p of the reference point is m v + m/8 d2'.
+  // The stone has v = (1, -1, 1/3), and its directors have the rates omega x d = (0, 5, -3), (-5, 0, 2), (3, -2, 0).
+  // With m = 4, centre (0, 1/8, 0), p of the reference point is m v + m/8 d2'.
   const Vector<Mpfr> p = scene.p0.segment(stone, 12);
   const Mpfr third = Mpfr(1) / 3;
   const Mpfr half = Mpfr(1) / 2;
@@ -951,7 +951,7 @@ angular_velocity = 1
                {"test.toml:13: ", "spring", "fixed"});
 }
 
-/// Bars whose hinges have one direction move in a plane, whatever the hinges say of it: a loop of four has three
+/// Bars whose hinges have one direction move in a plane, whatever the hinges say of it. A loop of four has three
 /// constraints more than it needs.
 TEST(Assemble, SetsAsideThreeOfALoopOfParallelHinges) {
   const auto bar = [](const std::string& name, const std::string& position, const std::string& d1,

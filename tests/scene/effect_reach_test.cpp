@@ -61,8 +61,8 @@ std::string refused(const std::string& text) {
   return {};
 }
 
-/// An effect without `on` or `between`, and what it must be, with the points where rigid bodies have their centres of
-/// mass and their masses as numbers.
+/// An effect without `on` or `between`, and what it must be. The points where rigid bodies have their centres of mass,
+/// and their masses, stand as numbers.
 struct SameEffect {
   const char *name, *on_all, *by_points;
 };

@@ -254,7 +254,7 @@ TYPED_TEST(FormulaScene, KeepsTheMomentaOfAnyConstraint) {
   EXPECT_EQ(names(one + "x - cos(z)"), "P_y ");
 }
 
-/// One that follows from others is set aside, of whatever kind they are; one that does so at the start alone is
+/// One that follows from others is set aside, of whatever kind they are. One that does so at the start alone is
 /// refused, by its second derivative.
 TYPED_TEST(FormulaScene, SetsRedundantConstraintsAside) {
   using S = TypeParam;

@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// A consistent scene in space of rigid bodies joined in every way: base, arm, bob by a hinge and a ball joint,
-/// attached to rods, angles, springs, charges and traps, by names and in place; and a bead.
+/// A consistent scene in space of rigid bodies joined in every way. It has base, arm, bob by a hinge and a ball joint,
+/// and a bead. They are attached to rods, angles, springs, charges and traps, by names and in place.
 inline const std::string joined_bodies = R"toml(title = "Joined bodies"
 source = "made up"
 dimension = 3

@@ -7,8 +7,8 @@
 namespace hbvm::core {
 namespace {
 
-/// every_key with `from` replaced by `to`, and what the message must hold besides the name of the file and the line:
-/// that of `at` in the malformed text.
+/// every_key with `from` replaced by `to`, and what the message must hold besides the name of the file and the line.
+/// The line is that of `at` in the malformed text.
 struct Malformed {
   const char* name;
   const char *from, *to;

@@ -40,7 +40,7 @@ TYPED_TEST(Project, OnACircleMovesAlongTheRadius) {
 }
 
 /// (9/5, 12/5) is (6/5, 4/5), on the ellipse x^2 + 4 y^2 = 4, and a quarter of the gradient there. The sweeps converge
-/// by a factor 2/3 each and must go on to the last digit: an end at the first small increment would leave some 80
+/// by a factor 2/3 each and must go on to the last digit. An end at the first small increment would leave some 80
 /// epsilon.
 TYPED_TEST(Project, ConvergesSlowlyToRoundOff) {
   using S = TypeParam;
@@ -121,7 +121,7 @@ std::string rigid(const std::string& place, const std::string& directors, const 
          "\nangular_velocity = " + omega + "\n";
 }
 
-/// With equal moments the metric is that of the matrix D of directors: the nearest rotation is the factor R of D = P R,
+/// With equal moments the metric is that of the matrix D of directors. The nearest rotation is the factor R of D = P R,
 /// P symmetric and positive definite. Here P = [[11, 1, 0], [1, 9, 0], [0, 0, 12]]/10.
 TYPED_TEST(Project, OfDirectorsIsTheirPolarFactor) {
   const Scene scene = this->projected(rigid(

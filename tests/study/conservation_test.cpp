@@ -36,7 +36,7 @@ TEST(Conservation, OfMoreNodesTakesThoseOfAutoOrTwiceAsMany) {
   EXPECT_EQ(after(circle(quartic_attraction), 3, Nodes::more).method.k, 6) << "of hbvm:auto";
 }
 
-/// H and L in units of their terms: p^2/(2 m) = 1 and U = 32, L = 16; g = q^2 - 64, whose displacements, of two
+/// H and L in units of their terms: p^2/(2 m) = 1 and U = 32, L = 16. g = q^2 - 64, whose displacements, of two
 /// coordinates up to 8, carry the round-off of positions of that size.
 TEST(Conservation, IsMeasuredInUnitsOfTheTerms) {
   const Conservation found = after(circle(well), 2, Nodes::s);

@@ -68,7 +68,7 @@ std::vector<HalvingRow> rows_of(const HalvingRequest& request, const std::string
   return halving_rows(request, runs, digits);
 }
 
-/// Units are of the size of what is measured at the end: on a circle of radius 8, turned by 1/2 with p = 1, the
+/// Units are of the size of what is measured at the end. On a circle of radius 8, turned by 1/2 with p = 1, the
 /// greatest coordinate is 8 cos(1/2), and that of p cos(1/2).
 TEST(StepHalving, MeasuresInUnitsOfTheSizes) {
   const Scene scene = read_scene(

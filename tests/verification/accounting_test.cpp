@@ -57,8 +57,8 @@ Account run(const std::string& text, int k, int s, const char* step = "1/16", co
   return account;
 }
 
-/// The account of so many sweeps over the stage equations, whatever they converge to; in quad, where products use the
-/// parity of the nodes however few there are.
+/// The account of so many sweeps over the stage equations, whatever they converge to. It is in quad, where products use
+/// the parity of the nodes however few there are.
 Account sweeps(const std::string& text, int k, int s, int count) {
   const auto scene = assemble<Quad>(read_scene(text, "test.toml"));
   const auto method = make_hbvm<Quad>(k, s);
@@ -294,8 +294,8 @@ TEST(Accounting, WithoutConstraintsNoConstraintRoutineIsEntered) {
   }
 }
 
-/// Force of one pair: r^2 takes d products and d - 1 sums, 1/r a root and a quotient, c/r^3 three products, its d
-/// components d more; x = a - b takes d differences, and the sum into both bodies d sums and d differences.
+/// Force of one pair: r^2 takes d products and d - 1 sums, 1/r a root and a quotient. c/r^3 takes three products, its d
+/// components d more. x = a - b takes d differences, and the sum into both bodies d sums and d differences.
 TEST(Accounting, APlanarForceWorksOnTwoCoordinates) {
   for (const int d : {2, 3}) {
     const Account account = sweeps(bodies(d, false) + effect(d, "mutual_gravity"), 3, 2, 5);
@@ -322,9 +322,9 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
     const auto expect = [&](const char* part, const Count& each) {
       expect_operations(line_of(account, part).operations, times, each, part);
     };
-    // Products with coefficients are sums over the even and over the odd polynomials, of which s = 2 has one each: half
-    // of the multiplications, and a sum and a difference for two mirrored nodes (of k = 3, one is the middle). The
-    // middle of the step is q0, its carry and half a displacement.
+    // Products with coefficients are sums over the even and over the odd polynomials, of which s = 2 has one each. That
+    // is half of the multiplications, and a sum and a difference for two mirrored nodes (of k = 3, one is the middle).
+    // The middle of the step is q0, its carry and half a displacement.
     expect("velocity coefficients h M^-1 gamma (48)", {.add = 2 * m, .multiply = s * d + s * m + m});
     expect("positions at constraint nodes (48)", {.add = m + s * m, .subtract = m, .multiply = s * m});
     expect("positions at quadrature nodes (48)", {.add = m + k * m, .subtract = m, .multiply = k * m});

@@ -58,8 +58,8 @@ int failures(std::vector<Claim> claims, const Perturbation& perturbation) {
   return static_cast<int>(claims.size()) - count(audit(claims, options), Verdict::holds);
 }
 
-/// One number of the method wrong by a relative 1e-11, 1e-16 or 1e-25, or with its sign flipped, is caught by the
-/// errors of one step, with the coefficients never looked at; and by the coefficients' conditions, too.
+/// One number of the method wrong by a relative 1e-11, 1e-16 or 1e-25, or with its sign flipped, is caught. The errors
+/// of one step catch it, with the coefficients never looked at. The coefficients' conditions catch it, too.
 class Teeth : public ::testing::TestWithParam<std::tuple<HbvmName, const char*>> {
  protected:
   void expect_caught(Perturbation::Part part, bool hat, int i, int j) {

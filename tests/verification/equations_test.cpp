@@ -32,8 +32,8 @@ struct Number {
   }
 };
 
-/// A line of the index: words one of which stands beside a citation, the name of a claim of the audit, and files that
-/// cite it.
+/// A line of the index. One of its words stands beside a citation. It also has the name of a claim of the audit, and
+/// files that cite it.
 struct Entry {
   std::vector<std::string> words;
   std::string claim;
@@ -186,7 +186,7 @@ const std::vector<Text>& texts() {
   return all;
 }
 
-/// A number alone may be a slip of the pen: beside it, in its line or the next on either side, is a word of what it is
+/// A number alone may be a slip of the pen. Beside it, in its line or the next on either side, is a word of what it is
 /// of.
 TEST(EquationIndex, KnowsAllThatTheSourcesCiteAndWhatItIsOf) {
   const auto index = read_index();

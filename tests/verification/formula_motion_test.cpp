@@ -117,8 +117,8 @@ TYPED_TEST(FormulaMotion, HasTheSameBitsInAllUnits) {
   }
 }
 
-/// Of g of degree d the sums over the nodes have terms of degree d s + s - 2: from r = (d s + s - 1)/2 on all r are one
-/// method but for rounding, and r = d s/2, which keeps g, is another.
+/// Of g of degree d the sums over the nodes have terms of degree d s + s - 2. From r = (d s + s - 1)/2 on all r are one
+/// method but for rounding. r = d s/2, which keeps g, is another.
 TYPED_TEST(FormulaMotion, OfAPolynomialDependsOnNoNodesBeyondItsDegree) {
   using S = TypeParam;
   const Assembled<S> quartic = assemble<S>(load_scene("bead_on_quartic")),
@@ -163,8 +163,8 @@ TYPED_TEST(FormulaMotion, KeepsAPolynomialWithAsManyNodesAsItTakes) {
     }
 }
 
-/// A point of a rigid body, whose weights are those of its place, on a surface by a formula: the same motion as by a
-/// rod, which is quadratic, at order 2s in all components.
+/// A point of a rigid body, whose weights are those of its place, on a surface by a formula. It has the same motion as
+/// by a rod, which is quadratic, at order 2s in all components.
 TEST(FormulaMotionOfARigidBody, IsThatOfTheSameRod) {
   const PrecisionScope digits(40);
   const std::string body = R"(dimension = 3

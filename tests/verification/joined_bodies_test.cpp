@@ -76,7 +76,7 @@ struct DoublePhysicalPendulum {
   }
 };
 
-/// The scene four_bar_linkage_of_bars by its one angle: H = M(x) x'^2/2 + V(x) is constant, so that the time from one
+/// The scene four_bar_linkage_of_bars by its one angle. H = M(x) x'^2/2 + V(x) is constant, so that the time from one
 /// angle to another is an integral, of sqrt(M/(2 (H - V))).
 struct FourBarOfBars {
   struct Position {
@@ -138,8 +138,8 @@ struct FourBarOfBars {
   }
 };
 
-/// The scene gyroscope_on_gimbal by Euler's angles: f of the outer ring about z, x of the inner one about its d1, y of
-/// the rotor about d3. p_f and p_y are constant:
+/// The scene gyroscope_on_gimbal by Euler's angles. They are f of the outer ring about z, x of the inner one about its
+/// d1, y of the rotor about d3. p_f and p_y are constant:
 ///
 ///     A x'' = (B'(x) f'^2)/2 - p_y f' sin x + m g l sin x,   f' = (p_f - p_y cos x)/B(x),   y' = p_y/C - f' cos x
 struct GyroscopeOnGimbal {

@@ -131,7 +131,7 @@ TEST(Layering, FoldersWithinFoldersFormNoCircle) {
   }
 }
 
-/// What is declared to the left is not defined to the right: the symbols that the object of a folder needs are defined
+/// What is declared to the left is not defined to the right. The symbols that the object of a folder needs are defined
 /// in folders that it may include.
 TEST(Layering, DefinitionsStandWhereTheirDeclarationsDo) {
   const std::string command = std::string("nm -A ") + HBVM_LIBRARIES;

@@ -23,7 +23,7 @@ inline std::string scene_file_text(const std::string& name) {
   return text.str();
 }
 
-/// A constrained problem as dense formulas in the working precision, written down a second time: it shares no code with
+/// A constrained problem as dense formulas in the working precision, written down a second time. It shares no code with
 /// problem/, only the paper. m coordinates, nu constraints g_a = q^T A q + b^T q + c.
 struct DenseModel {
   using Vec = Vector<Mpfr>;

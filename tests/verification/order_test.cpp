@@ -62,8 +62,8 @@ TEST(Energy, OfTheDoublePendulumIsKeptToRoundOff) {
   }
 }
 
-/// Orders of the double pendulum, a nonlinear witness of unequal masses and varying Gram matrix: maxima over the mesh
-/// points of the coarsest grid, even numbers of steps.
+/// Orders of the double pendulum, a nonlinear witness of unequal masses and varying Gram matrix. Errors are maxima over
+/// the mesh points of the coarsest grid, even numbers of steps.
 class DoublePendulumOrder : public ::testing::TestWithParam<int> {
  protected:
   struct Errors {

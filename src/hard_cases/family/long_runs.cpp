@@ -37,7 +37,7 @@ void add_long_runs(std::vector<HardCase>& cases, Collection collection) {
   }
   if (family.full()) {
     runs.push_back({"kepler", kepler, "1/32", "paper", 0, most});
-    // By parity of s, and for k = s and k > s; where U has degree 2 at most k > s is another way to the same method.
+    // By parity of s, and for k = s and k > s. Where U has degree 2 at most k > s is another way to the same method.
     for (const char* const method : {"hbvm:2,2", "hbvm:4,4", "hbvm:4,2", "hbvm:6,3"}) {
       runs.push_back({"double_pendulum", method, "1/32", "auto", 0, many});
       runs.push_back({"heavy_top", method, "1/32", "auto", 0, many});

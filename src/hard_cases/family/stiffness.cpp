@@ -9,9 +9,10 @@
 namespace hbvm::core {
 namespace {
 
-/// Accuracy, and the energy: with steps much longer than its period, a spring of stiffness k is stretched by what the
-/// chords of the motion differ from it, (h v)^2/2 with v^2 = 2 |H| for masses and lengths of 1, and holds half k times
-/// the square of that. On a wrong root of the stage equations the energy is greater by orders, in any number of digits.
+/// Accuracy, and the energy. With steps much longer than its period, a spring of stiffness k is stretched by what the
+/// chords of the motion differ from it. That is (h v)^2/2 with v^2 = 2 |H| for masses and lengths of 1. The spring
+/// holds half k times the square of that. On a wrong root of the stage equations the energy is greater by orders, in
+/// any number of digits.
 CaseResult on_the_right_root(const RunRequest& request) {
   CaseResult result = accuracy(request);
   if (!result.failure.empty()) return result;

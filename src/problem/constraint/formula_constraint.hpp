@@ -18,7 +18,7 @@ template <Scalar S>
 struct FormulaConstraint {
   EffectTerm<S> term;
 
-  /// Of g as a polynomial in q; Trace::not_polynomial if it is none.
+  /// The degree of g as a polynomial in q; Trace::not_polynomial if it is none.
   int degree() const { return term.degree; }
 
   std::set<Index> coordinates(Index dimension) const {

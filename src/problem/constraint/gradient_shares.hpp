@@ -9,7 +9,7 @@
 
 namespace hbvm::core {
 
-/// How derivatives by displacements spread over the coordinates that these are made of: columns of a gradient as
+/// How derivatives by displacements spread over the coordinates that these are made of. Columns of a gradient are
 /// weighted sums of the components of a vector x, and of another y.
 template <Scalar S>
 class GradientShares {
@@ -52,7 +52,7 @@ class GradientShares {
     }
   }
 
-  /// Of spread(), in one lane.
+  /// The operations of spread() in one lane.
   OperationCounts operations() const {
     OperationCounts counts;
     for (const Share& share : shares_) {

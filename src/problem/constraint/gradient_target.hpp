@@ -4,8 +4,9 @@
 
 namespace hbvm::core {
 
-/// Where the gradient of one constraint goes, in all lanes: a column for each of its coordinates, ascending; and g, if
-/// it is not null. x, y (lanes x dimension) and t are scratch. Count is the type of the number of lanes, as of Lanes.
+/// The place for the gradient of one constraint, in all lanes: a column for each of its coordinates, ascending. g has a
+/// place, too, if it is not null. x, y (lanes x dimension) and t are scratch. Count is the type of the number of lanes,
+/// as of Lanes.
 template <Scalar S, class Count = Index>
 struct GradientTarget {
   Count lanes;

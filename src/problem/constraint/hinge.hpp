@@ -11,8 +11,8 @@
 namespace hbvm::core {
 
 /// A hinge of two rigid bodies, or of one in space: a common point, and a common direction n, fixed in both. With unit
-/// vectors e, f of the second that span the plane across its n, the latter is n.e = 0 and n.f = 0: two independent g,
-/// whose multipliers are torques, where parallel vectors would be three dependent ones.
+/// vectors e, f of the second that span the plane across its n, the latter is n.e = 0 and n.f = 0. These are two
+/// independent g, whose multipliers are torques, where parallel vectors would be three dependent ones.
 template <Scalar S>
 struct Hinge {
   static constexpr std::string_view kind = "hinge";

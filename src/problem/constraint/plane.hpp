@@ -10,7 +10,7 @@
 
 namespace hbvm::core {
 
-/// g = n.q - offset for the coordinates q of one body, or of the blocks that a point of a rigid body is a sum of:
+/// g = n.q - offset for the coordinates q of one body, or of the blocks that a point of a rigid body is a sum of. It is
 /// linear, so that its gradient is written once.
 template <Scalar S>
 struct Plane {

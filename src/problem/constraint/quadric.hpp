@@ -6,8 +6,8 @@
 
 namespace hbvm::core {
 
-/// g = x^T A x + b^T x + c for the coordinates x of one body, or of several, or of the blocks that a point of a rigid
-/// body is a sum of, A symmetric.
+/// g = x^T A x + b^T x + c with A symmetric. The coordinates x are those of one body, of several, or of the blocks that
+/// a point of a rigid body is a sum of.
 template <Scalar S>
 struct Quadric {
   std::vector<Index> blocks;  ///< where each body's, or director's, coordinates begin, ascending

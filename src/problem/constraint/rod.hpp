@@ -10,8 +10,8 @@
 
 namespace hbvm::core {
 
-/// g = |x|^2 - square for a displacement x: the distance of two bodies, of a body and a fixed point, or the length of a
-/// director of a rigid body.
+/// g = |x|^2 - square for a displacement x. That is the distance of two bodies, of a body and a fixed point, or the
+/// length of a director of a rigid body.
 template <Scalar S>
 struct Rod {
   Displacement<S> x;

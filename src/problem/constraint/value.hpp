@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// How far from 0, over the size of its terms, a constraint may be that a scene fulfils: each term is a product of up
-/// to three numbers, each an expression of some operations with a rounding each, which 64 units leave room for.
+/// How far from 0, over the size of its terms, a constraint may be that a scene fulfils. Each term is a product of up
+/// to three numbers, each an expression of some operations with a rounding each. 64 units leave room for that.
 template <Scalar S>
 S consistency_tolerance() {
   return S(64) * epsilon<S>();

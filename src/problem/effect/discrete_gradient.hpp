@@ -14,9 +14,9 @@ namespace hbvm::core {
 ///     D(atan a) = 4 c0 c1 atanc((b1 - b0)/(1 + b0 b1)) Da / (1 + b0 b1)^2,  c = 1/(1 + sqrt(1 + a^2)), b = a c,
 ///
 /// and so on, am = (a0 + a1)/2, d = (a1 - a0)/2: nothing is divided by a difference that may vanish, and no digits
-/// cancel. Since |x|^2 has the quotient x0 + x1, DU of a central effect lies along the mean displacement and is
-/// Gonzalez' quotient of U as a function of |x|^2; of an axial one it is in the plane of that and the axis. So it keeps
-/// what rotations keep.
+/// cancel. |x|^2 has the quotient x0 + x1. So DU of a central effect lies along the mean displacement, and is Gonzalez'
+/// quotient of U as a function of |x|^2. Of an axial effect it is in the plane of that and the axis. So it keeps what
+/// rotations keep.
 template <Scalar S>
 struct DiscreteGradient {
   Program<S> program;      ///< as many outputs as U has inputs, from x0, x1 (twice as many) and the coefficients

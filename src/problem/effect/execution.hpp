@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// A program of an effect with the registers to run it for all its bodies or pairs at once, in `lanes` lanes each:
-/// instance after instance, as the displacements stand that it reads.
+/// A program of an effect with the registers to run it for all its bodies or pairs at once, in `lanes` lanes each.
+/// Instances come one after another, as the displacements stand that it reads.
 template <Scalar S>
 class Execution {
  public:

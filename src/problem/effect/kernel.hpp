@@ -19,9 +19,9 @@ struct KernelSite {
   const double* coefficients = nullptr;
 };
 
-/// A program in double that was compiled with the library: interpreting costs about as much as the arithmetic there,
-/// in more digits it is lost in it. The kernels are printed by effect_kernels from the same traces that are interpreted
-/// elsewhere, and do the same operations in the same order.
+/// A program in double that was compiled with the library. Interpreting costs about as much as the arithmetic in
+/// double, and next to nothing in more digits. The kernels are printed by effect_kernels from the same traces that are
+/// interpreted elsewhere, and do the same operations in the same order.
 struct Kernel {
   std::string_view code;  ///< text of the program it was made from
   /// force += dU/dx of every site in every lane, for one effect after the other if the program is of several.
@@ -30,9 +30,9 @@ struct Kernel {
 
 /// The program as C++ statements that read x[0 .. dimension) and the coefficients c[...], and write g[...].
 std::string cpp_text(const Program<double>& program, Index dimension);
-/// The same for all lanes, in loops of which one calls a function for each lane, as a sine, and the next takes several
-/// lanes at a time: x_of(i, x) gives the displacement in lane i, add(i, g) takes the gradient, t[n][i] is scratch for
-/// each temporary. Empty if no function is called, or one of a number that is no temporary.
+/// The same for all lanes, in loops. One calls a function for each lane, as a sine, and the next takes several lanes at
+/// a time. x_of(i, x) gives the displacement in lane i, add(i, g) takes the gradient. t[n][i] is scratch for each
+/// temporary. Empty if no function is called, or one of a number that is no temporary.
 std::string cpp_steps(const Program<double>& program, Index dimension);
 
 /// The kernel of this program; none if it was not compiled, as for a rare exponent.

@@ -19,8 +19,8 @@ template <class Count, class F>
 }
 
 /// For a formula with its dimension d, a number of effects, and a static gradient(x, c, g) that writes d numbers for
-/// each: add(i, g) in every lane, where x_of(i, x) gives x. If it can be done in steps, several lanes are done at a
-/// time between what is called for each.
+/// each. It calls add(i, g) in every lane, where x_of(i, x) gives x. If it can be done in steps, several lanes are done
+/// at a time between what is called for each.
 template <class Formula, class Count, class XOf, class Add>
 [[gnu::always_inline]] inline void for_each_gradient(Count lanes, const double* c, XOf x_of, Add add) {
   if constexpr (requires { Formula::temporaries; } && !is_constant_count<Count>) {

@@ -6,8 +6,8 @@
 
 namespace hbvm::core {
 
-/// The J2 term of an oblate centre's field, without its monopole (see central_gravity): with the sine z = axis.x/r of
-/// the latitude, U = -strength m J2 radius^2 (3 z^2 - 1) / (2 r^3). The axis may have any length.
+/// The J2 term of an oblate centre's field, without its monopole (see central_gravity). With the sine z = axis.x/r of
+/// the latitude it is U = -strength m J2 radius^2 (3 z^2 - 1) / (2 r^3). The axis may have any length.
 struct Oblateness {
   static constexpr std::string_view kind = "oblateness";
   static constexpr Acts acts = Acts::about_a_center;

@@ -47,7 +47,7 @@ class Program {
   bool is_constant(std::size_t i) const { return outputs_[i].bank == Bank::constant; }
   /// Operations per lane.
   OperationCounts operations() const { return operations(0, instructions_.size()); }
-  /// Those of the instructions [first, end).
+  /// Operations per lane of the instructions [first, end).
   OperationCounts operations(std::size_t first, std::size_t end) const;
 
   /// registers: lanes x temporaries, from make_registers; inputs: one pointer to `lanes` numbers for each input.
@@ -60,10 +60,10 @@ class Program {
   /// Output i in one lane, after run().
   const S& output(std::size_t i, Index lane, const Matrix<S>& registers, const std::vector<const S*>& inputs) const;
 
-  /// What rounding makes of the outputs, in units of round-off and to first order: the sum of |z| |dy/dz| over all
-  /// numbers z that are computed on the way to y, and of sizes |dy/dx| over the inputs, whose own error `sizes` says.
-  /// It is the size to measure the round-off of y by where y is no sum of terms: of cos x - 1 near 0 it is 1.
-  /// (The accumulated error of Linnainmaa, BIT 16, 1976, by its forward recurrence.) One number for each input.
+  /// What rounding makes of the outputs, in units of round-off and to first order. It is the sum of |z| |dy/dz| over
+  /// all numbers z that are computed on the way to y. The inputs add sizes |dy/dx|, where `sizes` says their own error.
+  /// Where y is no sum of terms, this is the size to measure the round-off of y by. Of cos x - 1 near 0 it is 1. (The
+  /// accumulated error of Linnainmaa, BIT 16, 1976, by its forward recurrence.) One number for each input.
   std::vector<S> rounding_sizes(const std::vector<S>& inputs, const std::vector<S>& sizes) const;
 
  private:

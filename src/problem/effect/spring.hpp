@@ -7,10 +7,9 @@
 
 namespace hbvm::core {
 
-/// A spring, linear for exponent 2: U = -stiffness/exponent |r - rest_length|^exponent, exponent >= 2.
-/// With rest_length 0 and an even exponent U is a polynomial, and computed without a root. Its derivative is evaluated
-/// as it stands: not finite where ends meet without an even exponent, or at the rest length if the exponent is not
-/// whole.
+/// A spring, linear for exponent 2: U = -stiffness/exponent |r - rest_length|^exponent, exponent >= 2. With rest_length
+/// 0 and an even exponent U is a polynomial, and computed without a root. Its derivative is evaluated as it stands. It
+/// is not finite where ends meet without an even exponent, or at the rest length if the exponent is not whole.
 struct Spring {
   static constexpr std::string_view kind = "spring";
   static constexpr Acts acts = Acts::between_pairs;

@@ -8,7 +8,7 @@
 namespace hbvm::core {
 
 /// How one use of an effect depends on its displacements, one entry (or row) an instance. It is what the effect
-/// declares of its formula, so that no weakness of a force can hide it; of a formula in a scene it is computed.
+/// declares of its formula, so that no weakness of a force can hide it. Of a formula in a scene it is computed.
 template <Scalar S>
 struct EffectSymmetry {
   Symmetry kind = Symmetry::central;

@@ -10,8 +10,8 @@
 
 namespace hbvm::core {
 
-/// One effect as a scene uses it: a formula for the displacement of a body or pair, or for several positions, and all
-/// the bodies, pairs or groups it holds for. Made by make_term from the effect's one definition.
+/// One effect as a scene uses it. It has a formula for the displacement of a body or pair, or for several positions. It
+/// has all the bodies, pairs or groups that the formula holds for. Made by make_term from the effect's one definition.
 template <Scalar S>
 struct EffectTerm {
   std::string kind;
@@ -39,8 +39,8 @@ bool acts_alike(const EffectTerm<S>& x, const EffectTerm<S>& y) {
   return x.arguments == y.arguments && std::ranges::equal(x.displacements, y.displacements, is_same<S>);
 }
 
-/// All displacements of a term at q, as its programs read them: component i of an instance in lane l goes to
-/// out[i * stride + instance * lanes + l].
+/// All displacements of a term at q, as its programs read them. Component i of an instance in lane l goes to out[i *
+/// stride + instance * lanes + l].
 template <Scalar S>
 void displace(const EffectTerm<S>& term, Index dimension, Lanes<const S> q, S* out, Index stride) {
   for (Index n = 0; n < term.instances(); ++n)

@@ -71,8 +71,8 @@ typename Trace<S>::Id Trace<S>::multiply(Id a, Id b) {
     if (has_coefficient(b)) return multiply(multiply(a, nodes_[b].a), nodes_[b].b);
     if (is_constant(a, -1) && is(Op::subtract, b)) return subtract(nodes_[b].b, nodes_[b].a);
   } else {
-    // (c x) y = c (x y), so that coefficients meet; but not where y is affine in the inputs: those are the last
-    // products of a gradient, one for each component of a displacement, which share the factor c x.
+    // (c x) y = c (x y), so that coefficients meet. It is left as it is where y is affine in the inputs. Those are the
+    // last products of a gradient, one for each component of a displacement, which share the factor c x.
     if (has_coefficient(a) && (nodes_[b].degree > 1 || nodes_[b].degree < 0))
       return multiply(nodes_[a].a, multiply(nodes_[a].b, b));
     if (has_coefficient(b) && (nodes_[a].degree > 1 || nodes_[a].degree < 0))
@@ -264,7 +264,7 @@ class Trace<S>::Compiler {
     return inside;
   }
 
-  /// The order of the code: what does not wait for a transcendental function comes before it, so that in double a
+  /// The order of the code. What does not wait for a transcendental function comes before it, so that in double a
   /// division, say, overlaps the call.
   void find_order() {
     std::vector<int> calls(nodes_.size(), 0);

@@ -9,9 +9,9 @@
 
 namespace hbvm::core {
 
-/// A formula as a graph of operations, recorded by evaluating it once on Traced values. Equal operations are kept
-/// once, constants are folded, and constant factors move outwards, so that the Program compiled from it does what
-/// one would write by hand.
+/// A formula as a graph of operations, recorded by evaluating it once on Traced values. Equal operations are kept once,
+/// constants are folded, and constant factors move outwards. So the Program compiled from it does what one would write
+/// by hand.
 ///
 /// Leaves are inputs (what the formula is differentiated by), parameters (one value per body or pair, as a mass)
 /// and constants (the same for all).

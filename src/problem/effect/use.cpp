@@ -98,8 +98,8 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
   for (std::size_t i = 0; i < d * d; ++i) formal.mass_matrix.push_back(parameter());
   for (int i = 0; i < 2; ++i) formal.masses.push_back(parameter());
   for (int i = 0; i < 2; ++i) formal.charges.push_back(parameter());
-  // The keys' values are parameters, too: the code depends on them only where the formula asks for whole numbers, and
-  // on the zeros of vectors, so that one compiled kernel serves all values.
+  // The keys' values are parameters, too. The code depends on them only where the formula asks for whole numbers, and
+  // on the zeros of vectors. So one compiled kernel serves all values.
   for (const auto& [key, value] : use.numbers) {
     formal.numbers.emplace(key, parameter());
     if (const auto n = whole(value)) formal.whole_numbers.emplace(key, *n);

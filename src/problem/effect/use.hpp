@@ -6,8 +6,8 @@
 
 namespace hbvm::core {
 
-/// The numbers of one use of an effect: its keys, and for each body or pair its parameters in the order mass matrix
-/// (on_each_body only), masses (two for pairs, else one), charges (two, or one and the centre's).
+/// The numbers of one use of an effect. They are its keys, and for each body or pair its parameters. These come in the
+/// order mass matrix (on_each_body only), masses (two for pairs, else one), charges (two, or one and the centre's).
 template <Scalar S>
 struct EffectUse {
   std::string kind;

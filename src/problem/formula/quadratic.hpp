@@ -7,9 +7,9 @@
 
 namespace hbvm::core {
 
-/// The form that g is where its trace has a degree of 2 at most, its coefficients right to the last bit whatever
-/// cancels in the formula: |x|^2 - c for a sum x of positions with the weights 1 and -1 is a Rod, n.q - c of one body a
-/// Plane, and anything else a Quadric. No form if g is not quadratic. \param use of one instance
+/// The form that g is where its trace has a degree of 2 at most. Its coefficients are right to the last bit, whatever
+/// cancels in the formula. |x|^2 - c for a sum x of positions with the weights 1 and -1 is a Rod. n.q - c of one body
+/// is a Plane, and anything else a Quadric. No form if g is not quadratic. \param use of one instance
 template <Scalar S>
 std::optional<ConstraintForms<S>> quadratic_form(const FormulaUse<S>& use);
 

@@ -6,14 +6,14 @@
 namespace hbvm::core {
 
 /// The symmetry of a formula: equations for the motions of space (w, t), as EffectSymmetry::conditions has them, that
-/// keep all instances. A motion that moves the displacements by w x x_a + T_a t, x_a without its shift and T_a the sum
-/// of the weights of what translates, changes U by
+/// keep all instances. A motion moves the displacements by w x x_a + T_a t. There x_a is without its shift, and T_a is
+/// the sum of the weights of what translates. It changes U by
 ///
 ///     w . sum_a x_a x dU/dx_a + t . sum_a T_a dU/dx_a,
 ///
-/// which is evaluated at some points near q in so many digits that a part of U of 10^-300 beside another counts. A
-/// part that is far less there, such as a narrow bump far away, counts as well: it is evaluated once more with
-/// exponents near 0.
+/// which is evaluated at some points near q in so many digits that a part of U of 10^-300 beside another counts. A part
+/// that is far less there, such as a narrow bump far away, counts as well. It is evaluated once more with exponents
+/// near 0.
 /// \param blocks of the problem
 template <Scalar S>
 EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<SpaceBlock>& blocks, const Vector<S>& q);

@@ -52,7 +52,7 @@ EffectTerm<S> make_term(const FormulaUse<S>& use);
 template <Scalar S>
 void check_formula(const FormulaUse<S>& use, const EffectTerm<S>& term, const Vector<S>& q);
 
-/// The same in the digits of the scope, with nothing rounded.
+/// The use of the formula in the digits of the scope, with nothing rounded.
 template <Scalar S>
 FormulaUse<Mpfr> exactly(const FormulaUse<S>& use);
 

@@ -6,8 +6,8 @@
 
 namespace hbvm::core {
 
-/// Positions (or velocities, forces …) of all coordinates in several lanes, a lane being one node of a quadrature:
-/// coordinate j of lane i is data[j * count + i]. A matrix with a row a lane has this layout, and so has one vector,
+/// Positions (or velocities, forces …) of all coordinates in several lanes. A lane is one node of a quadrature.
+/// Coordinate j of lane i is data[j * count + i]. A matrix with a row a lane has this layout, and so has one vector,
 /// with a single lane. Their number may be a constant of type Count (with_constant_count).
 template <class T, class Count = Index>
 struct Lanes {

@@ -8,7 +8,7 @@ namespace hbvm::core {
 /// A set of complex numbers: a rectangle about a centre, by Arb's ball arithmetic, whose exponents have no bounds.
 class Ball {
  public:
-  /// What operations keep of a centre: bounds need no more.
+  /// The bits that operations keep of a centre: bounds need no more.
   static constexpr slong bits = 64;
 
   Ball() { acb_init(value_); }

@@ -174,8 +174,8 @@ bool BallProgram::turn(std::size_t i, const Ball& x, const Arc& arc, const char*
       }
     return fails(what);
   }
-  // It shares a point with the arc before, so that it is at most one quarter turn on; as far back as may be, if that is
-  // not decided.
+  // It shares a point with the arc before, so that it is at most one quarter turn on. If that is not decided, it is as
+  // far back as may be.
   if (std::abs(direction.first - direction.quarters) == 1 && lies(direction.first)) {
     direction.quarters = direction.first;
     return true;

@@ -11,34 +11,35 @@ namespace hbvm::core {
 /// A program of an effect evaluated over balls along a closed curve in complex time, on which its inputs are loops. It
 /// tells whether the outputs are analytic inside the curve, and how large they are on it.
 ///
-/// They are if no operation on the way meets a singularity inside: no 1/a a zero of a, no root or logarithm a zero of
-/// a, no tanh a a zero of cosh a, no atan a a zero of 1 + i a or 1 - i a, and no magnitude a zero of a. An analytic
-/// function has as many zeros inside a curve as it turns about 0 along it (the argument principle). Roots and
-/// logarithms are continued from arc to arc, so that they are of one branch. Values of degree 2 in the inputs, such as
-/// the square of a distance, are computed as loops, whose terms may cancel.
+/// They are analytic if no operation on the way meets a singularity inside. Then no 1/a meets a zero of a, no root or
+/// logarithm a zero of a, and no tanh a a zero of cosh a. No atan a meets a zero of 1 + i a or 1 - i a, and no
+/// magnitude a zero of a. An analytic function has as many zeros inside a curve as it turns about 0 along it (the
+/// argument principle). Roots and logarithms are continued from arc to arc, so that they are of one branch. Values of
+/// degree 2 in the inputs, such as the square of a distance, are computed as loops, whose terms may cancel.
 ///
 /// Far from where it matters exp(a) turns about 0 as often as Im a passes 2 pi, and yet has no zero. So values are kept
-/// as m exp(v), of which m alone is followed: 1/cosh(a), tanh(a) and 1/(c + exp(a)) are known to be analytic where Re a
-/// keeps its sign, however large a is.
+/// as m exp(v), of which m alone is followed. Then 1/cosh(a), tanh(a) and 1/(c + exp(a)) are known to be analytic where
+/// Re a keeps its sign, however large a is.
 class BallProgram {
  public:
   /// The first inputs vary; the others are numbers, `coefficients`.
   BallProgram(const Program<Mpfr>& program, Index inputs, const std::vector<const Mpfr*>& coefficients);
 
-  /// Whether all outputs are analytic inside the curve, and output i at most 2^log2_limits[i] on it: so are its Taylor
+  /// Whether all outputs are analytic inside the curve, and output i at most 2^log2_limits[i] on it. So are its Taylor
   /// or Legendre coefficients, by Cauchy's estimate. A curve for which it says no may only be too wide for its arcs.
   bool is_bounded(const std::vector<Loop>& inputs, const std::vector<double>& log2_limits);
   /// What was in the way the last time: "a division by 0", "a value that is too large".
   const std::string& obstacle() const { return obstacle_; }
 
  private:
-  /// Which way a number lies from 0 while its curve is followed, in quarter turns from the positive real axis: it is
+  /// Which way a number lies from 0 while its curve is followed, in quarter turns from the positive real axis. It is
   /// within one quarter turn of that direction.
   struct Direction {
     long quarters = 0, first = 0;
     const char* singularity = "";  ///< what 0 is
   };
-  /// Of a value m exp(v), whose m is its ball. That it has a v, and which, is decided where a curve begins.
+  /// The exponent v of a value m exp(v), whose m is its ball. Whether it has one, and which, is decided where a curve
+  /// begins.
   struct Exponent {
     bool there = false;
     int sign = 1;                  ///< v is this times `of`, if that is there

@@ -9,26 +9,26 @@
 
 namespace hbvm::core {
 
-/// Looks at the forces between the points at which a step knows them. Along a closed curve about the step in complex
-/// time, on which positions are polynomials, each force must be analytic inside and not much larger than what the step
-/// is made of: then the part of its series that the step leaves out is bounded by Cauchy's estimate. A force of short
+/// Looks at the forces between the points at which a step knows them. On a closed curve about the step in complex time
+/// positions are polynomials. Each force must be analytic inside, and on the curve not much larger than what the step
+/// is made of. Then the part of its series that the step leaves out is bounded by Cauchy's estimate. A force of short
 /// range that no point of a step feels is huge there, or singular.
 class ForceBounds {
  public:
   /// The problem must outlive it.
   explicit ForceBounds(const Problem<Mpfr>& problem);
 
-  /// Of the step that starts at this state.
+  /// Begins with the step that starts at this state.
   void start(const Vector<Mpfr>& q, const Vector<Mpfr>& p);
   /// The input of a force along the curve. Forces are the instances of the effects, one after another, and then the
   /// constraints by formulas.
   using LoopOf = std::function<Loop(std::size_t force, Index input)>;
-  /// Whether along the curve, for a step of length 2^log2_h, each force changes momenta by at most 2^allowed_bits times
-  /// what they consist of, body by body, and each formula's gradient is as much larger than at the start at most.
+  /// Whether along the curve each force changes momenta by at most 2^allowed_bits times what they consist of, body by
+  /// body. The step has the length 2^log2_h. Each formula's gradient, too, may be as much larger than at the start.
   bool hold(double log2_h, const LoopOf& loop);
   /// log2 of what each block's momentum consists of: itself, and what forces do to it in so long a time.
   std::vector<double> scales(double log2_h) const;
-  /// What was in the way: "effect 'formula': a division by 0".
+  /// Why hold() was false: "effect 'formula': a division by 0".
   std::string obstacle() const;
 
   static constexpr double allowed_bits = 8;

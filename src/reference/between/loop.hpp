@@ -9,8 +9,8 @@
 
 namespace hbvm::core {
 
-/// What a polynomial in time is on a closed curve in complex time: on a circle about a step's start, or on an ellipse
-/// about the step. Both are sums over an angle,
+/// What a polynomial in time is on a closed curve in complex time. The curve is a circle about a step's start, or an
+/// ellipse about the step. Both are sums over an angle,
 ///
 ///     x(theta) = sum_n a_n exp(i n theta),  a_n real,
 ///
@@ -44,8 +44,8 @@ class LoopEnclosure {
  public:
   explicit LoopEnclosure(const Loop& loop);
 
-  /// A ball that holds x on the arc of `half_width` radians to both sides of the angle with exp(i theta) = `at`: by
-  /// Taylor's formula about the middle, whose remainder sum |a_n| |n|^d / d! bounds.
+  /// A ball that holds x on the arc of `half_width` radians to both sides of the angle with exp(i theta) = `at`. It is
+  /// found by Taylor's formula about the middle. The remainder is what sum |a_n| |n|^d / d! bounds.
   void enclose(const std::complex<double>& at, double half_width, Ball& out) const;
 
  private:

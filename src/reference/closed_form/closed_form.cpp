@@ -56,7 +56,7 @@ ExactPoint ClosedForm::at(const Mpfr& t) const {
 std::unique_ptr<ClosedForm> closed_form_of(const Assembled<Mpfr>& scene) {
   if (!scene.problem.redundant.empty()) return nullptr;
   const Mpfr round_off = epsilon<Mpfr>();
-  // A quantity of the size of round-off is squared, and its square is the difference of others: three times the digits
+  // A quantity of the size of round-off is squared, and its square is the difference of others. Three times the digits
   // leave all of its own. So is the least number of the start, where two roots that differ by its square may have half
   // of the digits. The rest is for long times.
   constexpr double rest = 40, most = 20'000;

@@ -13,7 +13,7 @@ struct ExactPoint {
 };
 
 /// A motion that is known in closed form, from its start on. It computes with more digits than it was made with, so
-/// that what cancels in a formula is not missed: at() gives the motion from the start as it was rounded, to the last
+/// that what cancels in a formula is not missed. at() gives the motion from the start as it was rounded, to the last
 /// digits of the scope.
 class ClosedForm {
  public:
@@ -21,7 +21,7 @@ class ClosedForm {
 
   /// What it solves and by what: "simple pendulum (Jacobi's elliptic functions)".
   virtual std::string name() const = 0;
-  /// At any time, before the start as well.
+  /// The motion at any time, before the start as well.
   /// \throws IntegrationError where the motion has ended
   ExactPoint at(const Mpfr& t) const;
   /// Digits it computes with.
@@ -31,7 +31,7 @@ class ClosedForm {
   struct State {
     Vector<Mpfr> q, p;
   };
-  /// In the digits of the scope. The problem must outlive it.
+  /// Computes in the digits of the scope. The problem must outlive it.
   explicit ClosedForm(const Problem<Mpfr>& problem) : problem_(problem), digits_(Mpfr::thread_default_precision()) {}
   const Problem<Mpfr>& problem() const { return problem_; }
 

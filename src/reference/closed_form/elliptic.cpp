@@ -14,14 +14,14 @@ namespace {
 /// Rounds in which the digits have doubled to all there are, and some for rounding.
 double doublings_of_digits() { return std::log2(static_cast<double>(significand_bits<Mpfr>())) + 4; }
 
-/// Rounds of the arithmetic-geometric mean of 1 and b, 0 < b <= 1: each halves log(a/b), and from a <= 2 b on c/a is
+/// Rounds of the arithmetic-geometric mean of 1 and b, 0 < b <= 1. Each halves log(a/b), and from a <= 2 b on c/a is
 /// less than its square before.
 double rounds_of_mean(const Mpfr& b) {
   return std::log2(2 + std::abs(static_cast<double>(binary_exponent(b)))) + doublings_of_digits();
 }
 
-/// Rounds of a duplication of x, y and z: each divides by 4 what lies `far` from the mean, and lambda is at least the
-/// second greatest of them, so that after the first round none is less than a quarter of that.
+/// Rounds of a duplication of x, y and z. Each divides by 4 what lies `far` from the mean, and lambda is at least the
+/// second greatest of them. So after the first round none is less than a quarter of that.
 /// \throws IntegrationError if two of them are 0
 double rounds_of_duplication(const Mpfr& far, const Mpfr& end, const Mpfr& x, const Mpfr& y, const Mpfr& z) {
   const Mpfr second = std::max(std::min(x, y), std::min(std::max(x, y), z));

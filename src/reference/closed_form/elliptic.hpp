@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// Elliptic functions and integrals in the digits of the scope. They take the parameter m = kappa^2 and, as it cannot
-/// be had from m without loss where m is near 1, its complement m1 = 1 - m.
+/// Elliptic functions and integrals in the digits of the scope. They take the parameter m = kappa^2 and its complement
+/// m1 = 1 - m, which cannot be had from m without loss where m is near 1.
 
 /// Jacobi's functions at u, of any parameter m >= 0.
 struct JacobiFunctions {
@@ -54,8 +54,8 @@ class EllipticThird {
   Mpfr n_, n1_, m1_, complete_;
 };
 
-/// Stumpff's functions c_1, c_2, c_3 of x, positive or not, with c_0 = cos sqrt x:
-/// c_k(x) = sum_j (-x)^j / (k + 2 j)!, so that c_1 = sin(sqrt x)/sqrt x.
+/// Stumpff's functions c_1, c_2, c_3 of x, positive or not, with c_0 = cos sqrt x. c_k(x) = sum_j (-x)^j / (k + 2 j)!,
+/// so that c_1 = sin(sqrt x)/sqrt x.
 struct StumpffFunctions {
   Mpfr c0, c1, c2, c3;
 };

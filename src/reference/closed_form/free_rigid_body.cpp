@@ -4,8 +4,8 @@
 namespace hbvm::core {
 namespace {
 
-/// Euler's equations (Landau and Lifshitz, Mechanics, 37): with moments I_1, I_2, I_3 in ascending order where L^2 > 2
-/// T I_2, else in descending order, and D = 2 T I_3 - L^2, the angular momentum is in the principal axes
+/// Euler's equations (Landau and Lifshitz, Mechanics, 37). The moments I_1, I_2, I_3 are in ascending order where L^2 >
+/// 2 T I_2, else in descending order. With D = 2 T I_3 - L^2 the angular momentum is in the principal axes
 ///
 ///     L_1 = sqrt(I_1 D/(I_3 - I_1)) cn,  L_2 = sqrt(I_2 D/(I_3 - I_2)) sn,  L_3 = sqrt(I_3 (L^2 - 2 T I_1)/(I_3 -
 ///     I_1)) dn

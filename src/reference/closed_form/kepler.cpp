@@ -10,9 +10,9 @@
 namespace hbvm::core {
 namespace {
 
-/// x'' = -mu x/|x|^3 of a body about a centre or of one body from another, mu > 0 or < 0, in the universal variable
-/// s' = 1/r (Danby, Fundamentals of Celestial Mechanics, 1992, chapter 6): with alpha = 2 mu/r_0 - v_0^2, eta = x_0 v_0
-/// and Stumpff's c_k of alpha s^2,
+/// x'' = -mu x/|x|^3 of a body about a centre or of one body from another, mu > 0 or < 0. It is solved in the universal
+/// variable s' = 1/r (Danby, Fundamentals of Celestial Mechanics, 1992, chapter 6). With alpha = 2 mu/r_0 - v_0^2, eta
+/// = x_0 v_0 and Stumpff's c_k of alpha s^2,
 ///
 ///     t = r_0 s c_1 + eta s^2 c_2 + mu s^3 c_3,   r = r_0 c_0 + eta s c_1 + mu s^2 c_2
 ///

@@ -5,8 +5,8 @@
 namespace hbvm::core {
 namespace {
 
-/// M q'' = f + A (q - q_0), A = d2U/dq2 constant, without constraints: with M = L L^T and the eigenvectors of L^-1 A
-/// L^-T as columns of Q, eta = Q^T L^T (q - q_0) fulfils eta'' = phi + mu eta, one by one, so that
+/// M q'' = f + A (q - q_0), A = d2U/dq2 constant, without constraints. Let M = L L^T and let the eigenvectors of L^-1 A
+/// L^-T be the columns of Q. Then eta = Q^T L^T (q - q_0) fulfils eta'' = phi + mu eta, one by one, so that
 ///
 ///     eta = eta'_0 t c_1 + phi t^2 c_2,   eta' = eta'_0 c_0 + phi t c_1,   c_k of -mu t^2
 ///

@@ -32,9 +32,9 @@ class CircularMotion : public ClosedForm {
 };
 
 /// In the plane of two unit vectors, `down` along the force and `across`: with theta from down, theta'' = -omega^2 sin
-/// theta. S = sin(theta/2), C = theta'/(2 omega) and D = cos(theta/2) are kappa sn, kappa cn and dn of omega t + u_0
-/// with kappa^2 = S^2 + C^2, which is below 1 if the pendulum swings and above 1 if it turns round. It is
-/// 1/4 in the paper's (58)-(60).
+/// theta. S = sin(theta/2), C = theta'/(2 omega) and D = cos(theta/2) are kappa sn, kappa cn and dn of omega t + u_0.
+/// kappa^2 = S^2 + C^2 is below 1 if the pendulum swings and above 1 if it turns round. It is 1/4 in the paper's
+/// (58)-(60).
 class Pendulum : public ClosedForm {
  public:
   Pendulum(const Recognition& content, const OnSphere& sphere, const Vector<Mpfr>& down, const Vector<Mpfr>& across,

@@ -63,8 +63,8 @@ std::unique_ptr<ClosedForm> spherical_pendulum_of(const Recognition& content);
 std::unique_ptr<ClosedForm> free_rigid_body_of(const Recognition& content);
 std::unique_ptr<ClosedForm> symmetric_top_of(const Recognition& content);
 
-/// In space, a unit vector across the force in the plane in which a pendulum stays; none if it leaves every plane, by
-/// more than rounding.
+/// In space, a unit vector across the force in the plane in which a pendulum stays. There is none if it leaves every
+/// plane by more than rounding.
 std::optional<Vector<Mpfr>> plane_of_motion(const Recognition& content, const OnSphere& sphere,
                                             const Vector<Mpfr>& down);
 

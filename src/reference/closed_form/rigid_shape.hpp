@@ -4,9 +4,9 @@
 
 namespace hbvm::core {
 
-/// A scene in space all of which moves like one rigid body, whatever its coordinates are: points joined by rods, or a
-/// reference point and directors. Every constraint is kept by all rotations (about the pivot, if a point is held), and
-/// there are so many that no other motion is left; the mass matrix consists of multiples of the 3 x 3 identity.
+/// A scene in space all of which moves like one rigid body. Its coordinates may be points joined by rods, or a
+/// reference point and directors. Every constraint is kept by all rotations (about the pivot, if a point is held).
+/// There are so many that no other motion is left. The mass matrix consists of multiples of the 3 x 3 identity.
 struct RigidShape {
   /// The coordinates, three by three: those of a point, which translate with the body, and those of a director.
   struct Block {

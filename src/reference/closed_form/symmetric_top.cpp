@@ -4,9 +4,9 @@
 namespace hbvm::core {
 namespace {
 
-/// Lagrange's top (Whittaker, Analytical Dynamics, 71): held at a point of its axis, with I_1 = I_2, under a constant
-/// force that has the moment W in the distance of the axis' unit vector. With z the height of that vector, h the
-/// angular momentum about the vertical, c that about the axis and E the energy without c^2/(2 I_3),
+/// Lagrange's top (Whittaker, Analytical Dynamics, 71). It is held at a point of its axis, with I_1 = I_2. A constant
+/// force has the moment W in the distance of the axis' unit vector. Let z be the height of that vector, h the angular
+/// momentum about the vertical and c that about the axis. With the energy E without c^2/(2 I_3),
 ///
 ///     z'^2 = 2/I_1 (E - W z)(1 - z^2) - (h - c z)^2/I_1^2,
 ///

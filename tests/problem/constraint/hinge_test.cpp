@@ -44,8 +44,8 @@ class HingeTest : public ::testing::Test {
 };
 TYPED_TEST_SUITE(HingeTest, AllScalars, ScalarNames);
 
-/// Both g are 0 where the axes are parallel, however the bodies are turned about them; with unit vectors e and f of the
-/// second body across its axis the squares of g add up to that of the sine of the angle between the axes.
+/// Both g are 0 where the axes are parallel, however the bodies are turned about them. The unit vectors e and f of the
+/// second body are across its axis. The squares of g add up to that of the sine of the angle between the axes.
 TYPED_TEST(HingeTest, TellsTheAngleBetweenTheAxes) {
   using S = TypeParam;
   for (const auto& second : {this->vector(0, 0, 1), this->vector(0, -2, 0), this->vector(5, 0, 0),

@@ -97,7 +97,7 @@ TYPED_TEST(DiscreteGradients, AreTheGradientWhereTheyMeetAndSymmetric) {
   }
 }
 
-/// Half of the digits of the points agree, and all of those of the forces are right: to second order they are those of
+/// Half of the digits of the points agree, and all of those of the forces are right. To second order they are those of
 /// the middle.
 TYPED_TEST(DiscreteGradients, LoseNoDigitsBetweenNeighbours) {
   using S = TypeParam;

@@ -66,7 +66,7 @@ TYPED_TEST(JointProgramTest, HasTheOutputsOfEachAfterItsInstructions) {
   }
 }
 
-/// Distance and reciprocal are the first one's: the second adds a sine, its product with the reciprocal, that with the
+/// Distance and reciprocal are the first one's. The second adds a sine, its product with the reciprocal, that with the
 /// coefficient, and one for each component. The third has nothing in common with them.
 TYPED_TEST(JointProgramTest, ComputesOnceWhatTheyHaveInCommon) {
   using S = TypeParam;

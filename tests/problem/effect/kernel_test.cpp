@@ -136,7 +136,7 @@ TEST(Kernel, StepsAreWhatIsBetweenTheCallsOfFunctions) {
   EXPECT_EQ(count(power, "add(i, g)"), 1);
 }
 
-/// Fields of one centre are computed together, one effect after the other as each alone, to the last bit; with a time
+/// Fields of one centre are computed together, one effect after the other as each alone, to the last bit. With a time
 /// for each they are done apart.
 TEST(Kernel, FieldsOfOneCentreHaveOneTogether) {
   for (const Index d : {2, 3})

@@ -134,8 +134,8 @@ TYPED_TEST(ProgramTest, OutputsComeFromEveryBank) {
   }
 }
 
-/// Straight-line code whose inputs are wrong by up to half a unit, with every number rounded on the way, against itself
-/// in twice the digits with the exact inputs.
+/// Straight-line code with every number rounded on the way, and inputs that are wrong by up to half a unit. It is held
+/// against itself in twice the digits with the exact inputs.
 template <Scalar S>
 class RoundingBound {
  public:

@@ -10,7 +10,7 @@
 namespace hbvm::core {
 
 /// A number with its first and second derivatives by some variables, for formulas evaluated forwards by the rules of
-/// the second order: what a trace, which is differentiated backwards, is held against.
+/// the second order. A trace, which is differentiated backwards, is held against it.
 template <class S>
 struct Jet {
   using Row = std::vector<S>;
@@ -65,8 +65,8 @@ struct Jet {
   }
 };
 
-/// A random formula of the variables that are named, with values and derivatives for all of moderate size: its text as
-/// a scene has it, and its value by another evaluator.
+/// A random formula of the variables that are named, with values and derivatives for all of moderate size. It has its
+/// text as a scene has it, and its value by another evaluator.
 class RandomFormula {
  public:
   template <Scalar S>

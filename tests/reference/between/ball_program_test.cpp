@@ -88,7 +88,7 @@ TEST(BallProgram, BoundsValues) {
   expect_size({[](const Value& x) { return x * x * x - 2 * x; }, "1"}, 1, 2, "a polynomial");
 }
 
-/// sqrt(e^x) is e^(x/2) on all the curve, and log(e^x) is x, where e^x turns more than once and back: roots and
+/// sqrt(e^x) is e^(x/2) on all the curve, and log(e^x) is x, where e^x turns more than once and back. Roots and
 /// logarithms of principal branches would jump.
 TEST(BallProgram, ContinuesBranches) {
   OnCircles root([](const Value& x) { return sqrt(exp(x)) - exp(x / 2); }, "0");
@@ -110,7 +110,7 @@ TEST(BallProgram, SeesABumpBesideTheCurve) {
 }
 
 /// Steep functions are analytic up to the line of poles beside the real axis, though exp turns thousands of times on
-/// such circles; and not beyond.
+/// such circles. They are not beyond.
 TEST(BallProgram, SeesSteepWallsFromAfar) {
   const double pole = std::hypot(1, 1e-5 * std::numbers::pi / 2), double_pole = std::hypot(1, 1e-5 * std::numbers::pi);
   for (const char* side : {"1", "-1"}) {

@@ -51,7 +51,7 @@ TEST(ForceBounds, HoldForWhatTheStartShows) {
   EXPECT_TRUE(Oscillator(" - y^4/4").hold(1, 5));
 }
 
-/// What is felt nowhere near the start is seen by a circle that comes near it, be it as weak as it may: an entire bump
+/// What is felt nowhere near the start is seen by a circle that comes near it, be it as weak as it may. An entire bump
 /// is huge at imaginary distances.
 TEST(ForceBounds, SeeWhatTheStartDoesNotFeel) {
   for (const char* height : {"1/4", "1e-9", "1e-25"})

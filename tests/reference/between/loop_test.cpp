@@ -32,7 +32,7 @@ double radius(const Ball& ball) {
   return result;
 }
 
-/// exp on the circle of radius 3, from its series in a unit of 1/2: each arc's ball holds the values on the arc, also
+/// exp on the circle of radius 3, from its series in a unit of 1/2. Each arc's ball holds the values on the arc, also
 /// at its ends, and is not much wider than they are.
 TEST(Loop, EnclosesASeriesOnACircle) {
   const PrecisionScope scope(40);
@@ -57,8 +57,8 @@ TEST(Loop, EnclosesASeriesOnACircle) {
     }
 }
 
-/// A polynomial in Legendre form on an ellipse: real beyond both ends of the step, where Legendre polynomials say what
-/// it is, and at w = i the value at 1/2 + i (rho - 1/rho)/4.
+/// A polynomial in Legendre form on an ellipse. It is real beyond both ends of the step, where Legendre polynomials say
+/// what it is. At w = i it has the value at 1/2 + i (rho - 1/rho)/4.
 TEST(Loop, EnclosesAStepOnAnEllipse) {
   const PrecisionScope scope(40);
   const std::vector<Mpfr> y{literal<Mpfr>("3/2"), literal<Mpfr>("-1/3"), literal<Mpfr>("1/50"),

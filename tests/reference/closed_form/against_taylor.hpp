@@ -60,8 +60,8 @@ inline std::string pendulum_scene(Fractions& random, int dimension, const std::s
          "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = " + gravity + "\n";
 }
 
-/// The scene has a closed form of this name, and that is where the Taylor series are at these times, but for what
-/// rounding leaves: `lost` digits.
+/// The scene has a closed form of this name. That is where the Taylor series are at these times, but for what rounding
+/// leaves: `lost` digits.
 inline void expect_follows_taylor(const std::string& toml, const std::string& name,
                                   const std::vector<const char*>& times, unsigned digits = 40, int lost = 8) {
   const PrecisionScope scope(digits);

@@ -69,8 +69,8 @@ TEST_F(Jacobi, SquaresSumToOne) {
     }
 }
 
-/// sn(u + v) = (sn u cn v dn v + sn v cn u dn u) / (1 - kappa^2 sn^2 u sn^2 v) and its like, Abramowitz and
-/// Stegun 16.17.
+/// sn(u + v) = (sn u cn v dn v + sn v cn u dn u) / (1 - kappa^2 sn^2 u sn^2 v) and its like. See Abramowitz and Stegun
+/// 16.17.
 TEST_F(Jacobi, FulfilAdditionTheorem) {
   for (const Mpfr& u : arguments)
     for (const Mpfr& v : arguments)
@@ -161,8 +161,8 @@ TEST_F(Jacobi, AmplitudeGrowsWithItsArgument) {
   }
 }
 
-/// Boost has them in double; and in all digits the duplication theorem, by which they were not computed last, holds for
-/// any arguments: R_F(x) is homogeneous of degree -1/2, R_J of degree -3/2, and R_J(x, x, x, x) = x^(-3/2).
+/// Boost has them in double. In all digits the duplication theorem, by which they were not computed last, holds for any
+/// arguments. R_F(x) is homogeneous of degree -1/2, R_J of degree -3/2, and R_J(x, x, x, x) = x^(-3/2).
 TEST_F(Jacobi, CarlsonsIntegrals) {
   const char* const arguments_of[][4] = {{"1", "2", "3", "4"},
                                          {"0", "1", "2", "1e-3"},

@@ -34,8 +34,8 @@ TEST(FreeRigidBody, TurnsAboutItsPrincipalAxes) {
     }
 }
 
-/// Directors that are the axes, and a body that turns about one of them: about the middle one, where the modulus is 1,
-/// and beside it by less than any digit.
+/// Directors that are the axes, and a body that turns about one of them. It turns about the middle one, where the
+/// modulus is 1, and beside it by less than any digit.
 TEST(FreeRigidBody, TurnsSteadilyAboutEachAxis) {
   RigidScene scene;
   scene.directors = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
