@@ -41,7 +41,7 @@ struct RunResult {
 };
 
 struct RunHooks {
-  std::ostream* trajectory = nullptr;  ///< the CSV lines go here, if they go to no file
+  std::ostream* trajectory = nullptr;                  ///< the CSV lines go here, if they go to no file
   std::function<std::unique_ptr<CsvFile>()> open_csv;  ///< called once the request is known to be right
   std::function<void(const std::vector<TrajectoryColumn>&)> describe_csv;  ///< called once it is open, if there is one
   long every = 1;                                                          ///< mesh points a CSV line
