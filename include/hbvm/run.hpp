@@ -72,10 +72,10 @@ struct HalvingReport {
   std::string first_t;   ///< where the first of them began; empty if there was none
 };
 
-/// How many digits of a run survived rounding: -log10 |x - x_shadow| / max |x| over the path, component by component,
-/// against the same run with 16 more digits, from the exact scene or the state it was started from. At least 0; all
-/// digits of the precision where there is no difference. It says nothing of the error of the method, which both runs
-/// have.
+/// How many digits of a run survived rounding: -log10 |x - x_shadow| / max |x| over the path, component by component.
+/// The shadow is the same run with 16 more digits, from the exact scene or the state it was started from. At least 0;
+/// all digits of the precision where there is no difference. It says nothing of the error of the method, which both
+/// runs have.
 struct Shadow {
   std::string precision;     ///< of the shadow: mpfr:32 for double, mpfr:50 for quad, mpfr:N+16 for mpfr:N
   std::vector<double> q, p;  ///< digits at the end
@@ -87,11 +87,11 @@ struct Shadow {
   std::string failure;  ///< why the shadow did not reach the end, if it did not; nothing else is known then
 };
 
-/// How far the end of a run is from the exact motion: its difference from a stored reference of this scene and time, if
-/// there is one with enough digits; else from the motion by its Taylor series with 16 more digits (of a Taylor series,
-/// by HBVM), by steps of its own between whose points it looks; where there is no such series, since a force is not
-/// smooth or the start leaves the hidden constraints, from a run with another step, more stages and 16 more digits.
-/// Positions, and the momenta and multipliers of the output state.
+/// How far the end of a run is from the exact motion. It is compared with a stored reference of this scene and time, if
+/// there is one with enough digits. Else it is compared with the motion by its Taylor series with 16 more digits, which
+/// chooses its own steps and looks between their points. The end of a Taylor series is compared with HBVM. Where a
+/// force is not smooth, or the start leaves the hidden constraints, there is no series. Then a run is made with another
+/// step, more stages and 16 more digits. Positions, and the momenta and multipliers of the output state.
 struct ErrorEstimate {
   std::string reference;                                  ///< "stored reference, 50 digits" or "computed now"
   std::string method, precision;                          ///< of what was made beside; empty if there is none

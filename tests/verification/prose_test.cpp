@@ -8,7 +8,7 @@
 #include "verification/cpp_text.hpp"
 #include "verification/sources.hpp"
 
-namespace hbvm {
+namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -237,4 +237,4 @@ TEST(Prose, EveryRoomHasALine) {
 }
 
 }  // namespace
-}  // namespace hbvm
+}  // namespace hbvm::core
