@@ -72,10 +72,10 @@ struct HalvingReport {
   std::string first_t;   ///< where the first of them began; empty if there was none
 };
 
-/// How many digits of a run survived rounding, component by component: -log10 |x - x_shadow| / max |x| over the path.
-/// The shadow is the same run with 16 more digits, from the exact scene or the state it was started from. The digits
-/// are at least 0; where there is no difference they are all of the precision. They say nothing of the error of the
-/// method, which both runs have.
+/// How many digits of a run survived rounding: -log10 |x - x_shadow| / max |x| over the path, component by component.
+/// The shadow is the same run with 16 more digits, from the exact scene or the state it was started from. At least 0;
+/// all digits of the precision where there is no difference. It says nothing of the error of the method, which both
+/// runs have.
 struct Shadow {
   std::string precision;     ///< of the shadow: mpfr:32 for double, mpfr:50 for quad, mpfr:N+16 for mpfr:N
   std::vector<double> q, p;  ///< digits at the end
@@ -88,10 +88,10 @@ struct Shadow {
 };
 
 /// How far the end of a run is from the exact motion. It is compared with a stored reference of this scene and time, if
-/// there is one with enough digits. Else it is compared with the motion by its Taylor series with 16 more digits, whose
-/// steps are chosen by a look between their points; a Taylor series is compared with HBVM. A force that is not smooth,
-/// and a start that leaves the hidden constraints, have no such series: then a run with another step, more stages and
-/// 16 more digits is made. Compared are positions, and the momenta and multipliers of the output state.
+/// there is one with enough digits. Else it is compared with the motion by its Taylor series with 16 more digits, which
+/// chooses its own steps and looks between their points. The end of a Taylor series is compared with HBVM. Where a
+/// force is not smooth, or the start leaves the hidden constraints, there is no series. Then a run is made with another
+/// step, more stages and 16 more digits. Positions, and the momenta and multipliers of the output state.
 struct ErrorEstimate {
   std::string reference;                                  ///< "stored reference, 50 digits" or "computed now"
   std::string method, precision;                          ///< of what was made beside; empty if there is none

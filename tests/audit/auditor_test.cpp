@@ -45,8 +45,8 @@ TEST(Auditor, BeginsWhereTheNumbersOfTheSceneAreInRange) {
   std::filesystem::remove(file);
 }
 
-/// A weight wrong by 1e-93 shows with 100 digits alone, as an energy error of some ten thousand times what is allowed,
-/// though nobody looks at the coefficients.
+/// A weight wrong by 1e-93 shows with 100 digits alone, though nobody looks at the coefficients. It is an energy error
+/// of some ten thousand times what is allowed.
 TEST(Auditor, ConservationIsToWhatRoundOffExplains) {
   const Claim energy = conserved(Quantity::H, "quartic_oscillator", {4, 2});
   const Finding right = found(energy);

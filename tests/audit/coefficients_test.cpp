@@ -72,7 +72,7 @@ TEST(CoefficientCheck, OrdersBeyondTheTreesAreSeen) {
   EXPECT_LT(check.order(15).seen, 20);
 }
 
-/// The classical method of order 4 in decimals: its conditions are met to the digits that the decimals have, and a
+/// The classical method of order 4 in decimals. Its conditions are met to the digits that the decimals have, and a
 /// wrong digit among them is seen.
 TEST(CoefficientCheck, HoldsDecimalsToTheirDigits) {
   const auto rk4 = [](const std::string& sixth, const std::string& third) {

@@ -119,7 +119,8 @@ TEST(ConvergenceRate, ErrorsThatAreNoNumbersAreNotClean) {
   EXPECT_FALSE((Rung{0, -10, nan}.is_clean()));
 }
 
-/// e = h^p (1 + a h^n): the rate is found to within what is said, and not to much more than the last slope is off by.
+/// With e = h^p (1 + a h^n) the rate is found to within what is said. That is not much more than the last slope is off
+/// by.
 TEST(ConvergenceRate, HigherTermsAreAllowedFor) {
   for (const double a : {double{1} / 4, double{1}, double{3}, -double{1} / 4})
     for (const int n : {1, 2}) {

@@ -37,8 +37,8 @@ TEST(TableauDefects, AreRoundOffForEveryMethod) {
       EXPECT_LE(units, 2 * method.k) << name_of(quantity) << " of " << method.text();
 }
 
-/// Each condition is tried on both sets of nodes: with k > s, a flaw in one set leaves the other as it is, and each of
-/// the conditions that hold such a number sees it.
+/// Each condition is tried on both sets of nodes. With k > s, a flaw in one set leaves the other as it is. Each of the
+/// conditions that hold such a number sees it.
 TEST(TableauDefects, EveryConditionSeesAFlawInEitherSetOfNodes) {
   const HbvmName method{4, 3};
   for (const bool hat : {false, true}) {

@@ -18,7 +18,7 @@ WeakTerms terms_of(const std::string& U, int exact_degree, const std::string& co
       0, exact_degree};
 }
 
-/// A term of degree 4 that is weaker by 10^-150 within one formula: its size is found by the recorded program, in
+/// A term of degree 4 that is weaker by 10^-150 within one formula. Its size is found by the recorded program, in
 /// digits that hold it.
 TEST(WeakTerms, AreFoundWithinAFormula) {
   const PrecisionScope scope(digits_of_terms);

@@ -114,7 +114,7 @@ inline Outcome hbvm(const Arguments& arguments, unsigned cpu_limit = 60,
       meanwhile);
 }
 
-/// Kills the program, by SIGPROF, once it has used so many microseconds of processor time: where that is in its work
+/// Kills the program, by SIGPROF, once it has used so many microseconds of processor time. Where that is in its work
 /// does not depend on what else the machine does.
 inline Outcome hbvm_killed_after(long microseconds, const Arguments& arguments) {
   return run_program(arguments, [microseconds] {

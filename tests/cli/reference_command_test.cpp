@@ -50,9 +50,9 @@ TEST(ReferenceCommand, GivesTheClosedFormAloneIfThereIsOne) {
   EXPECT_NE(unknown.err.find("no closed form of the motion of 'heavy_top' is known"), std::string::npos) << unknown.err;
 }
 
-/// A digit of a number of the second time, in the middle or the last, of whatever is stored: it is found, and named
-/// with its time, its component and both values.
-/// What is kept is found again, and a file that cannot be one is refused before any work.
+/// A digit of a number of the second time, in the middle or the last, of whatever is stored. It is found, and named
+/// with its time, its component and both values. What is kept is found again, and a file that cannot be one is refused
+/// before any work.
 TEST(ReferenceCommand, GoesOnFromACheckpoint) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "hbvm_reference_checkpoint";
   std::filesystem::remove_all(folder);

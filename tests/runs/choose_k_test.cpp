@@ -208,7 +208,7 @@ TYPED_TEST(ChooseK, OtherwiseConservesEnergyToRoundOff) {
 }
 
 /// From the apocentre of a long orbit the first steps need few nodes, and the passage of the pericentre in the last
-/// ones many: hbvm:auto must conserve energy through it.
+/// ones many. The choice hbvm:auto must conserve energy through it.
 TEST(ChosenK, ServesTheWholeRunAndNotItsFirstStepAlone) {
   const Scene scene = read_scene(with({central_attraction}, "[0, \"sqrt(3/5)\"]"), "ellipse");  // excentricity 2/5
   for (const char* precision : {"double", "quad"}) {
@@ -234,7 +234,7 @@ TYPED_TEST(ChooseK, DefectOfAConstantForceIsZero) {
   EXPECT_EQ(quadrature_defect(scene.problem, 2, 2, S(S(1) / 8), SolverKind::fixed_point, scene.q0, scene.p0), 0);
 }
 
-/// On the line (1, t) of the first step one node misses h^2/24 f'' = h^2/8 of the mean force, of size 1; round-off is
+/// On the line (1, t) of the first step one node misses h^2/24 f'' = h^2/8 of the mean force, of size 1. Round-off is
 /// 16 (k + s) epsilon = 32 epsilon of that size.
 TYPED_TEST(ChooseK, DefectIsMeasuredInRoundOff) {
   using S = TypeParam;
@@ -248,7 +248,7 @@ TYPED_TEST(ChooseK, OfAStepThatCannotBeMadeIsAnIntegrationError) {
   EXPECT_THROW(this->chosen(assembled<TypeParam>({central_attraction}, "[0, 0]"), 1, "20"), StepError);
 }
 
-/// A stone falls into the center within the first steps: whatever comes before is integrated by a k that is enough for
+/// A stone falls into the center within the first steps. Whatever comes before is integrated by a k that is enough for
 /// it, and the run ends where it must.
 TYPED_TEST(ChooseK, OfALaterStepThatCannotBeMadeIsThatOfTheStepsBefore) {
   using S = TypeParam;
@@ -261,8 +261,8 @@ TYPED_TEST(ChooseK, OfALaterStepThatCannotBeMadeIsThatOfTheStepsBefore) {
   stepper.step(state, literal<S>("1/8"));
 }
 
-/// A stiff spring amplifies the round-off of positions; that no k agrees with k + s to the round-off of its force
-/// alone is no lack of nodes.
+/// A stiff spring amplifies the round-off of positions. That no k agrees with k + s to the round-off of its force alone
+/// is no lack of nodes.
 TEST(ChooseK, TakesAmplifiedRoundOffForWhatItIs) {
   for (const char* stiffness : {"10^4", "10^6", "10^8"}) {
     const auto scene = assembled<double>({"kind = \"spring\"\nbetween = [\"a\", \"O\"]\nstiffness = \"" +

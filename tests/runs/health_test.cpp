@@ -71,7 +71,7 @@ TEST(Health, OfAStiffSpringThatTheStepDoesNotResolveWarns) {
   EXPECT_EQ(warnings(result_of(spring, "hbvm:2,2", "1/100000", "1/100").health), "");
 }
 
-/// A four-bar linkage with one crank longer by 1e-10, which turns through its folded position at t = 0.73: every step
+/// A four-bar linkage with one crank longer by 1e-10, which turns through its folded position at t = 0.73. Every step
 /// that does not resolve 1e-5 crosses it on a straight line, with energy and constraints at round-off.
 const std::string folding =
     "dimension = 2\n[constants]\nd = \"1e-10\"\n"
@@ -255,7 +255,7 @@ TEST(Health, OfDividedStepsWarnsWhereTheyDecide) {
   EXPECT_EQ(text_of(run(spring, {}).health, "steps_divided"), "");
 }
 
-/// Mechanisms of which some point, joint or body is at rest: what the constraints there show is rounding, or small
+/// Mechanisms of which some point, joint or body is at rest. What the constraints there show is rounding, or small
 /// beside the speed of what moves.
 const std::string in_gravity = "dimension = 2\n[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, \"-9.81\"]\n";
 const std::string crank =

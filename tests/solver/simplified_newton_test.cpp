@@ -96,7 +96,7 @@ TEST(SimplifiedNewton, IsEndedByASignalBetweenShorterSteps) {
   interruption = 0;
 }
 
-/// Two satellites are at rest, so that the pull of the third one alone tells how far they may move: the multipliers of
+/// Two satellites are at rest, so that the pull of the third one alone tells how far they may move. The multipliers of
 /// a long step, with which it would hardly be felt, are no measure in a short one.
 TEST(SimplifiedNewton, MakesALongFirstStepFromRest) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
@@ -108,7 +108,7 @@ TEST(SimplifiedNewton, MakesALongFirstStepFromRest) {
     }
 }
 
-/// However expensive a Jacobian is, increments that hardly fall are worth one: in each of these runs of steps the last
+/// However expensive a Jacobian is, increments that hardly fall are worth one. In each of these runs of steps the last
 /// one's serves for some sweeps, and steps have one evaluation in the mean or few more.
 TEST(SimplifiedNewton, EvaluatesTheJacobianWhereItPays) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));

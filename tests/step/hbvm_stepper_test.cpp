@@ -39,9 +39,9 @@ TEST(Step, ReturnsTheSweepsOfItsSolver) {
 
 using CompensatedUpdate = CompensatedSum;
 
-/// Rounding of p1 - p0 - h (grad U - grad g lambda) and q1 - q0 - h (p0 + p1)/2, summed over many steps of a pendulum
-/// under a gravity of 1/10: walks at random. The same bits of the gravity lost in every step would be a force of its
-/// own, and energy and constraint drift.
+/// Rounding of p1 - p0 - h (grad U - grad g lambda) and q1 - q0 - h (p0 + p1)/2, walks at random. It is summed over
+/// many steps of a pendulum under a gravity of 1/10. The same bits of the gravity lost in every step would be a force
+/// of its own, and energy and constraint drift.
 TEST_F(CompensatedUpdate, LosesNothingOfAConstantForceBesideAConstraint) {
   for (const SolverKind solver : {SolverKind::fixed_point, SolverKind::newton}) {
     const Assembled<double> scene = assembled<double>(

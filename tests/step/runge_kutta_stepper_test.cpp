@@ -218,8 +218,8 @@ TYPED_TEST(RungeKuttaSteps, GoesOnFromWhatItRemembers) {
   EXPECT_EQ(step.counts().parts[1].calls, 12u);
 }
 
-/// The index-reduced equations have the same solutions: RK4 converges to them with order 4, plain or projected; what
-/// it makes of the constraints falls likewise, or is round-off in every step.
+/// The index-reduced equations have the same solutions. RK4 converges to them with order 4, plain or projected. What it
+/// makes of the constraints falls likewise, or is round-off in every step.
 TYPED_TEST(RungeKuttaSteps, TakeConstraintsByTheIndexReducedEquations) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
