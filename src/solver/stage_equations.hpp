@@ -75,9 +75,11 @@ class StageEquations {
   /// psi = P_hat^T Omega_hat grad U(u at c_hat).
   void forces(Matrix<S>& psi);
   /// Changes lambda so that the momenta that follow from it and psi fulfil the hidden constraints at the current nodes,
-  /// which is (29), and sets zeta = P_s^T Omega (grad g lambda). Without constraints it does nothing.
+  /// and sets zeta = P_s^T Omega (grad g lambda). Without constraints it does nothing. It solves (29),
   ///
-  /// (29) is solved for the change, with what lambda leaves of the hidden constraints on the right: then neither the
+  ///     sum_j a_ij grad g_i^T M^-1 grad g_j (h lambda_j) = grad g_i^T M^-1 v_i,   v of psi alone,
+  ///
+  /// but solved for the change, with what lambda leaves of the hidden constraints on the right: then neither the
   /// rounding of the matrix nor its condition biases the solution. With `factor` false the last matrix serves again.
   /// \return false if the matrix is singular to working precision
   [[nodiscard]] bool multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta, bool factor = true);
@@ -146,8 +148,6 @@ class StageEquations {
   decltype(auto) with_stages(F f);
   template <class Stages, class Nodes>
   void forces(Stages s, Nodes k, Matrix<S>& psi);
-  template <class Stages, class Nodes>
-  void multipliers(Stages s, Nodes r, const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta);
   /// Positions at c (unless they are those at c_hat) and the constraints' gradients there.
   template <class Stages, class Nodes>
   void move_constraints(Stages s, Nodes r);
@@ -160,9 +160,6 @@ class StageEquations {
   /// The matrix of (29) at the current nodes, factored.
   template <class Stages, class Nodes>
   [[nodiscard]] bool factor_matrix(Stages s, Nodes r);
-  /// block_ = projection (A at, entry by entry) P_s: takes a block at the nodes to one of coefficients.
-  template <class Coupling>
-  void set_block(const Coupling& at);
   /// What the velocities M^-1 v_i at the current nodes leave of the hidden constraints, grad g_i^T M^-1 v_i, or its
   /// coefficients, in column b from out(b) on.
   template <class Nodes, class Out>
