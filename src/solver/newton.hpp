@@ -84,7 +84,8 @@ class Newton final : public StageSolver<S> {
   std::vector<Rung> rungs_;
   StageResidual<double> correction_;
   Matrix<double> momentum_;
-  Vector<double> momentum_change_;
+  std::optional<MomentumChange<double>> momentum_change_;
+  Vector<double> last_change_;  ///< of the momentum
   StepChange<S> change_;
   PositionScale<S> position_scale_;
   Vector<S> positions_;

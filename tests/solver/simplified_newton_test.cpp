@@ -4,7 +4,6 @@
 
 #include "interrupting.hpp"
 #include "printing.hpp"
-#include "scalar/random_values.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 #include "step/state.hpp"
@@ -45,23 +44,6 @@ TYPED_TEST(SimplifiedNewtonTest, FindsTheSolution) {
     newton.follow({scene.q0, scene.p0, h});
     EXPECT_LE(this->distance(newton.unknowns().gamma, expected.gamma), tolerance) << name;
   }
-}
-
-/// With momentum = X_s y and correction = X_s z the change is row 0 of y - z.
-TYPED_TEST(SimplifiedNewtonTest, ChangesTheFirstCoefficientWithTheMomentum) {
-  using S = TypeParam;
-  const Assembled<S> scene = assemble<S>(load_scene("kepler"));
-  const Hbvm<S> method = make_hbvm<S>(3, 3);
-  const SimplifiedNewton<S> newton(scene.problem, method);
-  RandomValues<S> random(67);
-  const Index m = scene.problem.m();
-  const Matrix<S> y = random.matrix(3, m), z = random.matrix(3, m), momentum = method.X_s.lazyProduct(y),
-                  correction = method.X_s.lazyProduct(z);
-  const Vector<S> before = random.vector(m);
-  Vector<S> change = before;
-  newton.add_change_of_momentum(momentum, correction, change);
-  for (Index j = 0; j < m; ++j)
-    EXPECT_LE(magnitude(S(change[j] - before[j] - (y(0, j) - z(0, j)))), 256 * epsilon<S>()) << j;
 }
 
 /// A body next to a centre of gravity falls into it within the step.
