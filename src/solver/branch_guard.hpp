@@ -13,8 +13,8 @@ class BranchGuard {
 
   /// The iteration's start, and the equations of the step. Both must live until the solution has been looked at.
   void start(const StageEquations<S>& equations, const StageUnknowns<S>& start);
-  /// Whether the momenta of some body differ from those of the start by more than the body's size there, the greatest
-  /// of |p0|, h |psi| and h |zeta|; or h psi by more than half of it.
+  /// The size of a body is the greatest of |p0|, h |psi| and h |zeta| at the start. Whether the momenta of one differ
+  /// from those of the start by more than its size, or h psi by more than half of it.
   bool is_far(const StageUnknowns<S>& x) const;
   /// Whether the force of a single constraint on some body differs from that at the start by more than four times the
   /// body's size. Where constraints are nearly dependent, branches lie side by side, and only multipliers tell that one

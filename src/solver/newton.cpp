@@ -42,8 +42,8 @@ void set_scaled(S& r, double y, long exponent) {
 
 /// Bits that one sweep with a Jacobian in double wins at most, and no fall by more is taken for a rate.
 constexpr long bits_per_sweep = 50;
-/// Bits that a residual has beyond what its correction can win: positions, whose rounding is in it, may be larger than
-/// the displacements of a step.
+/// Bits that a residual has beyond what its correction can win. The rounding of positions is in it, and they may be
+/// larger than the displacements of a step.
 constexpr long bits_beside = 10;
 /// Right bits of the solution in double.
 constexpr long bits_of_start = 48;

@@ -7,8 +7,8 @@ namespace hbvm::core {
 /// The course of one Newton iteration: how its increments fall, and what follows from that. Increments are relative to
 /// the scales of the momenta.
 ///
-/// A Jacobian is kept while they fall by a factor of 10 or more a sweep. An expensive one is kept longer: while they
-/// fall so fast that the sweeps left cost less than a new Jacobian and the two sweeps that it takes then.
+/// A Jacobian is kept while they fall by a factor of 10 or more a sweep. An expensive one is kept longer:
+/// while the sweeps left cost less, at the rate so far, than a new one and two sweeps.
 template <Scalar S>
 class NewtonCourse {
  public:

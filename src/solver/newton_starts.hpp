@@ -7,9 +7,9 @@
 
 namespace hbvm::core {
 
-/// What Newton's iteration starts from: the extrapolation of the last steps' solutions, or the continued polynomials of
-/// the last one, which are nearer at many stages. In the first step, and where that leads nowhere, it is the constant
-/// v = p0.
+/// What Newton's iteration starts from. It is the extrapolation of the last steps' solutions, or the continued
+/// polynomials of the last one, which are nearer at many stages. In the first step, and where that leads nowhere, it is
+/// the constant v = p0.
 template <Scalar S>
 class NewtonStarts {
  public:

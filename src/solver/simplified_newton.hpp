@@ -9,11 +9,11 @@
 namespace hbvm::core {
 
 /// Solves the stage equations by NewtonIteration, with everything in the working precision. In double it is Newton's
-/// solver itself, and the start and the Jacobian of the mixed-precision one; in more digits it serves where double
+/// solver itself, and the start and the Jacobian of the mixed-precision one. In more digits it serves where double
 /// cannot hold the problem or its condition.
 ///
-/// The iteration starts from what NewtonStarts has. If that leads nowhere, or to a solution of which BranchGuard says
-/// that it may be the wrong one, the solution is followed from much shorter steps, and the one found so is taken.
+/// The iteration starts from what NewtonStarts has. That may lead nowhere, or to a solution of which BranchGuard says
+/// that it may be the wrong one. Then the solution is taken that is found by following it from much shorter steps.
 template <Scalar S>
 class SimplifiedNewton {
  public:

@@ -9,8 +9,8 @@ namespace hbvm::core {
 namespace {
 
 /// I with c_i - 1/2 for its column 0, c_i. Mirrored nodes lie as far from 1/2 as each other but for rounding; here they
-/// do exactly, so that rounded coefficients make a symmetric method still: of an asymmetric one, errors in H and g
-/// would have the same sign step after step.
+/// do exactly, and rounded coefficients still make a symmetric method. Those of an asymmetric one would give errors in
+/// H and g the same sign step after step.
 template <Scalar S>
 Matrix<S> centred(const Matrix<S>& I) {
   const S half = S(1) / 2;

@@ -8,10 +8,10 @@
 namespace hbvm::core {
 
 /// Decides when an iteration for momenta at the stages has come down to round-off. It judges coordinate by coordinate,
-/// each against its own scale, so that the digits of a light, slow or small one do not depend on what else moves.
+/// each against its own scale. So the digits of a light, slow or small one do not depend on what else moves.
 ///
 /// What rounding leaves behind is a random walk. What a stop leaves behind has the same sign step after step and adds
-/// up: it has to stay below the walk for 2^24 steps, so below 2^-12 epsilon of the scale.
+/// up. It has to stay below the walk for 2^24 steps, so below 2^-12 epsilon of the scale.
 ///
 /// Of a coordinate the rule knows, in each sweep,
 ///
@@ -34,40 +34,39 @@ namespace hbvm::core {
 ///
 /// The rate is the greatest change / last, in this sweep or the one before, of all coordinates whose last was above
 /// rounding. It is at least 2^-least_rate_bits, since one fast fall is no rate. A sweep in which no coordinate shows
-/// one has that of the sweep before, and the first one the rate expected, or 1. Changes fall fast if it is 2^-10 or
-/// less.
+/// one has that of the sweep before, the first the rate expected, or 1. Changes fall fast if it is 2^-10 or less.
 ///
-/// | case            | where                            | settled                                      |
-/// |-----------------|----------------------------------|----------------------------------------------|
-/// | first sweep     |                                  | if rate change <= negligible                 |
-/// | falls on        | change > far, less than all      | no                                           |
-/// |                 | before, rate change > negligible |                                              |
-/// |                 | (and > lost, if it is small)     |                                              |
-/// | above rounding  | else, change > far               | if little is left                            |
-/// | within rounding | change <= far                    | if little is left, or it was settled before, |
-/// |                 |                                  | or stands still, or vanishes,                |
-/// |                 |                                  | or is small and changes fall fast            |
+///     | case            | where                            | settled                                      |
+///     |-----------------|----------------------------------|----------------------------------------------|
+///     | first sweep     |                                  | if rate change <= negligible                 |
+///     | falls on        | change > far, less than all      | no                                           |
+///     |                 | before, rate change > negligible |                                              |
+///     |                 | (and > lost, if it is small)     |                                              |
+///     | above rounding  | else, change > far               | if little is left                            |
+///     | within rounding | change <= far                    | if little is left, or it was settled before, |
+///     |                 |                                  | or stands still, or vanishes,                |
+///     |                 |                                  | or is small and changes fall fast            |
 ///
 /// Little is left
 ///
-/// - if neither change nor last is above negligible (a change of 0 alone says nothing: numbers stand still from half of
-///   an ulp on, on the side from which the iteration comes);
+/// - if neither change nor last is above negligible. A change of 0 alone says nothing: numbers stand still from half of
+///   an ulp on, on the side from which the iteration comes.
 /// - if rate expected is not above negligible. A coordinate much smaller than its body's others may fall at a rate of
-///   its own: a change above noise has to satisfy this with change / last for the rate, too;
+///   its own. So a change above noise has to satisfy this with change / last for the rate, too.
 /// - if it is small, changes fall fast and rate expected is not above lost.
 ///
 /// It stands still if its change was not below its least for two sweeps. It vanishes if it changes by half of its scale
-/// or more for two sweeps, or for one if changes fall fast: its scale goes to 0 with it, and no bound is ever reached.
+/// or more for two sweeps, or for one if changes fall fast. Its scale goes to 0 with it then, and no bound is reached.
 ///
 /// The verdict is the first of these that holds:
 ///
-/// | verdict    | where                                                                               |
-/// |------------|-------------------------------------------------------------------------------------|
-/// | not_finite | a change or a scale is not finite                                                   |
-/// | converged  | all coordinates are settled                                                         |
-/// | stagnant   | of one that is not, the sweeps since its least change and its rises make `patience` |
-/// | endless    | a rate of 0.95 would have led here from a start with no right digit                 |
-/// | go_on      | else                                                                                |
+///     | verdict    | where                                                                               |
+///     |------------|-------------------------------------------------------------------------------------|
+///     | not_finite | a change or a scale is not finite                                                   |
+///     | converged  | all coordinates are settled                                                         |
+///     | stagnant   | of one that is not, the sweeps since its least change and its rises make `patience` |
+///     | endless    | a rate of 0.95 would have led here from a start with no right digit                 |
+///     | go_on      | else                                                                                |
 template <Scalar S>
 class StoppingRule {
  public:

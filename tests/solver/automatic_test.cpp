@@ -7,7 +7,7 @@
 namespace hbvm::core {
 namespace {
 
-/// A body of mass 1 in a harmonic well of frequency 1: the fixed point of the midpoint rule converges by h^2/4 a sweep,
+/// A body of mass 1 in a harmonic well of frequency 1. The fixed point of the midpoint rule converges by h^2/4 a sweep,
 /// and not from h = 2 on.
 template <Scalar S>
 Assembled<S> oscillator() {

@@ -106,9 +106,8 @@ TEST(AnyStep, SucceedsOrFailsButNeverLies) {
   EXPECT_GT(failed, 100);
 }
 
-/// Two bodies on circles that know nothing of one another: what the Gram matrix makes of their masses and radii is no
-/// condition that rounding could be excused with, so that the step that is too long for one fails beside the other,
-/// too.
+/// Two bodies on circles that know nothing of one another. What the Gram matrix makes of their masses and radii is no
+/// condition that excuses rounding. The step that is too long for one fails beside the other, too.
 TEST(BeyondBreakdown, UnequalBodiesExcuseNothing) {
   const std::string fast = R"toml(
 [[body]]
@@ -148,7 +147,7 @@ c = -1
   }
 }
 
-/// Near the breakdown the increments fall slowly, and once rise on the way: "stop at the first increment that does not
+/// Near the breakdown the increments fall slowly, and once rise on the way. "Stop at the first increment that does not
 /// fall" ends after two sweeps with an error of 0.3.
 TEST(NearBreakdown, AStepIsSolvedCompletely) {
   struct Case {

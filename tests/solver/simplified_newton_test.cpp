@@ -78,8 +78,8 @@ TEST(SimplifiedNewton, IsEndedByASignalBetweenShorterSteps) {
   interruption = 0;
 }
 
-/// Two satellites are at rest, so that the pull of the third one alone tells how far they may move: the multipliers of
-/// a long step, with which it would hardly be felt, are no measure in a short one.
+/// Two satellites are at rest, and the pull of the third one alone tells how far they may move. Beside the multipliers
+/// of a long step it would hardly be felt: they are no measure in a short one.
 TEST(SimplifiedNewton, MakesALongFirstStepFromRest) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
   for (const int s : {5, 12, 22})
@@ -90,8 +90,8 @@ TEST(SimplifiedNewton, MakesALongFirstStepFromRest) {
     }
 }
 
-/// However expensive a Jacobian is, increments that hardly fall are worth one: in each of these runs of steps the last
-/// one's serves for some sweeps, and steps have one evaluation in the mean or few more.
+/// However expensive a Jacobian is, increments that hardly fall are worth one. In each of these runs the last step's
+/// serves for some sweeps, and steps have one evaluation in the mean or few more.
 TEST(SimplifiedNewton, EvaluatesTheJacobianWhereItPays) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
   long sweeps = 0;
