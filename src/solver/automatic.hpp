@@ -6,8 +6,8 @@
 
 namespace hbvm::core {
 
-/// Chooses between two solvers, step by step: the preferred one, and the other from the step on in which that fails or
-/// needs more than `slow` sweeps; back again if the other fails.
+/// Chooses between two solvers, step by step. It begins with the preferred one, and takes the other from the step on in
+/// which that fails or needs more than `slow` sweeps. If the other fails, it goes back.
 template <Scalar S>
 class Automatic final : public StageSolver<S> {
  public:

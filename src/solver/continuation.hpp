@@ -9,13 +9,13 @@
 namespace hbvm::core {
 
 /// Start values from the polynomials of the step before, followed beyond its end (Hairer and Wanner, Solving Ordinary
-/// Differential Equations II, 1996, section IV.8): with T of P_j(1 + c) = sum_i P_i(c) T_ij, coefficients gamma become
-/// T gamma, and multipliers, as a polynomial through their nodes, likewise.
+/// Differential Equations II, 1996, section IV.8). With T of P_j(1 + c) = sum_i P_i(c) T_ij, coefficients gamma become
+/// T gamma. Multipliers become the same as a polynomial through their nodes. All steps have one size.
 ///
 /// Legendre polynomials grow by 3 + 2 sqrt 2 a degree out to 2, and the coefficients of a step of high order fall by
-/// more: with the 22 stages for 50 digits of the satellites by 14, so that 8 digits are right before the first sweep.
-/// Coefficients that are rounding, beside the greatest of their body, would grow, too; from the degree on from which
-/// all are, they are left out. Only for steps of one size.
+/// more. With the 22 stages for 50 digits of the satellites they fall by 14, and 8 digits are right before the first
+/// sweep. Coefficients that are rounding beside the greatest of their body would grow, too. From the degree on from
+/// which all are rounding, they are left out.
 template <Scalar S>
 class Continuation {
  public:
@@ -25,9 +25,9 @@ class Continuation {
   void clear() { known_ = false; }
   /// The solution of a step.
   void keep(const StageUnknowns<S>& solution);
-  /// log2 of the greatest coefficient of a momentum, and of the error that its prediction may have, by the size of the
-  /// last coefficients that are not rounding, or of rounding, and their growth; the greatest there is, if no step is
-  /// known.
+  /// log2 of the greatest coefficient of a momentum, and of the error that its prediction may have. The error is judged
+  /// by the last coefficients that are not rounding, or by rounding, and by their growth. It is the greatest number if
+  /// no step is known.
   long size_exponent(Index coordinate) const;
   long error_exponent(Index coordinate) const;
   /// gamma and lambda of the next step; psi and zeta of the last one, for their size.

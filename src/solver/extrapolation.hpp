@@ -12,9 +12,9 @@
 namespace hbvm::core {
 
 /// Continues a sequence x_1, x_2, … of matrices, one a step, column by column by the polynomial through the last
-/// elements. It keeps the backward differences D_r = nabla^r x_n; x_{n+1} is predicted as sum_{i <= r} D_i, and as
-/// D_{r+1} is the error that the same prediction of x_n had, r is chosen to make that least. Each column has an r of
-/// its own, as columns are coordinates or multipliers of different size and unit.
+/// elements. It keeps the backward differences D_r = nabla^r x_n, and predicts x_{n+1} as sum_{i <= r} D_i. D_{r+1} is
+/// the error that the same prediction of x_n had: r is chosen to make it least. Each column has an r of its own, as
+/// columns are coordinates or multipliers of different size and unit.
 template <Scalar S>
 class Extrapolation {
  public:

@@ -11,8 +11,8 @@ namespace hbvm::core {
 /// The fixed-point iteration (55) for the stage equations (54).
 ///
 /// In the paper's order a sweep computes all new values from old ones, and the first starts from gamma = psi = 0.
-/// Otherwise a sweep uses each value as soon as it is known (psi from gamma, then lambda and zeta, then gamma), and
-/// starts from the extrapolation of the last steps' gamma; if that leads nowhere, once more from the constant v = p0.
+/// Otherwise a sweep uses each value as soon as it is known: psi from gamma, then lambda and zeta, then gamma. The
+/// first starts from the extrapolation of the last steps' gamma, and if that leads nowhere, from the constant v = p0.
 ///
 /// StoppingRule says when it ends, from the change of gamma, and in the paper's order, where psi lags, of h psi. If the
 /// changes stop falling above what rounding explains, the condition of the constraints may explain it.

@@ -10,8 +10,11 @@ namespace hbvm::core {
 
 /// The derivative of the StageResidual by gamma and h lambda, factored: s (m + nu) unknowns whatever k is.
 ///
-/// With W = M^-1, H_n the second derivative of U at the node c_hat_n, L_n = sum_a lambda_a grad^2 g_a and
-/// D_n = (grad^2 g_a W v_n)_a at the node c_n,
+/// With W = M^-1 and, at the nodes,
+///
+///     H_n = grad^2 U at c_hat_n,   L_n = sum_a lambda_a grad^2 g_a and D_n = (grad^2 g_a W v_n)_a at c_n,
+///
+/// it is
 ///
 ///     d momentum_i   / d gamma_j       = delta_ij - h^2 sum_n (X P_hat^T Omega_hat)_in H_n I_hat_nj W
 ///                                                 + h^2 sum_n (X P^T Omega)_in L_n I_nj W
@@ -20,8 +23,8 @@ namespace hbvm::core {
 ///
 /// where lambda has coefficients, X P^T Omega diag(grad g) P and P^T Omega times the third.
 ///
-/// It is factored with rows and columns brought to the size of velocities by powers of two, which depend on the masses
-/// and on the gradients alone: so that neither units nor a light body beside a heavy one change a pivot or a digit.
+/// Its rows and columns are brought to the size of velocities by powers of two, which depend on the masses and on the
+/// gradients alone. So neither units nor a light body beside a heavy one change a pivot or a digit.
 ///
 /// Unknowns are ordered by the graph of the bodies: for a chain of bodies the matrix is banded, and costs in proportion
 /// to their number.
@@ -39,8 +42,8 @@ class Jacobian {
   /// Takes the residual to J^-1 residual: its momentum becomes a change of gamma, its constraint one of h lambda.
   void solve(StageResidual<S>& r);
 
-  /// The powers of two by which the momentum residual of a coordinate and the constraint residual of a multiplier are
-  /// divided before they are solved for.
+  /// Powers of two by which residuals are divided before they are solved for. A coordinate has one for its momentum, a
+  /// multiplier one for its constraint.
   long coordinate_exponent(Index j) const { return coordinate_exponents_[static_cast<std::size_t>(j)]; }
   long constraint_exponent(Index a) const { return row_exponents_[static_cast<std::size_t>(a)]; }
   /// solve() for a residual divided by them already.

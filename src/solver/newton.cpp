@@ -42,8 +42,8 @@ void set_scaled(S& r, double y, long exponent) {
 
 /// Bits that one sweep with a Jacobian in double wins at most, and no fall by more is taken for a rate.
 constexpr long bits_per_sweep = 50;
-/// Bits that a residual has beyond what its correction can win: positions, whose rounding is in it, may be larger than
-/// the displacements of a step.
+/// Bits that a residual has beyond what its correction can win. The rounding of positions is in it, and they may be
+/// larger than the displacements of a step.
 constexpr long bits_beside = 10;
 /// Right bits of the solution in double.
 constexpr long bits_of_start = 48;
@@ -83,7 +83,8 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method)
   r_ = {x_.gamma, x_.lambda};
   correction_ = {rounded_->unknowns().gamma, rounded_->unknowns().lambda};
   momentum_ = correction_.momentum;
-  momentum_change_.resize(problem.m());
+  momentum_change_.emplace(*rounded_method_);
+  last_change_.resize(problem.m());
   update_count_.per_call.add(Op::add, x_.gamma.size() + x_.lambda.size());
   make_rungs();
 }
@@ -244,10 +245,10 @@ std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
       if (full) {
         if (sweeps > 1) set(rate_, rule_.rate());
         equations_->changes(x_, change_);
-        momentum_change_.setZero();
-        rounded_->add_change_of_momentum(momentum_, correction_.momentum, momentum_change_);
-        for (Index j = 0; j < momentum_change_.size(); ++j) {
-          set_scaled(t_, momentum_change_[j], exponent);
+        last_change_.setZero();
+        momentum_change_->add(momentum_, correction_.momentum, last_change_);
+        for (Index j = 0; j < last_change_.size(); ++j) {
+          set_scaled(t_, last_change_[j], exponent);
           set_sum(change_.p_rest[j], change_.p_rest[j], t_);
         }
         return {sweeps, true};

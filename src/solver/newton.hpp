@@ -12,15 +12,16 @@ namespace hbvm::core {
 /// double.
 ///
 /// The stage equations are first solved in double. With more digits, the first residual at that solution has all
-/// displacements to the last bit of a double, of which bodies far from the origin leave few in double itself; from
-/// these the Jacobian is evaluated and factored. With it each sweep wins about 15 digits, so that the residual of a
-/// sweep needs only the digits that its correction can use: in Mpfr it is evaluated with problem, method and state
-/// rounded to a few more digits than are to be won.
+/// displacements to the last bit of a double. (Of bodies far from the origin, double itself leaves few.) From these the
+/// Jacobian is evaluated and factored. With it each sweep wins about 15 digits, and its residual needs only the digits
+/// that the correction can use. In Mpfr it is evaluated with problem, method and state rounded to a few more digits
+/// than are to be won.
 ///
 /// The last residual is one of the working precision, and StoppingRule says when it is reached.
 ///
-/// Where double cannot hold the problem (masses beyond its range), does not solve the equations, or wins less than
-/// `least_bits` a sweep (the condition of the constraints beyond 10^12), everything is done in the working precision.
+/// Everything is done in the working precision where double fails. It may not hold the problem (masses beyond its
+/// range), nor solve the equations. Or it wins less than `least_bits` a sweep: the condition of the constraints is
+/// beyond 10^12.
 template <Scalar S>
 class Newton final : public StageSolver<S> {
  public:
@@ -84,7 +85,8 @@ class Newton final : public StageSolver<S> {
   std::vector<Rung> rungs_;
   StageResidual<double> correction_;
   Matrix<double> momentum_;
-  Vector<double> momentum_change_;
+  std::optional<MomentumChange<double>> momentum_change_;
+  Vector<double> last_change_;  ///< of the momentum
   StepChange<S> change_;
   PositionScale<S> position_scale_;
   Vector<S> positions_;

@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// What rounding of the positions amounts to in the momenta of a step, over epsilon: h M^-1 gamma is added to positions
-/// rounded to epsilon |q|, which a change of gamma by epsilon |M| |q| / h would do as well. Positions in space count by
+/// What rounding of the positions amounts to in the momenta of a step, over epsilon. h M^-1 gamma is added to positions
+/// rounded to epsilon |q|, and a change of gamma by epsilon |M| |q| / h would do the same. Positions in space count by
 /// the largest of them, since forces depend on their differences; directors by the largest of theirs.
 template <Scalar S>
 class PositionScale {

@@ -7,7 +7,7 @@
 
 namespace hbvm::core {
 
-/// Whether a solution of the stage equations is the one that shrinks to the start with the step: there may be others,
+/// Whether a solution of the stage equations is the one that shrinks to the start with the step. There may be others,
 /// and an iteration that does not contract well may find them. Follows that one from much shorter steps by Newton's
 /// iteration in double, and allocates what it needs when it is first asked. Problem and method must outlive it.
 template <Scalar S>

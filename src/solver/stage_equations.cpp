@@ -9,8 +9,8 @@ namespace hbvm::core {
 namespace {
 
 /// I with c_i - 1/2 for its column 0, c_i. Mirrored nodes lie as far from 1/2 as each other but for rounding; here they
-/// do exactly, so that rounded coefficients make a symmetric method still: of an asymmetric one, errors in H and g
-/// would have the same sign step after step.
+/// do exactly, and rounded coefficients still make a symmetric method. Those of an asymmetric one would give errors in
+/// H and g the same sign step after step.
 template <Scalar S>
 Matrix<S> centred(const Matrix<S>& I) {
   const S half = S(1) / 2;
@@ -241,57 +241,44 @@ template <class Stages, class Nodes>
 template <Scalar S>
 bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta, bool factor) {
   if (problem_.nu() == 0) return true;
-  return with_stages([&](auto s, auto r) {
+  return with_stages([&]<class Stages, class Nodes>(Stages s, Nodes r) {
     move_constraints(s, r);
     if (factor && !factor_matrix(s, r)) return false;
-    multipliers(s, r, psi, lambda, zeta);
+    S* const rhs = rhs_.data();
+    const Index* const position = order_.position.data();
+    project_multipliers(s, r, lambda, zeta);
+    {
+      const PartCall counted = call(right_hand_side);
+      set_momenta(s, psi, zeta, stage_);
+      problem_.mass.velocity(Lanes<const S, Stages>{stage_.data(), s}, Lanes<S, Stages>{velocity_.data(), s});
+      if (!is_one_node(s, r)) P_.times(r, s, w_, velocity_);
+      hidden_constraints(r, is_one_node(s, r) ? velocity_ : w_, [&](Index a) { return rhs + position[a] * s; });
+    }
+    {
+      const PartCall counted = call(solution);
+      system_.solve(rhs_);
+      HeldScratch<S> t = t_;
+      const Held<S> inverse_h = inverse_h_;
+      S* sum = lambda.data();
+      for (Index a = 0; a < problem_.nu(); ++a)
+        for (Index i = 0; i < s; ++i, ++sum) add_product(*sum, inverse_h, rhs[position[a] * s + i], t);
+    }
+    project_multipliers(s, r, lambda, zeta);
     return true;
   });
 }
 
 template <Scalar S>
 template <class Stages, class Nodes>
-[[gnu::always_inline]] inline void StageEquations<S>::multipliers(Stages s, Nodes r, const Matrix<S>& psi,
-                                                                  Matrix<S>& lambda, Matrix<S>& zeta) {
-  project_multipliers(s, r, lambda, zeta);
-  S* const rhs = rhs_.data();
-  const Index* const position = order_.position.data();
-  {
-    const PartCall counted = call(right_hand_side);
-    set_momenta(s, psi, zeta, stage_);
-    problem_.mass.velocity(Lanes<const S, Stages>{stage_.data(), s}, Lanes<S, Stages>{velocity_.data(), s});
-    if (!is_one_node(s, r)) P_.times(r, s, w_, velocity_);
-    hidden_constraints(r, is_one_node(s, r) ? velocity_ : w_, [&](Index a) { return rhs + position[a] * s; });
-  }
-  {
-    const PartCall counted = call(solution);
-    system_.solve(rhs_);
-    HeldScratch<S> t = t_;
-    const Held<S> inverse_h = inverse_h_;
-    S* sum = lambda.data();
-    for (Index a = 0; a < problem_.nu(); ++a)
-      for (Index i = 0; i < s; ++i, ++sum) add_product(*sum, inverse_h, rhs[position[a] * s + i], t);
-  }
-  project_multipliers(s, r, lambda, zeta);
-}
-
-template <Scalar S>
-template <class Stages, class Nodes>
-[[gnu::always_inline]] inline void StageEquations<S>::project_multipliers(Stages s, Nodes r, const Matrix<S>& lambda,
-                                                                          Matrix<S>& zeta) {
-  const PartCall counted = call(zetas);
-  Matrix<S>& pull = is_one_node(s, r) ? zeta : w_;
-  set_zero(pull);
-  if (method_.has_coefficients_of_lambda()) P_.times(lambda_, lambda);
-  gradient_.add_times(node_multipliers(lambda), Lanes<S, Nodes>{pull.data(), r});
-  if (!is_one_node(s, r)) projection_.times(s, r, zeta, w_);
-}
-
-template <Scalar S>
-template <class Stages, class Nodes>
 [[gnu::noinline]] bool StageEquations<S>::factor_matrix(Stages s, Nodes r) {
-  // sum_j a_ij grad g_i^T M^-1 grad g_j lambda_j: (29) divided by h^2
   const Index* const position = order_.position.data();
+  // Of coefficients the block is projection (A at, entry by entry) P_s.
+  const auto set_block = [&](const auto& at) {
+    for (Index j = 0; j < weighted_.cols(); ++j)
+      for (Index i = 0; i < weighted_.rows(); ++i) set_product(weighted_(i, j), at(i, j), method_.A(i, j));
+    product<S>(right_, weighted_, method_.P_s);
+    product<S>(block_, method_.projection, right_);
+  };
   {
     const PartCall counted = call(matrix);
     system_.set_zero();
@@ -312,12 +299,15 @@ template <class Stages, class Nodes>
 }
 
 template <Scalar S>
-template <class Coupling>
-void StageEquations<S>::set_block(const Coupling& at) {
-  for (Index j = 0; j < weighted_.cols(); ++j)
-    for (Index i = 0; i < weighted_.rows(); ++i) set_product(weighted_(i, j), at(i, j), method_.A(i, j));
-  product<S>(right_, weighted_, method_.P_s);
-  product<S>(block_, method_.projection, right_);
+template <class Stages, class Nodes>
+[[gnu::always_inline]] inline void StageEquations<S>::project_multipliers(Stages s, Nodes r, const Matrix<S>& lambda,
+                                                                          Matrix<S>& zeta) {
+  const PartCall counted = call(zetas);
+  Matrix<S>& pull = is_one_node(s, r) ? zeta : w_;
+  set_zero(pull);
+  if (method_.has_coefficients_of_lambda()) P_.times(lambda_, lambda);
+  gradient_.add_times(node_multipliers(lambda), Lanes<S, Nodes>{pull.data(), r});
+  if (!is_one_node(s, r)) projection_.times(s, r, zeta, w_);
 }
 
 template <Scalar S>

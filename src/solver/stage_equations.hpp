@@ -33,8 +33,8 @@ struct StageResidual {
 };
 
 /// What a step adds, by (56): q1 - q0 = h M^-1 gamma_0 and p1 - p0 = h (psi_0 - zeta_0), which is p + p_rest. The
-/// rest is what rounding of the sum takes from a constant force: the same bits wherever the constraints' force beside
-/// it is of one binade. Without it that would be a small force of its own, under which H drifts. Newton's last
+/// rest is what rounding of the sum takes from a constant force. It has the same bits wherever the constraints' force
+/// beside it is of one binade. Left out, it would be a small force of its own, under which H drifts. Newton's last
 /// correction, too small for p, is in it as well.
 template <Scalar S>
 struct StepChange {
@@ -43,8 +43,8 @@ struct StepChange {
 };
 
 /// Where a step starts, and its size h: q0 and p0, and what rounding took from them in the steps before, if it is
-/// known. Then the step is one from q0 + q_carry, p0 + p_carry: what rounding of its positions does to H and g has no
-/// pattern, and adds up like a random walk.
+/// known. Then the step is one from q0 + q_carry, p0 + p_carry. What rounding of its positions does to H and g has no
+/// pattern then, and adds up like a random walk.
 template <Scalar S>
 struct StepStart {
   const Vector<S>&q, &p;
@@ -74,10 +74,12 @@ class StageEquations {
   void move(const Matrix<S>& gamma);
   /// psi = P_hat^T Omega_hat grad U(u at c_hat).
   void forces(Matrix<S>& psi);
-  /// Changes lambda so that the momenta that follow from it and psi fulfil the hidden constraints at the current nodes,
-  /// which is (29), and sets zeta = P_s^T Omega (grad g lambda). Without constraints it does nothing.
+  /// Changes lambda so that the momenta that follow from it and psi fulfil the hidden constraints at the current nodes.
+  /// Then sets zeta = P_s^T Omega (grad g lambda). Without constraints it does nothing. The multipliers solve (29),
   ///
-  /// (29) is solved for the change, with what lambda leaves of the hidden constraints on the right: then neither the
+  ///     sum_j a_ij grad g_i^T M^-1 grad g_j (h lambda_j) = grad g_i^T M^-1 v_i,   v of psi alone,
+  ///
+  /// but it is solved for their change, with what lambda leaves of the hidden constraints on the right. So neither the
   /// rounding of the matrix nor its condition biases the solution. With `factor` false the last matrix serves again.
   /// \return false if the matrix is singular to working precision
   [[nodiscard]] bool multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta, bool factor = true);
@@ -140,14 +142,12 @@ class StageEquations {
 
   /// Of one node values and coefficients are the same numbers: P and the weight are 1.
   static bool is_one_node(Index stages, Index nodes) { return stages == 1 && nodes == 1; }
-  /// f(s, r), as constants of their types where they are few: what a sweep in double does is then compiled as one
+  /// f(s, r), as constants of their types where they are few. What a sweep in double does is then compiled as one
   /// function for each s.
   template <class F>
   decltype(auto) with_stages(F f);
   template <class Stages, class Nodes>
   void forces(Stages s, Nodes k, Matrix<S>& psi);
-  template <class Stages, class Nodes>
-  void multipliers(Stages s, Nodes r, const Matrix<S>& psi, Matrix<S>& lambda, Matrix<S>& zeta);
   /// Positions at c (unless they are those at c_hat) and the constraints' gradients there.
   template <class Stages, class Nodes>
   void move_constraints(Stages s, Nodes r);
@@ -160,11 +160,8 @@ class StageEquations {
   /// The matrix of (29) at the current nodes, factored.
   template <class Stages, class Nodes>
   [[nodiscard]] bool factor_matrix(Stages s, Nodes r);
-  /// block_ = projection (A at, entry by entry) P_s: takes a block at the nodes to one of coefficients.
-  template <class Coupling>
-  void set_block(const Coupling& at);
-  /// What the velocities M^-1 v_i at the current nodes leave of the hidden constraints, grad g_i^T M^-1 v_i, or its
-  /// coefficients, in column b from out(b) on.
+  /// What the velocities M^-1 v_i at the current nodes leave of the hidden constraints: grad g_i^T M^-1 v_i, or the
+  /// coefficients of that. Column b is written from out(b) on.
   template <class Nodes, class Out>
   void hidden_constraints(Nodes r, const Matrix<S>& v, Out out);
 

@@ -57,7 +57,7 @@ void raise_to_quotient(S& bound, const S& a, const S& b, bool wanted, [[maybe_un
 
 template <Scalar S>
 StoppingRule<S>::StoppingRule(Index coordinates, long roundings, int least_rate_bits)
-    :  // A rate of 0.95 a sweep, from a start with no right digit.
+    :  // To the last digit at a rate of 0.95.
       max_sweeps_(100 + 14 * significand_bits<S>()),
       bound_(S(roundings) * epsilon<S>()),
       negligible_(power_of_two<S>(-12) * epsilon<S>()),
@@ -242,8 +242,8 @@ template <Scalar S>
 }
 
 template <Scalar S>
-[[gnu::always_inline]] inline bool StoppingRule<S>::is_negligible(Coordinate& x, const S& change, const S& last,
-                                                                  const S& rate, bool fast) {
+[[gnu::always_inline]] inline bool StoppingRule<S>::little_is_left(Coordinate& x, const S& change, const S& last,
+                                                                   const S& rate, bool fast) {
   HeldScratch<S> left = left_, own = t_;
   const bool clean = is_greater(change, x.noise);
   set_product(left, x.expected, rate);
@@ -261,7 +261,7 @@ template <Scalar S>
 }
 
 template <Scalar S>
-[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled_at_once(Coordinate& x, const S& change, const S& rate) {
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled_at_first(Coordinate& x, const S& change, const S& rate) {
   HeldScratch<S> left = left_;
   x.risen = x.waiting = x.vanishing = 0;
   set(x.least, change);
@@ -272,8 +272,8 @@ template <Scalar S>
 }
 
 template <Scalar S>
-[[gnu::always_inline]] inline bool StoppingRule<S>::still_falls(const Coordinate& x, const S& change, const S& last,
-                                                                const S& rate) {
+[[gnu::always_inline]] inline bool StoppingRule<S>::falls_on(const Coordinate& x, const S& change, const S& last,
+                                                             const S& rate) {
   if (!x.falls || !is_greater(last, change) || !is_greater(change, x.far)) return false;
   HeldScratch<S> left = left_;
   set_product(left, change, rate);
@@ -281,33 +281,46 @@ template <Scalar S>
 }
 
 template <Scalar S>
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled_above_rounding(Coordinate& x, const S& change,
+                                                                              const S& last, const S& rate, bool fast) {
+  HeldScratch<S> left = t_;
+  follow_least(x, change);
+  x.vanishing = 0;
+  set_product(left, change, rate);
+  if (is_greater(left, x.negligible) && !(fast && is_lost(x, left))) {
+    set(x.expected, change);
+    x.falls = x.waiting + x.risen == 0;
+    return false;
+  }
+  return little_is_left(x, change, last, rate, fast);
+}
+
+template <Scalar S>
+[[gnu::always_inline]] inline bool StoppingRule<S>::is_settled_within_rounding(Coordinate& x, const S& change,
+                                                                               const S& last, const S& rate,
+                                                                               bool fast) {
+  HeldScratch<S> twice = t_;
+  // What rounding does is chance, which no branch can foresee.
+  const bool lower = is_greater(x.least, change);
+  lower_finite(x.least, change);
+  x.waiting = by_chance(lower) ? 0 : x.waiting + 1;
+  set_sum(twice, change, change);
+  x.vanishing = by_chance(is_greater(x.scale, twice)) ? 0 : x.vanishing + 1;
+  const bool little = little_is_left(x, change, last, rate, fast);
+  const bool stands_still = x.waiting >= 2, vanishes = x.vanishing >= (fast ? 1 : 2);
+  return little | stands_still | x.settled | vanishes | (fast & x.small);
+}
+
+template <Scalar S>
 [[gnu::always_inline]] inline bool StoppingRule<S>::is_settled(Coordinate& x, const S& change, const S& last,
                                                                const S& rate, bool fast) {
-  HeldScratch<S> t = t_;
   if (x.falls) {
     x.falls = false;
     set(x.least, last);
     set(x.expected, last);
   }
-  if (is_greater(change, x.far)) {
-    follow_least(x, change);
-    x.vanishing = 0;
-    set_product(t, change, rate);
-    if (is_greater(t, x.negligible) && !(fast && is_lost(x, t))) {
-      set(x.expected, change);
-      x.falls = x.waiting + x.risen == 0;
-      return false;
-    }
-    return is_negligible(x, change, last, rate, fast);
-  }
-  // What rounding does is chance, which no branch can foresee.
-  const bool lower = is_greater(x.least, change);
-  lower_finite(x.least, change);
-  x.waiting = by_chance(lower) ? 0 : x.waiting + 1;
-  set_sum(t, change, change);
-  x.vanishing = by_chance(is_greater(x.scale, t)) ? 0 : x.vanishing + 1;
-  const bool negligible = is_negligible(x, change, last, rate, fast);
-  return negligible | (x.waiting >= 2) | x.settled | (x.vanishing >= (fast ? 1 : 2)) | (fast & x.small);
+  return is_greater(change, x.far) ? is_settled_above_rounding(x, change, last, rate, fast)
+                                   : is_settled_within_rounding(x, change, last, rate, fast);
 }
 
 template <Scalar S>
@@ -324,11 +337,11 @@ typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
   for (Index j = 0; j < change_.size(); ++j) {
     Coordinate& x = at(j);
     const Held<S> change = change_[j], last = last_[j];
-    if (!first && still_falls(x, change, last, rate)) {
+    if (!first && falls_on(x, change, last, rate)) {  // as most do in most sweeps: nothing has to be noted
       all = false;
       continue;
     }
-    x.settled = first ? is_settled_at_once(x, change, rate) : is_settled(x, change, last, rate, fast);
+    x.settled = first ? is_settled_at_first(x, change, rate) : is_settled(x, change, last, rate, fast);
     all &= x.settled;
     waiting_long |= !x.settled & (x.waiting + x.risen >= patience);
   }

@@ -7,37 +7,70 @@
 
 namespace hbvm::core {
 
-/// Decides when an iteration for momenta at the stages has come down to round-off: coordinate by coordinate, each
-/// against its own scale, so that the digits of a light, slow or small one do not depend on what else moves.
+/// Decides when an iteration for momenta at the stages has come down to round-off. It judges coordinate by coordinate,
+/// each against its own scale. So the digits of a light, slow or small one do not depend on what else moves.
 ///
-/// The scale of a coordinate is the largest of |p0_j|, |gamma_ij| and h |psi_ij|, terms of the sum that its momenta are
-/// (h zeta is what these leave, unless multipliers run wild, which is no reason to ask for less).
+/// What rounding leaves behind is a random walk. What a stop leaves behind has the same sign step after step and adds
+/// up. It has to stay below the walk for 2^24 steps, so below 2^-12 epsilon of the scale.
 ///
-/// What rounding leaves behind is a random walk; what a stop leaves behind has the same sign step after step and adds
-/// up. It has to stay below the walk for 2^24 steps, so below 2^-12 epsilon of the scale. A coordinate is settled
+/// Of a coordinate the rule knows, in each sweep,
 ///
-/// - if that is all the iteration still has to change: its change times the rate at which changes fall. The rate is the
-///   greatest of any coordinate in the last two sweeps, or its own; but a change below C epsilon of its scale may be
-///   rounding: none is compared with it, and the rate so far tells what it would be without. (Not even a change of 0
-///   says more: numbers stand still from half of an ulp on, on the side from which the iteration comes.) No rate is
-///   taken to be below a least one, since one fast fall is not a rate. Two changes in a row below that bound do as
-///   well;
-/// - or if its change is rounding: below C epsilon kappa of the larger of the scale and of what rounding of its
-///   positions amounts to, and not below its least one (since it last rose to 16 times that) for two sweeps. C bounds
-///   the roundings of a sweep, kappa the factor by which the constraints magnify them;
-/// - or if it vanishes: below that bound, and changing by all it is for two sweeps, or one where changes fall to 2^-10
-///   a sweep; there it need not change by all it is if that is below the bound, too, nor have come below it itself once
-///   what is left to change is 2^-12 of what rounding of its positions amounts to. Nobody waits for what goes to 0.
+///     change, last   the greatest change shown in this sweep, and in the one before
+///     scale          the greatest of |p0_j|, |gamma_ij| and h |psi_ij|, terms of the sum that its momenta are
+///     position       what rounding of its positions amounts to, over epsilon
+///     least          its least change; it begins anew with a change of more than 16 times that, a rise
+///     expected       its change, or if that is not above noise what its last one above would be by now, at the rate
+///
+/// (h zeta is what the other terms leave. Multipliers may run wild, but that is no reason to ask for less.) From these
+/// follow bounds, where C bounds the roundings of a sweep, and kappa the factor by which constraints magnify them:
+///
+///     noise        C epsilon scale: a change up to it may be rounding, and no rate comes from it
+///     rounding     C epsilon times the larger of scale and position: a change up to it shows no rate in the next sweep
+///     far          kappa rounding, and C times the least number at least: a greater change is no rounding
+///     negligible   2^-12 epsilon scale: so much may be left to change
+///     lost         2^-12 epsilon position: so much is not seen beside the rounding of positions
+///
+/// A coordinate is small if its scale is not above far. Then it may be rounding altogether.
+///
+/// The rate is the greatest change / last, in this sweep or the one before, of all coordinates whose last was above
+/// rounding. It is at least 2^-least_rate_bits, since one fast fall is no rate. A sweep in which no coordinate shows
+/// one has that of the sweep before, the first the rate expected, or 1. Changes fall fast if it is 2^-10 or less.
+///
+///     | case            | where                            | settled                                      |
+///     |-----------------|----------------------------------|----------------------------------------------|
+///     | first sweep     |                                  | if rate change <= negligible                 |
+///     | falls on        | change > far, less than all      | no                                           |
+///     |                 | before, rate change > negligible |                                              |
+///     |                 | (and > lost, if it is small)     |                                              |
+///     | above rounding  | else, change > far               | if little is left                            |
+///     | within rounding | change <= far                    | if little is left, or it was settled before, |
+///     |                 |                                  | or stands still, or vanishes,                |
+///     |                 |                                  | or is small and changes fall fast            |
+///
+/// Little is left
+///
+/// - if neither change nor last is above negligible. A change of 0 alone says nothing: numbers stand still from half of
+///   an ulp on, on the side from which the iteration comes.
+/// - if rate expected is not above negligible. A coordinate much smaller than its body's others may fall at a rate of
+///   its own. So a change above noise has to satisfy this with change / last for the rate, too.
+/// - if it is small, changes fall fast and rate expected is not above lost.
+///
+/// It stands still if its change was not below its least for two sweeps. It vanishes if it changes by half of its scale
+/// or more for two sweeps, or for one if changes fall fast. Its scale goes to 0 with it then, and no bound is reached.
+///
+/// The verdict is the first of these that holds:
+///
+///     | verdict    | where                                                                               |
+///     |------------|-------------------------------------------------------------------------------------|
+///     | not_finite | a change or a scale is not finite                                                   |
+///     | converged  | all coordinates are settled                                                         |
+///     | stagnant   | of one that is not, the sweeps since its least change and its rises make `patience` |
+///     | endless    | a rate of 0.95 would have led here from a start with no right digit                 |
+///     | go_on      | else                                                                                |
 template <Scalar S>
 class StoppingRule {
  public:
-  enum class Verdict {
-    go_on,
-    converged,
-    stagnant,   ///< some coordinate's change has not come below its least one for `patience` sweeps, or rises and rises
-    endless,    ///< more sweeps than any convergence worth the name would take
-    not_finite  ///< a change or scale
-  };
+  enum class Verdict { go_on, converged, stagnant, endless, not_finite };
   static constexpr long patience = 40;
 
   /// \param least_rate_bits the least rate is 2^-least_rate_bits
@@ -82,17 +115,15 @@ class StoppingRule {
   struct Coordinate {
     S terms = 0;  ///< shown since the last judgement
     S scale = 0, position = 0, least = 0, expected = 0;
-    /// Parts of the scale: C epsilon (of what rounding of the position amounts to, if that is larger), 2^-12 epsilon,
-    /// and 2^-10, or `far` if that is larger.
-    S noise = 0, rounding = 0, negligible = 0, coarse = 0;
-    S far = 0;   ///< a greater change is no rounding
-    S lost = 0;  ///< 2^-12 of what rounding of the position amounts to
-    S open = 0;  ///< with more than that left to change it is not settled
-    long waiting = 0, risen = 0, vanishing = 0;
-    bool settled = false;
-    bool small = false;  ///< no greater than its rounding may be
-    /// It has come down sweep after sweep, and is neither rounding nor settled: `least` and `expected` are its last
-    /// change then, and are not written down before that ends.
+    S noise = 0, rounding = 0, negligible = 0, far = 0, lost = 0;
+    S coarse = 0;        ///< 2^-10 scale, or far if that is larger
+    S open = 0;          ///< negligible, or lost if it is small and that is larger
+    long waiting = 0;    ///< sweeps since its change was last below its least
+    long risen = 0;      ///< rises
+    long vanishing = 0;  ///< sweeps in which it changed by half of its scale
+    bool settled = false, small = false;
+    /// In the case "falls on" so far: `least` and `expected` are its last change then, and are not written down before
+    /// that ends.
     bool falls = false;
   };
   Coordinate& at(Index j) { return coordinates_[static_cast<std::size_t>(j)]; }
@@ -100,17 +131,16 @@ class StoppingRule {
   const S& expected(const Coordinate& x) const { return x.falls ? last(x) : x.expected; }
   /// Finds whether changes are finite and coarse, and at which rate they fall. \return false if one is not finite
   bool look_at_changes();
-  /// Whether all that is left to change is negligible; updates what is expected of the next change.
-  bool is_negligible(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
-  /// In the first sweep, and in others.
-  bool is_settled_at_once(Coordinate& x, const S& change, const S& rate);
+  /// The cases of a coordinate.
+  bool is_settled_at_first(Coordinate& x, const S& change, const S& rate);
+  bool falls_on(const Coordinate& x, const S& change, const S& last, const S& rate);
   bool is_settled(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
-  /// Whether a coordinate that falls does so in this sweep, too, as most do in most sweeps: nothing has to be noted.
-  bool still_falls(const Coordinate& x, const S& change, const S& last, const S& rate);
-  /// Whether it is rounding altogether, beside which what is left to change counts for nothing, where changes fall
-  /// fast.
+  bool is_settled_above_rounding(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
+  bool is_settled_within_rounding(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
+  /// Updates what is expected of it.
+  bool little_is_left(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
   bool is_lost(const Coordinate& x, const S& left) const;
-  /// Updates the least change, and for how long there was none below it.
+  /// Its least change, its rises, and for how long there was no change below the least.
   void follow_least(Coordinate& x, const S& change);
   bool grows() const;
   void take_scales();
@@ -120,7 +150,7 @@ class StoppingRule {
 
   long sweeps_ = 0, max_sweeps_;
   bool coarse_ = true, changes_shown_ = false, terms_shown_ = false, finite_ = true, rate_shown_ = false;
-  bool fast_ = false;                         ///< changes fall to 2^-10 a sweep
+  bool fast_ = false;
   S bound_, negligible_, tiny_, least_rate_;  // C epsilon, 2^-12 epsilon, C times the least number
   S coarse_bound_, kappa_ = 1, rate_ = 1, last_rate_ = 1;
   S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16;

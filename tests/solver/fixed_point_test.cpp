@@ -107,7 +107,7 @@ TEST(AnyStep, SucceedsOrFailsButNeverLies) {
 }
 
 /// Two bodies on circles that know nothing of one another. What the Gram matrix makes of their masses and radii is no
-/// condition that rounding could be excused with. So the step that is too long for one fails beside the other, too.
+/// condition that excuses rounding. The step that is too long for one fails beside the other, too.
 TEST(BeyondBreakdown, UnequalBodiesExcuseNothing) {
   const std::string fast = R"toml(
 [[body]]
@@ -147,8 +147,8 @@ c = -1
   }
 }
 
-/// Near the breakdown the increments fall slowly, and once rise on the way. To "stop at the first increment that does
-/// not fall" ends after two sweeps with an error of 0.3.
+/// Near the breakdown the increments fall slowly, and once rise on the way. "Stop at the first increment that does not
+/// fall" ends after two sweeps with an error of 0.3.
 TEST(NearBreakdown, AStepIsSolvedCompletely) {
   struct Case {
     int s;

@@ -93,8 +93,8 @@ long sweeps_in_double(const HbvmStepper<Mpfr>& stepper) {
   return static_cast<long>(part_named(stepper.counts(), "stage equations").calls);
 }
 
-/// Each sweep wins some fourteen digits. The number of those in many digits grows by one or two for 25 digits more.
-/// With those in double it is far below the fixed point's.
+/// Each sweep wins some fourteen digits. 25 digits more take one or two sweeps more in many digits, and with those in
+/// double there are far fewer than the fixed point's.
 TEST(Newton, WinsFourteenDigitsASweep) {
   long last = 0;
   for (const unsigned digits : {25U, 50U, 75U, 100U, 200U}) {
@@ -171,8 +171,8 @@ TEST(Newton, LeavesWhatDoubleCannotHoldToTheFixedPoint) {
   EXPECT_LE(magnitude(Mpfr(solver->change().q[1] / scene.p0[1] - Mpfr(1) / 10)), 100 * epsilon<Mpfr>());
 }
 
-/// The last residual is one of the full precision, and nothing of it is left. The step is the fixed point's, whose
-/// every sweep is, to a few roundings of each coordinate.
+/// The last residual is one of the full precision, and nothing of it is left. Every sweep of the fixed point is one of
+/// the full precision: both steps agree to a few roundings of each coordinate.
 TEST(Newton, EndsAtTheLastDigit) {
   for (const unsigned digits : {20U, 40U, 62U, 100U}) {
     const PrecisionScope scope(digits);

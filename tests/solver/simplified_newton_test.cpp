@@ -4,7 +4,6 @@
 
 #include "interrupting.hpp"
 #include "printing.hpp"
-#include "scalar/random_values.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 #include "step/state.hpp"
@@ -47,23 +46,6 @@ TYPED_TEST(SimplifiedNewtonTest, FindsTheSolution) {
   }
 }
 
-/// With momentum = X_s y and correction = X_s z the change is row 0 of y - z.
-TYPED_TEST(SimplifiedNewtonTest, ChangesTheFirstCoefficientWithTheMomentum) {
-  using S = TypeParam;
-  const Assembled<S> scene = assemble<S>(load_scene("kepler"));
-  const Hbvm<S> method = make_hbvm<S>(3, 3);
-  const SimplifiedNewton<S> newton(scene.problem, method);
-  RandomValues<S> random(67);
-  const Index m = scene.problem.m();
-  const Matrix<S> y = random.matrix(3, m), z = random.matrix(3, m), momentum = method.X_s.lazyProduct(y),
-                  correction = method.X_s.lazyProduct(z);
-  const Vector<S> before = random.vector(m);
-  Vector<S> change = before;
-  newton.add_change_of_momentum(momentum, correction, change);
-  for (Index j = 0; j < m; ++j)
-    EXPECT_LE(magnitude(S(change[j] - before[j] - (y(0, j) - z(0, j)))), 256 * epsilon<S>()) << j;
-}
-
 /// A body next to a centre of gravity falls into it within the step.
 TYPED_TEST(SimplifiedNewtonTest, FailsWithACause) {
   using S = TypeParam;
@@ -96,8 +78,8 @@ TEST(SimplifiedNewton, IsEndedByASignalBetweenShorterSteps) {
   interruption = 0;
 }
 
-/// Two satellites are at rest, so that the pull of the third one alone tells how far they may move. The multipliers of
-/// a long step, with which it would hardly be felt, are no measure in a short one.
+/// Two satellites are at rest, and the pull of the third one alone tells how far they may move. Beside the multipliers
+/// of a long step it would hardly be felt: they are no measure in a short one.
 TEST(SimplifiedNewton, MakesALongFirstStepFromRest) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
   for (const int s : {5, 12, 22})
@@ -108,8 +90,8 @@ TEST(SimplifiedNewton, MakesALongFirstStepFromRest) {
     }
 }
 
-/// However expensive a Jacobian is, increments that hardly fall are worth one. In each of these runs of steps the last
-/// one's serves for some sweeps, and steps have one evaluation in the mean or few more.
+/// However expensive a Jacobian is, increments that hardly fall are worth one. In each of these runs the last step's
+/// serves for some sweeps, and steps have one evaluation in the mean or few more.
 TEST(SimplifiedNewton, EvaluatesTheJacobianWhereItPays) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
   long sweeps = 0;

@@ -105,8 +105,8 @@ TEST(Solvers, GiveTheSameDigits) {
         const auto expect_same = [&](const Vector<Mpfr>& a, const Vector<Mpfr>& b, long round_off, const char* what) {
           EXPECT_LE(max_norm(Vector<Mpfr>(a - b)), round_off * epsilon<Mpfr>()) << what << where << name_of(kind);
         };
-        // The start at distance 20 costs the satellites two digits. The multiplier of the step's end is extrapolated
-        // from those at the nodes, which are differences of p over 1/16 of a step's part.
+        // The start at distance 20 costs the satellites two digits. The multiplier at the end is extrapolated from
+        // those at the nodes, which are differences of p over 1/16 of a step's part.
         expect_same(mine.end.q, papers.end.q, 100'000, "q");
         expect_same(mine.end.p, papers.end.p, 100'000, "p");
         expect_same(mine.end.lambda, papers.end.lambda, 1'000'000, "lambda");

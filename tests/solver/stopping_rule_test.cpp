@@ -181,8 +181,8 @@ TYPED_TEST(StoppingRuleTest, DoesNotWaitForWhatVanishes) {
   EXPECT_LE(rule.sweeps(), (significand_bits<S>() + 12) / 6 + 3);
 }
 
-/// What is below the rounding of its positions altogether is as good as it gets once what is left is 2^-12 of that. It
-/// is not where changes fall slowly, which may be of a body that hardly moves.
+/// What is below the rounding of its positions altogether is as good as it gets once what is left is 2^-12 of that. Not
+/// so where changes fall slowly: they may be of a body that hardly moves.
 TYPED_TEST(StoppingRuleTest, AsksNoMoreOfWhatIsRoundingThanOfItsPositions) {
   using S = TypeParam;
   using Verdict = typename StoppingRule<S>::Verdict;

@@ -193,8 +193,8 @@ TEST(Prose, PagesHaveShortSentences) {
 
 /// How many longer sentences are left in comments, by room. A number here only falls.
 const std::map<std::string, std::size_t>& still_long() {
-  static const std::map<std::string, std::size_t> left{{"src/audit", 33}, {"src/cli", 1},     {"src/cost", 18},
-                                                       {"src/run", 18},   {"src/solver", 44}, {"src/step", 36}};
+  static const std::map<std::string, std::size_t> left{
+      {"src/audit", 33}, {"src/cli", 1}, {"src/cost", 18}, {"src/run", 18}, {"src/step", 36}};
   return left;
 }
 
