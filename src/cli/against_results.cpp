@@ -12,10 +12,10 @@
 #include "compare/against.hpp"
 #include "hbvm/error.hpp"
 #include "interruption.hpp"
+#include "processes/draw.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
 #include "report/csvw.hpp"
-#include "report/draw.hpp"
 #include "signals.hpp"
 #include "written.hpp"
 

@@ -13,8 +13,9 @@
 #include "hbvm/version.hpp"
 #include "interruption.hpp"
 #include "long_work.hpp"
+#include "processes/draw.hpp"
+#include "processes/in_processes.hpp"
 #include "report/csvw.hpp"
-#include "report/draw.hpp"
 #include "signals.hpp"
 #include "write_file.hpp"
 #include "written.hpp"
@@ -112,6 +113,7 @@ void grid_command(const CostArguments& o) {
     LongWork work(o.work, folder, "cost");
     ProgressBar bar("reference");
     CostOptions options;
+    options.apart = in_processes;
     work.set(options);
     options.reference_progress = part_done(bar);
     outcome = run_cost_study(study, options);

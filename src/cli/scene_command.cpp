@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "report/draw.hpp"
+#include "processes/draw.hpp"
 #include "run/describe.hpp"
 #include "run/run_figure.hpp"
 #include "scalar/with_scalar.hpp"

@@ -13,8 +13,8 @@
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
 #include "long_work.hpp"
+#include "processes/draw.hpp"
 #include "report/csvw.hpp"
-#include "report/draw.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {

@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "long_work.hpp"
+#include "processes/draw.hpp"
 #include "study/study.hpp"
 #include "written.hpp"
 
@@ -42,6 +43,7 @@ void study_command(const StudyArguments& o) {
   for (const std::string& folder : o.folders)
     for (const Precision& precision : precisions) requests.push_back({folder, precision});
   StudyOptions options;
+  options.draw = draw;
   options.check = o.check;
   if (o.work.out) options.out = make_out_folder(*o.work.out);
   std::vector<std::optional<StudyOutcome>> outcomes;

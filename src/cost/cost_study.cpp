@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "hbvm/error.hpp"
+#include "long_work/cells.hpp"
 #include "long_work/json.hpp"
-#include "long_work/processes.hpp"
 
 namespace hbvm::core {
 
@@ -64,7 +64,8 @@ CostOutcome run_cost_study(const CostStudy& study, const CostOptions& options) {
     lost.failure = end.failure;
     return to_result(lost);
   };
-  const auto results = run_cells(cells, options, in_processes(cells, options.jobs, seconds, result));
+  const auto results = options.apart ? run_cells(cells, options, options.apart(cells, options.jobs, seconds, result))
+                                     : run_cells(cells, options);
 
   for (std::size_t i = 0; i < grid.size(); ++i)
     if (results[i]) outcome.findings.push_back({grid[i], read_cost_measurement(*results[i])});

@@ -13,6 +13,7 @@ namespace hbvm::core {
 
 struct CostOptions : CellOptions {
   std::function<void(double)> reference_progress = {};  ///< it may throw to end the work
+  RunApart apart = {};  ///< if there is none, cells run in threads, and none is ended for its time
 };
 
 /// A cell with what it came to.
@@ -32,7 +33,7 @@ struct CostOutcome {
   std::optional<Expression> energy_until = {};  ///< of the energies
 };
 
-/// Measures the cells of the study, each in a process of its own, beside which a calibration shows what else the
+/// Measures the cells of the study, each apart from the others, beside which a calibration shows what else the
 /// machine did. To be called while the program has a single thread.
 /// \return the same whatever the number of processes and shards, but for times
 /// \throws InputError, IntegrationError

@@ -9,6 +9,7 @@ namespace hbvm {
 Study study(const StudyRequest& door) {
   const core::Admitted admitted(door.stop);
   core::StudyOptions options;
+  options.draw = door.draw;
   options.check = door.check;
   options.jobs = door.jobs;
   options.progress = door.progress;

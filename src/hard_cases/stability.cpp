@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "hard_cases/report.hpp"
-#include "long_work/processes.hpp"
+#include "processes/in_processes.hpp"
 
 namespace hbvm::core {
 

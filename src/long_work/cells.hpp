@@ -58,16 +58,29 @@ class CellStore {
   std::mutex adding_;
 };
 
+/// Makes the results of these cells, by their places in the list, and hands over each as it comes, from any thread.
+using TakeResult = std::function<void(std::size_t cell, std::string result)>;
+using CellRunner = std::function<void(const std::vector<std::size_t>& cells, const TakeResult& take)>;
+
+/// How a cell ended that ran apart from the others.
+struct ProcessEnd {
+  std::string text;     ///< its result
+  std::string failure;  ///< if it has none: a crash, an exception, or no end in its time
+  double cpu_seconds = 0;
+};
+
+/// Makes what runs cells apart from one another, so many at a time, each for so many seconds of processor time.
+/// \param seconds of a cell, by its place; \param result made of how it ended
+using RunApart =
+    std::function<CellRunner(const std::vector<WorkCell>& cells, int jobs, std::function<double(std::size_t)> seconds,
+                             std::function<std::string(std::size_t, const ProcessEnd&)> result)>;
+
 struct CellOptions {
   int jobs = 1;  ///< threads, or processes
   Shard shard{};
   CellStore* store = nullptr;                ///< results known from before, to which new ones are added
   std::function<void(long, long)> progress;  ///< (cells done, of those of the shard)
 };
-
-/// Makes the results of these cells, by their places in the list, and hands over each as it comes, from any thread.
-using TakeResult = std::function<void(std::size_t cell, std::string result)>;
-using CellRunner = std::function<void(const std::vector<std::size_t>& cells, const TakeResult& take)>;
 
 /// Runs the cells of the shard that the store does not know, in threads. The first exception of one ends all once those
 /// at work are done, and is thrown. What was made before is in the store, which is put in order in the end.

@@ -18,10 +18,11 @@ struct Experiment {
   std::filesystem::path folder;
   Scene scene;  ///< empty for a study of all scenes
   Precision precision;
-  bool check;                           ///< compare with expected.csv
-  std::vector<std::string> provenance;  ///< of tables
-  std::string command;                  ///< that makes the results again
-  std::filesystem::path results;        ///< the folder that files go to
+  bool check;                                                        ///< compare with expected.csv
+  std::vector<std::string> provenance;                               ///< of tables
+  std::string command;                                               ///< that makes the results again
+  std::filesystem::path results;                                     ///< the folder that files go to
+  std::function<void(const Figure&, const std::string& file)> draw;  ///< if pictures can be drawn
 
   /// The key of a run: all that its result depends on. \param further of this kind of run
   std::string key(const std::string& kind, const Scene& of, const std::string& method, const Expression& step,

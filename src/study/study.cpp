@@ -55,7 +55,7 @@ class Study {
   Study(const StudyRequest& request, const StudyOptions& options)
       : source_(read_file(fs::path(request.folder) / "study.toml"), (fs::path(request.folder) / "study.toml").string()),
         root_(source_.parse()),
-        experiment_{request.folder, {}, request.precision, options.check, {}, {}, {}} {
+        experiment_{request.folder, {}, request.precision, options.check, {}, {}, {}, options.draw} {
     TomlTable top(source_, root_, "study");
     title_ = top.string("title");
     const std::string kind = top.string("kind");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/figure.hpp"
 #include "long_work/cells.hpp"
 #include "scalar/precision.hpp"
 
@@ -33,6 +34,8 @@ struct StudyRequest {
 };
 
 struct StudyOptions : CellOptions {
+  /// Draws a picture into a file; without it there are none, and a warning for each.
+  std::function<void(const Figure&, const std::string& file)> draw = {};
   bool check = false;  ///< compare with the folders' expected.csv
   /// Where results go, in STUDY/PRECISION/; if absent to results/PRECISION/ in the study's own folder.
   std::optional<std::filesystem::path> out{};

@@ -13,7 +13,6 @@
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 #include "read_file.hpp"
-#include "report/draw.hpp"
 #include "run/run.hpp"
 #include "run/run_figure.hpp"
 #include "run/trajectory_metadata.hpp"
@@ -204,7 +203,8 @@ Part<Drawn> study_figure(const Experiment& experiment, TomlTable reader) {
       drawn.panels.push_back(panel(TomlTable(source, *table, "panel" + of_figure), experiment.scene, runs));
     const std::string picture = (experiment.results / (figure.name + ".svg")).string();
     try {
-      draw(drawn, picture);
+      if (!experiment.draw) throw Error("nothing was given that draws");
+      experiment.draw(drawn, picture);
       made.files.push_back(picture);
     } catch (const InputError&) {
       throw;

@@ -4,6 +4,7 @@
 
 #include "cost/cost_methods.hpp"
 #include "hbvm/error.hpp"
+#include "processes/in_processes.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -27,6 +28,7 @@ TEST(CostStudy, IsTheSameInShardsPutTogether) {
   const CostStudy study = small_study("double_pendulum");
   CostOptions alone;
   alone.jobs = 2;
+  alone.apart = in_processes;
   const CostOutcome whole = run_cost_study(study, alone);
   EXPECT_EQ(whole.findings.size(), whole.cells);
   EXPECT_GT(whole.cells, 8u);
@@ -37,6 +39,7 @@ TEST(CostStudy, IsTheSameInShardsPutTogether) {
     CostOptions part;
     part.shard = {i, 5};
     part.store = &store;
+    if (i > 1) part.apart = in_processes;  // the first without: it finds the same
     most = run_cost_study(study, part).findings.size();
   }
   EXPECT_EQ(most, whole.cells);

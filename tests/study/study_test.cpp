@@ -8,6 +8,7 @@
 
 #include "csv_line.hpp"
 #include "hbvm/error.hpp"
+#include "processes/draw.hpp"
 #include "read_file.hpp"
 #include "scalar/text.hpp"
 #include "scene/scene.hpp"
@@ -37,6 +38,7 @@ class StudyTest : public ::testing::Test {
   static StudyOutcome run(const fs::path& folder, const std::string& precision) {
     StudyOptions options;
     options.check = true;
+    options.draw = draw;
     options.jobs = 2;
     return run_studies({{folder.string(), Precision::parse(precision)}}, options).front().value();
   }

@@ -36,7 +36,13 @@ std::map<std::string, Folders> allowed() {
   result["report"] = {"", "report"};
   result["long_work"] = {"", "long_work"};
   both_chains.insert({"report", "long_work"});
-  for (const char* folder : {"run", "compare", "audit", "cost", "study", "door", "hard_cases", "cli"}) {
+  for (const char* folder : {"run", "compare", "audit", "cost", "study", "door"}) {
+    both_chains.insert(folder);
+    result[folder] = both_chains;
+  }
+  result["processes"] = {"", "report", "long_work", "processes"};
+  both_chains.insert("processes");
+  for (const char* folder : {"hard_cases", "cli"}) {
     both_chains.insert(folder);
     result[folder] = both_chains;
   }

@@ -8,13 +8,6 @@
 
 namespace hbvm::core {
 
-/// How a cell ended that ran in a process of its own.
-struct ProcessEnd {
-  std::string text;     ///< its result
-  std::string failure;  ///< if it has none: a crash, an exception, or no end in its time
-  double cpu_seconds = 0;
-};
-
 /// Runs cells in so many processes at a time, each of which is ended after its seconds of processor time. One that
 /// crashes takes no other with it. To be called while the program has a single thread.
 /// \param seconds of a cell, by its place; \param result made of how it ended

@@ -1,4 +1,4 @@
-#include "report/draw.hpp"
+#include "processes/draw.hpp"
 
 #include <gtest/gtest.h>
 

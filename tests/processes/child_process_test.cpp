@@ -1,4 +1,4 @@
-#include "long_work/apart.hpp"
+#include "processes/child_process.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@ struct End {
   double cpu_seconds;
 };
 End end_of(const std::function<std::string()>& work, double seconds = 10) {
-  Apart apart(work, seconds);
+  ChildProcess apart(work, seconds);
   while (!apart.take()) continue;
   return {apart.text(), apart.failure(), apart.cpu_seconds()};
 }
@@ -70,7 +70,7 @@ TEST(WorkApart, IsEndedAfterItsProcessorTime) {
 TEST(WorkApart, EndsWithItsOwner) {
   int end = -1;
   {
-    const Apart waits([]() -> std::string { return pause() == 0 ? "" : "woken"; }, 10);
+    const ChildProcess waits([]() -> std::string { return pause() == 0 ? "" : "woken"; }, 10);
     end = dup(waits.file());
   }
   char byte = 0;

@@ -1,11 +1,11 @@
-#include "report/draw.hpp"
+#include "processes/draw.hpp"
 
 #include <cstdio>
 #include <cstdlib>
 
-#include "figure_layout.hpp"
 #include "hbvm/error.hpp"
 #include "read_file.hpp"
+#include "report/figure_layout.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {

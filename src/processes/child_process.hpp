@@ -9,12 +9,12 @@ namespace hbvm::core {
 
 /// A function at work in a process of its own, which may crash, or be ended after so many seconds of processor time.
 /// Its text comes back through a pipe.
-class Apart {
+class ChildProcess {
  public:
   /// \throws Error if no process can be started
-  Apart(const std::function<std::string()>& work, double seconds);
-  ~Apart();
-  Apart(const Apart&) = delete;
+  ChildProcess(const std::function<std::string()>& work, double seconds);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
 
   /// What to wait for: readable when there is text, or the end.
   int file() const { return file_; }

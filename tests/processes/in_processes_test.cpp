@@ -1,4 +1,4 @@
-#include "long_work/processes.hpp"
+#include "processes/in_processes.hpp"
 
 #include <gtest/gtest.h>
 

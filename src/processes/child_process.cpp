@@ -1,4 +1,4 @@
-#include "apart.hpp"
+#include "processes/child_process.hpp"
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
@@ -53,7 +53,7 @@ bool write_all(int file, const std::string& text) {
 
 }  // namespace
 
-Apart::Apart(const std::function<std::string()>& work, double seconds) : seconds_(seconds) {
+ChildProcess::ChildProcess(const std::function<std::string()>& work, double seconds) : seconds_(seconds) {
   int ends[2];
   if (pipe(ends) != 0) throw Error(std::string("cannot open a pipe: ") + std::strerror(errno));
   process_ = fork();
@@ -69,7 +69,7 @@ Apart::Apart(const std::function<std::string()>& work, double seconds) : seconds
   }
 }
 
-Apart::~Apart() {
+ChildProcess::~ChildProcess() {
   if (file_ >= 0) close(file_);
   if (process_ > 0) {
     kill(process_, SIGKILL);
@@ -77,7 +77,7 @@ Apart::~Apart() {
   }
 }
 
-bool Apart::take() {
+bool ChildProcess::take() {
   char buffer[4096];
   const ssize_t count = read(file_, buffer, sizeof buffer);
   if (count > 0) {

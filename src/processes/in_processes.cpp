@@ -1,4 +1,4 @@
-#include "processes.hpp"
+#include "processes/in_processes.hpp"
 
 #include <poll.h>
 
@@ -8,7 +8,7 @@
 
 #include "hbvm/error.hpp"
 #include "interruption.hpp"
-#include "long_work/apart.hpp"
+#include "processes/child_process.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// A cell at work.
 struct Running {
   std::size_t index;
-  Apart process;
+  ChildProcess process;
 
   Running(std::size_t i, const std::function<std::string()>& work, double seconds) : index(i), process(work, seconds) {}
 };
@@ -52,7 +52,7 @@ CellRunner in_processes(const std::vector<WorkCell>& cells, int jobs, std::funct
       }
       for (const auto& place : wait_for(running)) {
         look_at_signal();
-        const Apart& process = place->process;
+        const ChildProcess& process = place->process;
         take(place->index, result(place->index, {process.text(), process.failure(), process.cpu_seconds()}));
         running.erase(place);
       }
