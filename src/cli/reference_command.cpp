@@ -17,7 +17,7 @@
 #include "long_work/cells.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 #include "reference/store.hpp"
 #include "scene/coordinate_names.hpp"
 #include "signals.hpp"

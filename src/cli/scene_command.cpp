@@ -24,7 +24,7 @@ void project_command(const ProjectArguments& o) {
   const std::string given = scene_text(o.scene);
   const Scene scene = read_scene(given, o.scene);
   const std::string text = with_scalar(Precision::parse(o.precision), [&]<Scalar S>() {
-    const std::string projected = with_start(given, project<S>(scene));
+    std::string projected = with_start(given, project<S>(scene));
     assemble<S>(read_scene(projected, o.scene));  // what is written must be accepted
     return projected;
   });

@@ -16,7 +16,7 @@
 #include "hbvm/error.hpp"
 #include "problem/energy_terms.hpp"
 #include "problem/point.hpp"
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 #include "reference/reference_motion.hpp"
 #include "reference/store.hpp"
 #include "reference/taylor.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 #include "scene/assemble.hpp"
 
 namespace hbvm::core {

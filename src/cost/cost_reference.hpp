@@ -4,7 +4,7 @@
 #include <string>
 
 #include "long_work/cells.hpp"
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 #include "reference/route_run.hpp"
 
 namespace hbvm::core {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hbvm/run.hpp"
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 
 namespace hbvm::core {
 

@@ -4,7 +4,7 @@
 
 #include "hard_cases/case.hpp"
 #include "motion.hpp"
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 
 namespace hbvm::core {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 #include "scalar/big_float.hpp"
 
 namespace hbvm::core {

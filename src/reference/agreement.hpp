@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hbvm/error.hpp"
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 #include "reference/route_run.hpp"
 
 namespace hbvm::core {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 
 namespace hbvm::core {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 
 namespace hbvm::core {
 

@@ -6,7 +6,7 @@
 #include "expected_csv.hpp"
 #include "experiment.hpp"
 #include "long_work/json.hpp"
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 #include "scalar/text.hpp"
 
 namespace hbvm::core {

@@ -4,7 +4,7 @@
 #include <mutex>
 
 #include "printing.hpp"
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 
 namespace hbvm::core {
 namespace {

@@ -6,7 +6,7 @@
 #include "interrupting.hpp"
 #include "printing.hpp"
 #include "problem/general_drift.hpp"
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 #include "run/simulate.hpp"
 #include "scene/scene_text.hpp"
 #include "step/registry.hpp"

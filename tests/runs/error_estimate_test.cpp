@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 #include "scalar/literal.hpp"
 #include "step/registry.hpp"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "method/tableaux.hpp"
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 #include "step/registry.hpp"
 #include "step/tableau_method.hpp"
 

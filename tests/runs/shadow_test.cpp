@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "integrate/runs.hpp"
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "hbvm/error.hpp"
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 #include "step/hbvm_method.hpp"
 
 namespace hbvm::core {

@@ -4,7 +4,7 @@
 
 #include "integrate/drift.hpp"
 #include "printing.hpp"
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 #include "step/hbvm_method.hpp"

@@ -1,5 +1,3 @@
-#include "hbvm/run.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,10 +7,11 @@
 #include "csv_line.hpp"
 #include "door/door.hpp"
 #include "door/run_of.hpp"
+#include "hbvm/run.hpp"
 #include "hbvm/version.hpp"
-#include "run/run.hpp"
 #include "run/run_figure.hpp"
 #include "run/run_page.hpp"
+#include "run/scene_run.hpp"
 #include "scene/sketch.hpp"
 #include "step/registry.hpp"
 

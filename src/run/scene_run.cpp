@@ -1,4 +1,4 @@
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 
 #include "integrate/energy_scale.hpp"
 #include "integrate/momentum_drift.hpp"

@@ -1,9 +1,8 @@
-#include "hbvm/reference.hpp"
-
 #include "door/door.hpp"
+#include "hbvm/reference.hpp"
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 
 namespace hbvm {
 

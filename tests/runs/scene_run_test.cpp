@@ -1,4 +1,4 @@
-#include "run/run.hpp"
+#include "run/scene_run.hpp"
 
 #include "printing.hpp"
 #include "scene/assemble.hpp"

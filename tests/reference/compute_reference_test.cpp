@@ -1,4 +1,4 @@
-#include "reference/reference.hpp"
+#include "reference/compute_reference.hpp"
 
 #include "hbvm/error.hpp"
 #include "printing.hpp"
