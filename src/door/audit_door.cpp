@@ -1,5 +1,3 @@
-#include "hbvm/audit.hpp"
-
 #include <algorithm>
 
 #include "audit/audit.hpp"
@@ -7,6 +5,7 @@
 #include "audit/report.hpp"
 #include "door/door.hpp"
 #include "door/tableau_of.hpp"
+#include "hbvm/audit.hpp"
 #include "step/registry.hpp"
 
 namespace hbvm {

@@ -1,10 +1,9 @@
-#include "hbvm/cost.hpp"
-
 #include <fmt/format.h>
 
 #include "cost/cost_methods.hpp"
 #include "cost/planner.hpp"
 #include "door/door.hpp"
+#include "hbvm/cost.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,7 +1,6 @@
-#include "hbvm/method.hpp"
-
 #include "door/door.hpp"
 #include "door/tableau_of.hpp"
+#include "hbvm/method.hpp"
 #include "method/read_tableau.hpp"
 #include "scalar/precision.hpp"
 #include "step/registry.hpp"

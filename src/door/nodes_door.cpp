@@ -1,6 +1,5 @@
-#include "hbvm/nodes.hpp"
-
 #include "basis/gauss_legendre.hpp"
+#include "hbvm/nodes.hpp"
 #include "long_work/json.hpp"
 #include "run/texts.hpp"
 #include "scalar/with_scalar.hpp"

@@ -1,10 +1,9 @@
-#include "hbvm/number.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "hbvm/error.hpp"
+#include "hbvm/number.hpp"
 
 namespace hbvm {
 

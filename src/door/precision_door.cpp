@@ -1,5 +1,4 @@
 #include "hbvm/precision.hpp"
-
 #include "scalar/precision.hpp"
 
 namespace hbvm {

@@ -1,9 +1,8 @@
-#include "hbvm/scene.hpp"
-
 #include <fmt/format.h>
 
 #include "door/door.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/scene.hpp"
 #include "scene/scene.hpp"
 
 namespace hbvm {

@@ -1,6 +1,5 @@
-#include "hbvm/study.hpp"
-
 #include "door/door.hpp"
+#include "hbvm/study.hpp"
 #include "long_work/json.hpp"
 #include "study/study.hpp"
 

@@ -1,8 +1,7 @@
-#include "hbvm/table.hpp"
-
 #include <algorithm>
 
 #include "csv_line.hpp"
+#include "hbvm/table.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,9 +1,8 @@
-#include "hbvm/audit.hpp"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "hbvm/audit.hpp"
 #include "hbvm/error.hpp"
 
 namespace hbvm {

@@ -1,9 +1,8 @@
-#include "hbvm/cost.hpp"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "hbvm/cost.hpp"
 #include "hbvm/error.hpp"
 
 namespace hbvm {

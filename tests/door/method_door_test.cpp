@@ -1,11 +1,10 @@
-#include "hbvm/method.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "door/tableau_of.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/method.hpp"
 
 namespace hbvm {
 namespace {

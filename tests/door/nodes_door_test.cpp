@@ -1,10 +1,9 @@
-#include "hbvm/nodes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "hbvm/error.hpp"
+#include "hbvm/nodes.hpp"
 
 namespace hbvm {
 namespace {

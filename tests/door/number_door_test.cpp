@@ -1,10 +1,9 @@
-#include "hbvm/number.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "hbvm/error.hpp"
+#include "hbvm/number.hpp"
 
 namespace hbvm {
 namespace {

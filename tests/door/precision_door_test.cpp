@@ -1,8 +1,7 @@
-#include "hbvm/precision.hpp"
-
 #include <gtest/gtest.h>
 
 #include "hbvm/error.hpp"
+#include "hbvm/precision.hpp"
 
 namespace hbvm {
 namespace {

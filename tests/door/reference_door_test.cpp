@@ -1,10 +1,9 @@
-#include "hbvm/reference.hpp"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "hbvm/error.hpp"
+#include "hbvm/reference.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,11 +1,10 @@
-#include "hbvm/run.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "door/run_of.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/run.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,9 +1,8 @@
-#include "hbvm/scene.hpp"
-
 #include <gtest/gtest.h>
 
 #include "hbvm/error.hpp"
 #include "hbvm/run.hpp"
+#include "hbvm/scene.hpp"
 
 namespace hbvm {
 namespace {

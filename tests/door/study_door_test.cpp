@@ -1,11 +1,10 @@
-#include "hbvm/study.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "hbvm/error.hpp"
+#include "hbvm/study.hpp"
 
 namespace hbvm {
 namespace {

@@ -1,8 +1,7 @@
-#include "hbvm/table.hpp"
-
 #include <gtest/gtest.h>
 
 #include "hbvm/figure.hpp"
+#include "hbvm/table.hpp"
 
 namespace hbvm::core {
 namespace {
