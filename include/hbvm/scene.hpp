@@ -12,25 +12,25 @@ namespace hbvm {
 
 /// A body that has a place and no extent. One of velocity and momentum is given, or neither: it is at rest then.
 struct Body {
-  std::string name;
+  std::string name = {};
   Number mass = 1;
-  Numbers position;
+  Numbers position = {};
   Numbers velocity = {}, momentum = {};
   std::optional<Number> charge = {};
   NumberRows mass_matrix = {};  ///< instead of the mass
 };
 
-/// A rigid body, in the plane or in space; see `hbvm help` and the page of scenes for its keys.
+/// A rigid body, in the plane or in space; the page of scenes, studies/scenes, says what its keys mean.
 struct RigidBody {
-  std::string name;
+  std::string name = {};
   Number mass = 1;
-  Numbers position;  ///< of its reference point
+  Numbers position = {};  ///< of its reference point
   bool fixed = false;
-  Numbers velocity = {};     ///< of its reference point; at rest if absent
-  Numbers center;            ///< of mass, in the body's frame
-  NumberRows second_moment;  ///< integral of X X^T dm about the reference point, in the body's frame
-  NumberRows directors;      ///< row i is director i in space
-  Numbers angular_velocity;  ///< one number in the plane, three in space
+  Numbers velocity = {};          ///< of its reference point; at rest if absent
+  Numbers center = {};            ///< of mass, in the body's frame
+  NumberRows second_moment = {};  ///< integral of X X^T dm about the reference point, in the body's frame
+  NumberRows directors = {};      ///< row i is director i in space
+  Numbers angular_velocity = {};  ///< one number in the plane, three in space
 };
 
 /// A condition g(q) = 0 by its kind and keys, as a scene file has them, or by its formula.

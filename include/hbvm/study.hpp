@@ -12,8 +12,8 @@ namespace hbvm {
 /// A folder with a study.toml: its runs, its tables, and what they are compared with.
 struct StudyRequest {
   std::string folder, precision = "double";
-  bool check = true;  ///< compare with the folder's expected.csv
-  std::string out;    ///< where files go; results/PRECISION in the folder if empty
+  bool check = true;     ///< compare with the folder's expected.csv
+  std::string out = {};  ///< where files go; results/PRECISION in the folder if empty
   /// Draws a picture into a file, by gnuplot_script() for example; without it there are none, and a warning for each.
   std::function<void(const Figure& figure, const std::string& file)> draw = {};
   int jobs = 1;  ///< threads

@@ -24,7 +24,6 @@ std::string quoted(const std::string& text) {
 
 std::string toml(const std::string& text) { return quoted(text); }
 std::string toml(const Number& number) { return quoted(number.text()); }
-std::string toml(bool value) { return value ? "true" : "false"; }
 template <class T>
 std::string toml(const std::vector<T>& list) {
   std::string result;
