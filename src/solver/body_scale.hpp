@@ -1,5 +1,6 @@
 #pragma once
 
+#include "problem/problem.hpp"
 #include "solver/stopping_rule.hpp"
 
 namespace hbvm::core {

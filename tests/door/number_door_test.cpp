@@ -16,8 +16,8 @@ TEST(Number, IsTheDecimalThatWasMeant) {
 }
 
 TEST(Number, IsFinite) {
-  EXPECT_THROW(Number(std::numeric_limits<double>::quiet_NaN()), InputError);
-  EXPECT_THROW(Number(std::numeric_limits<double>::infinity()), InputError);
+  EXPECT_THROW(static_cast<void>(Number(std::numeric_limits<double>::quiet_NaN())), InputError);
+  EXPECT_THROW(static_cast<void>(Number(std::numeric_limits<double>::infinity())), InputError);
 }
 
 }  // namespace
