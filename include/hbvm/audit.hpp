@@ -42,7 +42,7 @@ struct AuditOptions {
   double limit = 120;                ///< seconds of processor time a claim may take; 0: any
   std::optional<Number> until = {};  ///< all of the motion up to this time is looked at
   int coefficient_digits = 1000;     ///< in which coefficients are held against their conditions; 0: not at all
-  std::function<void(long done, long of)> progress = {};
+  std::function<void(long done, long of)> progress = {};  ///< called now and then, from any thread
   std::stop_token stop = {};
 };
 

@@ -18,7 +18,7 @@ struct PlanRequest {
   std::string quantity = "all";              ///< what must have them; see `hbvm cost --help`
   std::vector<std::string> methods = {};     ///< empty: those the planner knows
   std::vector<std::string> precisions = {};  ///< empty: double and quad where they do, and as many digits as it takes
-  std::function<void(double part)> progress = {};
+  std::function<void(double part)> progress = {};  ///< called now and then, from any thread
   std::stop_token stop = {};
 };
 

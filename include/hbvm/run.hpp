@@ -26,9 +26,9 @@ struct RunRequest {
   bool account = false;              ///< tell where the time goes
   bool shadow = false;               ///< tell how many digits survived rounding
   bool error = false;                ///< tell how many digits are right
-  std::string start = {};  ///< JSON with q and p, as to_json() of a run gives it, instead of the scene's start
-  bool picture = false;    ///< also make a figure and a page that moves
-  long every = 1;          ///< steps between two rows of the trajectory; 0: no trajectory is kept
+  std::string start = {};            ///< JSON with q and p, as to_json() of a run gives it; messages call it start.json
+  bool picture = false;              ///< also make a figure and a page that moves
+  long every = 1;                    ///< steps between two rows of the trajectory; 0: no trajectory is kept
   std::function<void(long done, long of)> progress = {};  ///< called now and then, with steps
   std::stop_token stop = {};                              ///< ends the run between two steps
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,12 @@
 #include "hbvm/number.hpp"
 
 namespace hbvm {
+
+class Scene;
+namespace core {
+struct Scene;
+Scene scene_of(const hbvm::Scene& scene);
+}  // namespace core
 
 /// A body that has a place and no extent. One of velocity and momentum is given, or neither: it is at rest then.
 struct Body {
@@ -87,7 +94,7 @@ class Scene {
   /// \throws InputError with the line of toml() and what is wrong there
   void check() const;
 
-  friend Scene load_scene(const std::string& path_or_name);
+  friend core::Scene core::scene_of(const Scene& scene);
   friend Scene read_scene(const std::string& toml, const std::string& name);
 
  private:
@@ -99,7 +106,7 @@ class Scene {
   std::string head_;  ///< of one that was read: the whole text
   std::vector<std::string> constants_ = {}, observables_ = {};
   std::string tables_ = {};
-  bool in_parts_ = true;
+  std::shared_ptr<const core::Scene> read_ = {};  ///< what it says; null of one that is in parts
 };
 
 /// The scene of a file, or a built-in one by its name. \throws InputError with file, line and what is wrong

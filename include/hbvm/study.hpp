@@ -16,8 +16,8 @@ struct StudyRequest {
   std::string out = {};  ///< where files go; results/PRECISION in the folder if empty
   /// Draws a picture into a file, by gnuplot_script() for example; without it there are none, and a warning for each.
   std::function<void(const Figure& figure, const std::string& file)> draw = {};
-  int jobs = 1;  ///< threads
-  std::function<void(long done, long of)> progress = {};
+  int jobs = 1;                                           ///< threads
+  std::function<void(long done, long of)> progress = {};  ///< called now and then, from any thread
   std::stop_token stop = {};
 };
 

@@ -161,14 +161,6 @@ std::unique_ptr<CsvFile> open(const std::string& path, const RunArguments& o) {
   }
 }
 
-Expression expression(const std::string& what, const std::string& text) {
-  try {
-    return Expression::parse(text);
-  } catch (const ExpressionError& error) {
-    throw InputError(what + " " + error.what());
-  }
-}
-
 /// What the run is; of one that goes on, what it was. \throws InputError if it is not the same
 RunIdentity identity_of(const RunArguments& o, const CLI::App& command) {
   const auto refuse = [&](const std::string& why) { throw InputError("--resume: '" + *o.resume + "' " + why); };
@@ -190,20 +182,19 @@ RunIdentity identity_of(const RunArguments& o, const CLI::App& command) {
   return identity;
 }
 
-RunRequest request_of(const RunArguments& o, const RunIdentity& identity) {
-  RunRequest request{o.resumed ? read_scene(identity.scene, identity.scene_name) : load_scene(o.scene),
-                     parse_method(o.method),
-                     parse_solver(o.solver),
-                     expression("step", o.step),
-                     expression("until", o.until),
-                     Precision::parse(o.precision),
-                     o.account,
-                     o.shadow,
-                     o.error,
-                     parse_on_failure(o.on_failure),
-                     o.reverse ? Direction::backward : Direction::forward};
-  if (o.start) request.start = read_start_state(identity.start, *o.start);
-  return request;
+hbvm::RunRequest asked_of(const RunArguments& o, const RunIdentity& identity) {
+  return {.scene = o.resumed ? hbvm::read_scene(identity.scene, identity.scene_name) : hbvm::load_scene(o.scene),
+          .method = o.method,
+          .step = o.step,
+          .until = o.until,
+          .precision = o.precision,
+          .solver = o.solver,
+          .on_failure = o.on_failure,
+          .reverse = o.reverse,
+          .account = o.account,
+          .shadow = o.shadow,
+          .error = o.error,
+          .start = identity.start};
 }
 
 /// The file that keeps the run: the one it goes on from, unless it is to be another.
@@ -218,21 +209,12 @@ std::optional<Checkpoints> checkpoints_of(const RunArguments& o, const RunIdenti
   return checkpoints;
 }
 
-/// What makes the same motion again.
-std::string command_line(const RunArguments& o, const RunRequest& request) {
-  return "hbvm run " + o.scene + " --method " + request.method->text() + " --step '" + o.step + "' --until '" +
-         o.until + "' --precision " + request.precision.name() + " --solver " + std::string(name_of(request.solver)) +
-         (o.start ? " --start " + *o.start : "") + (o.reverse ? " --reverse" : "") +
-         (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
-}
-
 /// Describes the trajectory in a file beside it, if it is one. \return the files of --out
-std::vector<std::string> write_metadata(const RunArguments& o, const RunRequest& request,
+std::vector<std::string> write_metadata(const RunArguments& o, const RunRequest& request, const std::string& command,
                                         const std::vector<TrajectoryColumn>& columns) {
   if (!has_neighbours(*o.out)) return {*o.out};
-  const std::string file = csvw_file(*o.out),
-                    command = command_line(o, request) + " --every " + std::to_string(o.every);
-  write_file(file, to_csvw(trajectory_metadata(request, columns, command, o.every), *o.out));
+  const std::string file = csvw_file(*o.out), with_rows = command + " --every " + std::to_string(o.every);
+  write_file(file, to_csvw(trajectory_metadata(request, columns, with_rows, o.every), *o.out));
   return {*o.out, file};
 }
 
@@ -255,7 +237,7 @@ class Plot {
     if (is_page(file_))
       write_file(file_, run_page(request, recording_, command));
     else
-      draw_figure(request, command);
+      hbvm::core::draw(figure_of(request, recording_, command), file_);
     say_written(file_);
   }
 
@@ -269,16 +251,6 @@ class Plot {
     }
   }
 
-  void draw_figure(const RunRequest& request, const std::string& command) const {
-    Figure figure = run_figure(sketch(request.scene), recording_);
-    figure.caption = plain(request.scene.title);
-    figure.footnote = std::string("hbvm ") + version() + ": " + command;
-    if (recording_.every > 1)
-      figure.footnote +=
-          fmt::format("; a point every {} steps, of errors the greatest since the one before", recording_.every);
-    hbvm::core::draw(figure, file_);
-  }
-
   std::string file_;
   Recording recording_;
 };
@@ -290,7 +262,9 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   for (const auto& [option, file] : {std::pair("--out", o.out), {"--plot", o.plot}, {"--checkpoint", o.checkpoint}})
     if (file) refuse_dash(option, *file);
   const RunIdentity identity = identity_of(o, command);
-  const RunRequest request = request_of(o, identity);
+  const hbvm::RunRequest asked = asked_of(o, identity);
+  const RunRequest request = request_of(asked, o.start);
+  const std::string made_by = command_of(asked, request);
   std::optional<Checkpoints> checkpoints = checkpoints_of(o, identity);
   RunHooks hooks;
   hooks.every = o.every;
@@ -301,7 +275,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.out) {
     hooks.open_csv = [&] { return open(*o.out, o); };
     hooks.describe_csv = [&](const std::vector<TrajectoryColumn>& columns) {
-      written = write_metadata(o, request, columns);
+      written = write_metadata(o, request, made_by, columns);
     };
   }
   const auto say_all_written = [&] { std::for_each(written.begin(), written.end(), say_written); };
@@ -317,14 +291,14 @@ void run_command(const RunArguments& o, const CLI::App& command) {
       } catch (const Error&) {
         // What was computed before is to be seen.
         say_all_written();
-        if (plot) plot->draw(request, command_line(o, request));
+        if (plot) plot->draw(request, made_by);
         throw;
       }
     }();
     say_all_written();
-    if (plot) plot->draw(request, command_line(o, request));
+    if (plot) plot->draw(request, made_by);
     if (o.json)
-      std::cout << to_json(run_of(request, result, command_line(o, request))) << std::endl;
+      std::cout << to_json(run_of(request, result, made_by)) << std::endl;
     else
       print(request, result);
     constexpr int doubtful = 3;

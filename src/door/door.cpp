@@ -20,8 +20,6 @@ std::function<void(double)> watched(const std::function<void(double)>& progress)
   };
 }
 
-Scene scene_of(const hbvm::Scene& scene) { return read_scene(scene.toml(), scene.name()); }
-
 Expression expression_of(const Number& number, const std::string& what) {
   try {
     return Expression::parse(number.text());

@@ -25,8 +25,6 @@ class Admitted {
 /// What a progress of parts becomes: it ends the work, too, if that is asked for.
 std::function<void(double)> watched(const std::function<void(double)>& progress);
 
-/// The scene that the text says. \throws InputError
-Scene scene_of(const hbvm::Scene& scene);
 /// The exact number. \param what it is, for messages. \throws InputError
 Expression expression_of(const Number& number, const std::string& what);
 

@@ -19,32 +19,6 @@ namespace hbvm {
 namespace core {
 namespace {
 
-RunRequest request_of(const hbvm::RunRequest& door) {
-  if (door.every < 0)
-    throw InputError(fmt::format("a trajectory of every {} steps: it must not be negative", door.every));
-  RunRequest request{scene_of(door.scene),
-                     parse_method(door.method),
-                     parse_solver(door.solver),
-                     expression_of(door.step, "step"),
-                     expression_of(door.until, "until"),
-                     Precision::parse(door.precision),
-                     door.account,
-                     door.shadow,
-                     door.error,
-                     parse_on_failure(door.on_failure),
-                     door.reverse ? Direction::backward : Direction::forward};
-  if (!door.start.empty()) request.start = read_start_state(door.start, "the start of the run");
-  return request;
-}
-
-/// What makes the same motion again.
-std::string command_of(const hbvm::RunRequest& door, const RunRequest& request) {
-  return "hbvm run " + door.scene.name() + " --method " + request.method->text() + " --step '" + door.step.text() +
-         "' --until '" + door.until.text() + "' --precision " + request.precision.name() + " --solver " +
-         std::string(name_of(request.solver)) + (door.reverse ? " --reverse" : "") +
-         (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
-}
-
 hbvm::Trajectory trajectory_of(std::istream& lines) {
   hbvm::Trajectory trajectory;
   for (std::string line; std::getline(lines, line);)
@@ -76,6 +50,39 @@ AccountEntry entry_of(const AccountLine& line) {
 }
 
 }  // namespace
+
+RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start) {
+  RunRequest request{scene_of(asked.scene),
+                     parse_method(asked.method),
+                     parse_solver(asked.solver),
+                     expression_of(asked.step, "step"),
+                     expression_of(asked.until, "until"),
+                     Precision::parse(asked.precision),
+                     asked.account,
+                     asked.shadow,
+                     asked.error,
+                     parse_on_failure(asked.on_failure),
+                     asked.reverse ? Direction::backward : Direction::forward};
+  if (start) request.start = read_start_state(asked.start, *start);
+  return request;
+}
+
+std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request) {
+  return "hbvm run " + asked.scene.name() + " --method " + request.method->text() + " --step '" + asked.step.text() +
+         "' --until '" + asked.until.text() + "' --precision " + request.precision.name() + " --solver " +
+         std::string(name_of(request.solver)) + (request.start ? " --start " + request.start->file : "") +
+         (asked.reverse ? " --reverse" : "") + (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
+}
+
+Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command) {
+  Figure figure = run_figure(sketch(request.scene), recording);
+  figure.caption = plain(request.scene.title);
+  figure.footnote = std::string("hbvm ") + version() + ": " + command;
+  if (recording.every > 1)
+    figure.footnote +=
+        fmt::format("; a point every {} steps, of errors the greatest since the one before", recording.every);
+  return figure;
+}
 
 Run run_of(const RunRequest& request, const RunResult& result, const std::string& command) {
   Run run;
@@ -122,7 +129,10 @@ Run run_of(const RunRequest& request, const RunResult& result, const std::string
 
 Run run(const RunRequest& door) {
   const core::Admitted admitted(door.stop);
-  const core::RunRequest request = core::request_of(door);
+  if (door.every < 0)
+    throw InputError(fmt::format("a trajectory of every {} steps: it must not be negative", door.every));
+  const auto start = door.start.empty() ? std::nullopt : std::optional<std::string>("start.json");
+  const core::RunRequest request = core::request_of(door, start);
   std::stringstream lines;
   core::Recording recording;
   core::RunHooks hooks;
@@ -136,8 +146,7 @@ Run run(const RunRequest& door) {
   Run run = core::run_of(request, result, core::command_of(door, request));
   run.trajectory = core::trajectory_of(lines);
   if (door.picture) {
-    run.figure = core::run_figure(core::sketch(request.scene), recording);
-    run.figure->caption = plain(request.scene.title);
+    run.figure = core::figure_of(request, recording, run.command);
     run.page = core::run_page(request, recording, run.command);
   }
   return run;

@@ -5,6 +5,15 @@
 
 namespace hbvm::core {
 
+/// What is asked for, read. \param start names the start in messages; without it that of the scene is taken
+/// \throws InputError
+RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start);
+/// The command of the program that makes the same motion.
+std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request);
+
+/// The figure of a run: motion, multipliers and errors, with what made it below.
+Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command);
+
 /// A run as people are told of it. The trajectory and pictures are left out.
 /// \param command of the program, which makes the same motion
 Run run_of(const RunRequest& request, const RunResult& result, const std::string& command);

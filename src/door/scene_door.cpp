@@ -75,8 +75,8 @@ Scene::Scene(int dimension, std::string name) : name_(std::move(name)) {
 }
 
 void Scene::take_apart() {
-  if (in_parts_) return;
-  const core::Scene scene = core::scene_of(*this);
+  if (!read_) return;
+  const core::Scene& scene = *read_;
   const std::string text = core::write_scene(scene);
   head_ = "title = " + quoted(scene.title) + "\n";
   if (!scene.source.empty()) head_ += "source = " + quoted(scene.source) + "\n";
@@ -84,7 +84,7 @@ void Scene::take_apart() {
   observables_ = scene.observables;
   for (const auto& [name, value] : scene.constants) constants_.push_back(constant_line(name, value.text()));
   tables_ = text.substr(std::min(text.find("\n[["), text.size()));
-  in_parts_ = true;
+  read_.reset();
 }
 
 Scene& Scene::title(const std::string& text) {
@@ -199,8 +199,7 @@ Scene read_scene(const std::string& toml, const std::string& name) {
   Scene scene;
   scene.name_ = name;
   scene.head_ = toml;
-  scene.in_parts_ = false;
-  scene.check();
+  scene.read_ = std::make_shared<const core::Scene>(core::read_scene(toml, name));
   return scene;
 }
 
@@ -214,5 +213,11 @@ std::vector<std::string> scene_names() {
   for (const auto& [name, text] : core::built_in_scenes()) names.push_back(name);
   return names;
 }
+
+namespace core {
+
+Scene scene_of(const hbvm::Scene& scene) { return scene.read_ ? *scene.read_ : read_scene(scene.toml(), scene.name()); }
+
+}  // namespace core
 
 }  // namespace hbvm

@@ -167,6 +167,7 @@ std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& c
       const StopScope scope(asker);
       for (std::size_t n = next++; n < open.size(); n = next++) {
         try {
+          end_if_asked("the work was not finished");
           take(open[n], cells[open[n]].run());
         } catch (...) {
           const std::lock_guard lock(failing);

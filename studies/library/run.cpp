@@ -1,6 +1,7 @@
 #include <hbvm/hbvm.hpp>
 #include <iostream>
 
+// How well is the energy conserved? All numbers have 50 digits.
 int main() {
   const hbvm::Run run = hbvm::run({.scene = hbvm::load_scene("modified_pendulum"),
                                    .method = "hbvm:4,2",

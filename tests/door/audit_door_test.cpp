@@ -20,6 +20,16 @@ TEST(DoorAudit, FindsAWrongWeight) {
   EXPECT_GT(audit(tableau_claims(wrong)).count("fails"), 0);
 }
 
+TEST(DoorAudit, EndsWhenItIsAskedTo) {
+  std::stop_source source;
+  AuditOptions options;
+  options.stop = source.get_token();
+  options.progress = [&](long, long) { source.request_stop(); };  // once the first claims are decided
+  EXPECT_THROW(audit(method_claims("rattle") + method_claims("hbvm:2,1"), options), Interrupted);
+  // Before any is: also of coefficients, which make no steps.
+  EXPECT_THROW(audit(tableau_claims({.name = "Euler's", .A = {{0}}, .b = {1}, .c = {}}), options), Interrupted);
+}
+
 TEST(DoorAudit, ClaimsAddUp) {
   const Claims both = method_claims("rattle") + method_claims("hbvm:2,1");
   EXPECT_EQ(both.size(), method_claims("rattle").size() + method_claims("hbvm:2,1").size());

@@ -17,6 +17,17 @@ TEST(DoorCost, PlansARunThatHasTheDigits) {
   EXPECT_NE(found.text.find(found.pick.method), std::string::npos);
 }
 
+TEST(DoorCost, EndsWhenItIsAskedTo) {
+  std::stop_source source;
+  EXPECT_THROW(plan({.scene = load_scene("simple_pendulum"),
+                     .until = 1,
+                     .digits = 10,
+                     .methods = {"gauss"},
+                     .progress = [&](double) { source.request_stop(); },
+                     .stop = source.get_token()}),
+               Interrupted);
+}
+
 TEST(DoorCost, RefusesWhatIsNoQuestion) {
   EXPECT_THROW(plan({.scene = load_scene("kepler"), .until = 0}), InputError);
   EXPECT_THROW(plan({.scene = load_scene("kepler"), .until = 1, .quantity = "beauty"}), InputError);

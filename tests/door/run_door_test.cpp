@@ -102,6 +102,7 @@ TEST(DoorRun, MakesPictures) {
   const hbvm::Run made = run(request);
   ASSERT_TRUE(made.figure);
   EXPECT_GT(made.figure->panels.size(), 1u);
+  EXPECT_NE(made.figure->footnote.find(made.command), std::string::npos);
   EXPECT_NE(made.page.find("<html"), std::string::npos);
 }
 

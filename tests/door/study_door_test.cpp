@@ -9,6 +9,16 @@
 namespace hbvm {
 namespace {
 
+TEST(DoorStudy, EndsWhenItIsAskedTo) {
+  const std::filesystem::path out = std::filesystem::temp_directory_path() / "hbvm_door_study_ended";
+  std::stop_source source;
+  StudyRequest request{.folder = HBVM_SOURCE_DIR "/studies/table_1_simple_pendulum", .out = out.string()};
+  request.progress = [&](long, long) { source.request_stop(); };
+  request.stop = source.get_token();
+  EXPECT_THROW(study(request), Interrupted);
+  std::filesystem::remove_all(out);
+}
+
 TEST(DoorStudy, MeetsWhatIsPrinted) {
   const std::filesystem::path out = std::filesystem::temp_directory_path() / "hbvm_door_study";
   const Study found =
