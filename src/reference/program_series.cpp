@@ -5,6 +5,7 @@
 
 #include "hbvm/error.hpp"
 #include "scalar/in_place.hpp"
+#include "scalar/sine.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -27,6 +28,11 @@ std::optional<Op> partner_of(Op op) {
     default:
       return std::nullopt;
   }
+}
+
+void start_sine(Mpfr& sine, Mpfr& cosine, const Mpfr& a) {
+  if (!has_sine_in_reach(raw(a))) refuse("a sine of a number beyond the reach of its reduction");
+  mpfr_sin_cos(raw(sine), raw(cosine), raw(a), MPFR_RNDN);
 }
 
 }  // namespace
@@ -190,7 +196,7 @@ void ProgramSeries::start(const Node& node) {
       mpfr_log(raw(z), raw(a), MPFR_RNDN);
       break;
     case Op::sin:
-      mpfr_sin_cos(raw(z), raw(series(node.other)[0]), raw(a), MPFR_RNDN);
+      start_sine(z, series(node.other)[0], a);
       break;
     case Op::sinh:
       mpfr_sinh_cosh(raw(z), raw(series(node.other)[0]), raw(a), MPFR_RNDN);
@@ -210,7 +216,7 @@ void ProgramSeries::start(const Node& node) {
       break;
     }
     default:
-      mpfr_sin_cos(raw(series(node.other)[0]), raw(z), raw(a), MPFR_RNDN);
+      start_sine(series(node.other)[0], z, a);
       break;
   }
   if (!is_finite(z)) refuse("a value beyond the range of numbers");

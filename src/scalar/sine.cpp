@@ -270,12 +270,25 @@ bool set_by_table(mpfr_ptr r, mpfr_srcptr a, unsigned turn) {
 
 }  // namespace
 
+bool has_sine_in_reach(mpfr_srcptr a) {
+  constexpr mpfr_exp_t greatest = 131072;
+  return mpfr_regular_p(a) == 0 || mpfr_get_exp(a) <= greatest;
+}
+
 void set_sin(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t) {
-  if (!set_by_table(r, a, 0)) mpfr_sin(r, a, MPFR_RNDN);
+  if (set_by_table(r, a, 0)) return;
+  if (has_sine_in_reach(a))
+    mpfr_sin(r, a, MPFR_RNDN);
+  else
+    mpfr_set_nan(r);
 }
 
 void set_cos(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t) {
-  if (!set_by_table(r, a, 1)) mpfr_cos(r, a, MPFR_RNDN);
+  if (set_by_table(r, a, 1)) return;
+  if (has_sine_in_reach(a))
+    mpfr_cos(r, a, MPFR_RNDN);
+  else
+    mpfr_set_nan(r);
 }
 
 }  // namespace hbvm::core

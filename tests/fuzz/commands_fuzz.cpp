@@ -125,6 +125,10 @@ class Choice {
     }
   }
 
+  /// How long the command may run before it is asked to end. It is mostly short: more files are read in an hour, and
+  /// the request comes while a scene is read, checked or bounded as well.
+  std::chrono::milliseconds patience() { return std::chrono::milliseconds(random_() % 16 == 0 ? 500 : random_() % 40); }
+
  private:
   std::string one_of(std::initializer_list<const char*> values) { return values.begin()[random_() % values.size()]; }
 
@@ -187,7 +191,7 @@ void require_finite(const nlohmann::json& j, const Words& words) {
   }
 }
 
-void carry_out(Words words) {
+void carry_out(Words words, std::chrono::milliseconds patience) {
   words.emplace_back("--json");
   CLI::App app;
   add_run_command(app);
@@ -197,7 +201,7 @@ void carry_out(Words words) {
   const Output output;
   std::string refusal;
   try {
-    const Watchdog watchdog(std::chrono::milliseconds(500));
+    const Watchdog watchdog(patience);
     app.parse(Words(words.rbegin(), words.rend()));
   } catch (const CLI::RuntimeError&) {  // a check that did not hold, in the result
   } catch (const Error& error) {
@@ -220,6 +224,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const hbvm::core::Files files;
   const std::string text(reinterpret_cast<const char*>(data), size);
   hbvm::core::write_file(files.text, text);
-  hbvm::core::carry_out(hbvm::core::Choice(text).command(text, files));
+  hbvm::core::Choice choice(text);
+  const auto words = choice.command(text, files);
+  hbvm::core::carry_out(words, choice.patience());
   return ready ? 0 : -1;
 }

@@ -102,5 +102,23 @@ TEST(RunStepsThatCannotBeMade, AtAnySizeFailWithTheirCause) {
   }
 }
 
+/// Numbers of many digits have no overflow: what diverges grows until the sine of it cannot be computed.
+TEST(RunStepsThatCannotBeMade, InManyDigitsDivergeAsInDouble) {
+  const PrecisionScope digits(30);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("tethered_satellites"));
+  const TimeGrid<Mpfr> grid(Expression::parse("10"), Expression::parse("20"));
+  for (const char* const method : {"energy_momentum", "lobatto:3", "compose:energy_momentum,4"}) {
+    SCOPED_TRACE(method);
+    RunStepper<Mpfr> stepper(scene, parse_method(method), grid.step(), SolverKind::fixed_point, OnFailure::stop);
+    try {
+      simulate<Mpfr>(scene, stepper, grid);
+      ADD_FAILURE() << "it was made";
+    } catch (const StepError& error) {
+      EXPECT_EQ(error.step(), 1);
+      EXPECT_EQ(error.cause(), FailureCause::stage_equations_diverge);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hbvm::core

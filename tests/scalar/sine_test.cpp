@@ -115,5 +115,22 @@ TEST_F(Sine, LeavesToMpfrWhatIsBeyondItsTables) {
   }
 }
 
+/// What a diverging iteration reaches; mpfr_sin would compute pi to as many bits as the exponent says.
+TEST_F(Sine, IsNoNumberBeyondReach) {
+  BigFloat a(100), r(100);
+  mpfr_set_si_2exp(raw(a), 1, 131'071, MPFR_RNDN);
+  EXPECT_TRUE(has_sine_in_reach(raw(a)));
+  expect_same_bits(raw(a), 100);
+  for (const long exponent : {131'072L, 1'000'000'000L}) {
+    mpfr_set_si_2exp(raw(a), -1, exponent, MPFR_RNDN);
+    EXPECT_FALSE(has_sine_in_reach(raw(a)));
+    for (const auto set : {&set_sin, &set_cos}) {
+      mpfr_set_ui(raw(r), 0, MPFR_RNDN);
+      set(raw(r), raw(a), MPFR_RNDN);
+      EXPECT_NE(mpfr_nan_p(raw(r)), 0) << exponent;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hbvm::core

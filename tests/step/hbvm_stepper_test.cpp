@@ -1,6 +1,14 @@
 #include "step/hbvm_stepper.hpp"
 
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "printing.hpp"
+#include "scene/assemble.hpp"
+#include "scene/scene.hpp"
 #include "step/compensated_sum.hpp"
 #include "verification/models.hpp"
 
