@@ -5,7 +5,7 @@
 namespace hbvm::core {
 
 /// What a page of a run is made of, compiled in: the files of src/run/page, scripts one after another, and the
-/// plotting library.
+/// plotting library, empty if there was none.
 struct PageParts {
   std::string html, style, script, dygraphs_style, dygraphs;
 };

@@ -212,6 +212,8 @@ bool is_page(const std::string& file) { return file.ends_with(".html"); }
 
 std::string run_page(const RunRequest& request, const Recording& recording, const std::string& command) {
   const PageParts& parts = page_parts();
+  if (parts.dygraphs.empty())
+    throw InputError("this build has no dygraphs, which draws the curves of a run's page; write .svg or .png instead");
   const OrderedJson drawn = json_of(sketch(request.scene));
   OrderedJson colours = OrderedJson::array();
   for (const std::string_view colour : curve_colours) colours.push_back(colour);

@@ -18,6 +18,7 @@ bool is_page(const std::string& file);
 /// where all would be too many for run_page_bytes, and of errors the greatest since the sample before.
 /// \param command what makes the run again
 /// \throws Error if not even its first and last state have room
+/// \throws InputError if the library was built without dygraphs
 std::string run_page(const RunRequest& request, const Recording& recording, const std::string& command);
 
 }  // namespace hbvm::core

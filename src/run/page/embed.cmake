@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ file with the parts of page_parts.hpp: those of FOLDER, and dygraphs from LIBRARY.
+# Writes OUTPUT, a C++ file with the parts of page_parts.hpp: those of FOLDER, and dygraphs from LIBRARY, which may be empty.
 set(parts "")
 
 # The text of files as literals that every compiler takes: of less than 65536 bytes, cut behind a semicolon.
@@ -28,8 +28,12 @@ embed(${FOLDER}/page.html)
 embed(${FOLDER}/page.css)
 embed(${FOLDER}/numbers.js ${FOLDER}/theme.js ${FOLDER}/motion.js ${FOLDER}/stage.js ${FOLDER}/chart.js
       ${FOLDER}/player.js)
-embed(${LIBRARY}/dygraph.min.css)
-embed(${FOLDER}/dygraphs_licence.js ${LIBRARY}/dygraph.min.js)
+if(LIBRARY)
+  set(dygraphs_style ${LIBRARY}/dygraph.min.css)
+  set(dygraphs ${FOLDER}/dygraphs_licence.js ${LIBRARY}/dygraph.min.js)
+endif()
+embed(${dygraphs_style})
+embed(${dygraphs})
 file(WRITE ${OUTPUT}
      "// Made by src/run/page/embed.cmake.\n#include \"run/page_parts.hpp\"\n\n"
      "const hbvm::core::PageParts& hbvm::core::page_parts() {\n  static const PageParts parts{\n${parts}  };\n  return parts;\n}\n")
