@@ -51,7 +51,7 @@ Expression formula(const std::string& text) { return Expression::parse(text, Exp
 void expect_random_formulas(unsigned digits, int trials) {
   RandomValues<double> random(static_cast<std::uint64_t>(digits));
   const PrecisionScope scope(digits);
-  RealBall::bits = 8 * static_cast<slong>(digits);
+  ball_bits = 8 * static_cast<slong>(digits);
   for (int trial = 0; trial < trials; ++trial) {
     const RandomFormula tree(random, 1 + trial % 4, {"x", "y", "z", "m"});
     SCOPED_TRACE(tree.text());
@@ -73,12 +73,12 @@ void expect_random_formulas(unsigned digits, int trials) {
     const std::vector<Mpfr> found = outputs(term, x);
     ASSERT_EQ(found.size(), expected.size());
     Mpfr size = 1;
-    for (const RealBall& ball : expected) raise_to(size, magnitude(rounded_to<Mpfr>(raw(ball.midpoint()))));
+    for (const RealBall& ball : expected) raise_to(size, magnitude(rounded_to<Mpfr>(raw(midpoint_of(ball)))));
     // What cancels between terms, of which there are some dozens, takes a few digits.
     const Mpfr tolerance = size * pow(Mpfr(10), 12 - static_cast<int>(digits));
     for (std::size_t i = 0; i < found.size(); ++i) {
-      ASSERT_LT(rounded_to<Mpfr>(raw(expected[i].radius())), tolerance) << i;
-      EXPECT_LE(magnitude(Mpfr(found[i] - rounded_to<Mpfr>(raw(expected[i].midpoint())))), tolerance) << i;
+      ASSERT_LT(rounded_to<Mpfr>(raw(radius_of(expected[i]))), tolerance) << i;
+      EXPECT_LE(magnitude(Mpfr(found[i] - rounded_to<Mpfr>(raw(midpoint_of(expected[i]))))), tolerance) << i;
     }
   }
 }
