@@ -11,6 +11,7 @@
 
 #include "against_results.hpp"
 #include "commands.hpp"
+#include "door/door.hpp"
 #include "hbvm/reference.hpp"
 #include "hbvm/version.hpp"
 #include "interruption.hpp"
@@ -34,13 +35,7 @@ struct ReferenceArguments {
   bool json = false, list = false, force = false;
 };
 
-Expression time_of(const std::string& text) {
-  try {
-    return Expression::parse(text);
-  } catch (const ExpressionError& error) {
-    throw InputError("a time of the reference: " + std::string(error.what()));
-  }
-}
+Expression time_of(const std::string& text) { return expression_of(text, "a time of the reference:"); }
 
 std::string today() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());

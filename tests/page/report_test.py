@@ -10,20 +10,11 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 
 import browser
+from browser import check
 
 SCENE = ["double_pendulum", "--digits-range", "2:8", "--methods", "hbvm:3,3", "hbvm:4,2", "rattle", "--seconds", "0.01"]
-
-
-class Failure(Exception):
-    pass
-
-
-def check(holds, what):
-    if not holds:
-        raise Failure(what)
 
 
 def command(program, *words):
@@ -130,35 +121,24 @@ def nothing_acts(chromium, program, folder):
     is_quiet(chromium)
 
 
-def main():
-    program = sys.argv[1]
-    chromium = browser.find()
-    if not chromium:
-        print("skipped: there is no Chromium (Debian's package chromium)")
-        return 77
-    with tempfile.TemporaryDirectory() as folder, browser.Browser(chromium, width=1280, height=900) as page:
-        try:
-            out = os.path.join(folder, "cost")
-            command(program, "cost", *SCENE, "--out", out)
-            command(program, "report", out)
-            path = os.path.join(out, "report.html")
-            check(os.path.getsize(path) < 3_000_000, f"{os.path.getsize(path)} bytes are too many")
-            page.open(path)
-            has_what_is_there(page, out)
-            rows_are_those_of(page, os.path.join(out, "steps.csv"))
-            for width in (1280, 400):
-                fits(page, width)
-                pointing_reads_values(page, os.path.join(out, "steps.csv"))
-            follows_the_scheme(page)
-            is_quiet(page)
-            if len(sys.argv) > 2:
-                page.resize(1280, 2400)
-                page.screenshot(os.path.join(sys.argv[2], "report.png"))
-            nothing_acts(page, program, folder)
-        except Failure as failure:
-            print(f"failed: {failure}")
-            return 1
-    return 0
+def report(program, page, folder, pictures):
+    out = os.path.join(folder, "cost")
+    command(program, "cost", *SCENE, "--out", out)
+    command(program, "report", out)
+    path = os.path.join(out, "report.html")
+    check(os.path.getsize(path) < 3_000_000, f"{os.path.getsize(path)} bytes are too many")
+    page.open(path)
+    has_what_is_there(page, out)
+    rows_are_those_of(page, os.path.join(out, "steps.csv"))
+    for width in (1280, 400):
+        fits(page, width)
+        pointing_reads_values(page, os.path.join(out, "steps.csv"))
+    follows_the_scheme(page)
+    is_quiet(page)
+    if pictures:
+        page.resize(1280, 2400)
+        page.screenshot(os.path.join(pictures, "report.png"))
+    nothing_acts(page, program, folder)
 
 
-sys.exit(main())
+sys.exit(browser.test(report, width=1280, height=900))

@@ -10,8 +10,8 @@ namespace {
 CaseResult growth(const RunRequest& request) {
   RunRequest start = request;
   start.until = Expression::parse("20");
-  const auto e_hid = [](const RunResult& r) { return evaluate<double>(Expression::parse(r.e_hid)); };
-  const RunResult whole = run(request, {});
+  const auto e_hid = [](const Run& r) { return evaluate<double>(Expression::parse(r.e_hid)); };
+  const Run whole = run(request, {});
   const double factor = e_hid(whole) / e_hid(run(start, {}));
   const double time = evaluate<double>(request.until) / evaluate<double>(start.until);
   CaseResult result;
