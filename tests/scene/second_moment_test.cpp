@@ -1,7 +1,7 @@
 #include "scene/second_moment.hpp"
 
-#include "hbvm/error.hpp"
 #include "printing.hpp"
+#include "scene/scene_text.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -23,12 +23,7 @@ class SecondMoment : public ::testing::Test {
     return of;
   }
   static std::string refused(const MassDistribution<S>& of, bool fixed) {
-    try {
-      usable_second_moment(of, fixed);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
+    return core::refused([&] { usable_second_moment(of, fixed); });
   }
 
   PrecisionScope digits{50};

@@ -33,6 +33,14 @@ Matrix<double> interpreted(const EffectTerm<double>& term, Index dimension, cons
   return force;
 }
 
+/// The same of a potential, as it is evaluated.
+Matrix<double> evaluated(const Potential<double>& potential, const Matrix<double>& q) {
+  PotentialEvaluator<double> evaluator(potential, q.rows());
+  Matrix<double> force;
+  evaluator.varying_force(lanes(q), force);
+  return force;
+}
+
 Instance body(Index offset, Index dimension, std::vector<double> center) {
   Instance instance;
   instance.x.blocks = {{offset, 1}};
@@ -96,11 +104,9 @@ TEST(Kernel, IsTheProgram) {
       const Potential<double> potential{d, 3 * d, {make_term(use)}};
       ASSERT_NE(find_kernel(potential.terms[0].gradient, d), nullptr) << use.kind << " in " << d;
       for (const Index count : {1, 2, 5, 8, 35}) {
-        PotentialEvaluator<double> evaluator(potential, count);
         const Matrix<double> q = positions(count, 3 * d);
-        Matrix<double> force;
-        evaluator.varying_force(lanes(q), force);
-        EXPECT_EQ(force, interpreted(potential.terms[0], d, q)) << use.kind << " in " << d << ", lanes " << count;
+        EXPECT_EQ(evaluated(potential, q), interpreted(potential.terms[0], d, q))
+            << use.kind << " in " << d << ", lanes " << count;
       }
     }
   }
@@ -189,11 +195,8 @@ TEST(Kernel, EffectsWithoutOneTogetherAreDoneApart) {
 TEST(Kernel, ARareExponentIsInterpreted) {
   const Potential<double> potential{2, 6, {make_term(spring(7, 0.5, 2))}};
   EXPECT_EQ(find_kernel(potential.terms[0].gradient, 2), nullptr);
-  PotentialEvaluator<double> evaluator(potential, 3);
   const Matrix<double> q = positions(3, 6);
-  Matrix<double> force;
-  evaluator.varying_force(lanes(q), force);
-  EXPECT_EQ(force, interpreted(potential.terms[0], 2, q));
+  EXPECT_EQ(evaluated(potential, q), interpreted(potential.terms[0], 2, q));
 }
 
 /// A centre of a rigid body, of four blocks, has no site.
