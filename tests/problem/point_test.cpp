@@ -32,9 +32,7 @@ class PointTest : public ::testing::Test {
 
   /// A bob of mass m on a rod from the origin, in the field -e_d.
   static Problem<S> pendulum(Index d, const S& mass, const S& square) {
-    Problem<S> problem;
-    problem.dimension = problem.potential.dimension = problem.potential.m = d;
-    problem.mass.add_scalar(d, mass);
+    Problem<S> problem = free_bodies<S>(d, {mass});
     const Displacement<S> x{{{0, S(1)}}, {}};
     problem.constraints.push_back({"rod", Rod<S>{x, square}});
     problem.potential.terms.push_back(gravity(d, {body(0, Matrix<S>::Identity(d, d) * mass)}));

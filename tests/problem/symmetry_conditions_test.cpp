@@ -17,13 +17,8 @@ class SymmetryConditions : public ::testing::Test {
   RandomValues<Mpfr> random{97};
 
   static Problem<Mpfr> bodies(Index d) {
-    Problem<Mpfr> problem;
-    problem.dimension = problem.potential.dimension = d;
-    for (Index b = 0; b < 3; ++b) {
-      problem.mass.add_scalar(d, Mpfr(b + 1));
-      problem.blocks.push_back({b * d, b != 2});  // the last one is a director
-    }
-    problem.potential.m = problem.m();
+    Problem<Mpfr> problem = free_bodies<Mpfr>(d, {1, 2, 3});
+    problem.blocks[2].translates = false;  // a director
     return problem;
   }
 
@@ -116,13 +111,8 @@ TEST_F(SymmetryConditions, OfConstraintsOfEveryForm) {
     const Problem<Mpfr> all = constrained_problem<Mpfr>(d);
     int kept = 0;
     for (const auto& constraint : all.constraints) {
-      Problem<Mpfr> problem;
-      problem.dimension = problem.potential.dimension = d;
-      for (Index b = 0; b < 4; ++b) {
-        problem.mass.add_scalar(d, Mpfr(1));
-        problem.blocks.push_back({b * d, b != 2});
-      }
-      problem.potential.m = problem.m();
+      Problem<Mpfr> problem = free_bodies<Mpfr>(d, {1, 1, 1, 1});
+      problem.blocks[2].translates = false;
       problem.constraints = {constraint};
       kept += expect_agreement(problem, constraint.name);
     }

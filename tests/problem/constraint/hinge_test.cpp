@@ -5,6 +5,7 @@
 #include "printing.hpp"
 #include "problem/constraint.hpp"
 #include "scalar/random_values.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -34,12 +35,7 @@ class HingeTest : public ::testing::Test {
     return result;
   }
   static std::string refusal(const ConstraintUse<S>& use) {
-    try {
-      Hinge<S>::from(use);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
+    return message_of([&] { Hinge<S>::from(use); });
   }
 };
 TYPED_TEST_SUITE(HingeTest, AllScalars, ScalarNames);
@@ -111,15 +107,14 @@ TYPED_TEST(HingeTest, WithoutASecondAxisTakesTheFirst) {
 
 TYPED_TEST(HingeTest, RefusesWhatHasNoAxis) {
   using S = TypeParam;
-  EXPECT_NE(this->refusal(this->use(this->vector(0, 0, 0), this->vector(1, 0, 0))).find("'axis'"), std::string::npos);
-  EXPECT_NE(this->refusal(this->use(this->vector(1, 0, 0), this->vector(0, 0, 0))).find("'second_axis'"),
-            std::string::npos);
+  expect_words(this->refusal(this->use(this->vector(0, 0, 0), this->vector(1, 0, 0))), {"'axis'"});
+  expect_words(this->refusal(this->use(this->vector(1, 0, 0), this->vector(0, 0, 0))), {"'second_axis'"});
   auto mass_point = this->use(this->vector(1, 0, 0), this->vector(1, 0, 0));
   mass_point.frames["between"][0] = {Frame<S>::Of::nothing};
-  EXPECT_NE(this->refusal(mass_point).find("no directions"), std::string::npos);
+  expect_words(this->refusal(mass_point), {"no directions"});
   auto apart = this->use(this->vector(1, 0, 0), this->vector(1, 0, 0));
   apart.pairs["between"].shift = this->vector(0, 0, 1);
-  EXPECT_NE(this->refusal(apart).find("apart"), std::string::npos);
+  expect_words(this->refusal(apart), {"apart"});
 }
 
 }  // namespace
