@@ -15,7 +15,7 @@ TEST(ReportCommand, MakesAPageOfWhatAStudyWrote) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("written to"), std::string::npos);
   const std::string page = text_of(folder / "report.html");
-  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_NE(page.find("%3Csvg"), std::string::npos);
   EXPECT_NE(page.find("hbvm run kepler"), std::string::npos) << "the command that made it";
   // Once more, beside its own page, and elsewhere.
   EXPECT_EQ(hbvm({"report", where, "--out", folder / "other.html"}).code, 0);

@@ -50,7 +50,7 @@ TEST_F(FolderReportTest, ShowsTablesDrawingsTextsAndWhatMadeThem) {
   const std::string text = page();
   EXPECT_NE(text.find("<title>A &lt;study&gt;</title>"), std::string::npos);
   EXPECT_EQ(count(text, "<figure"), 2u);
-  EXPECT_EQ(count(text, "<svg"), 2u);
+  EXPECT_EQ(count(text, "src=\"data:image/svg+xml,%3Csvg%3E%3C"), 2u);
   EXPECT_EQ(count(text, "<td>1</td><td>&lt;b&gt;</td>"), 1u);
   EXPECT_EQ(count(text, "<code>hbvm study x</code>"), 1u);
   EXPECT_NE(text.find("<th>precision</th><td>quad</td>"), std::string::npos);
