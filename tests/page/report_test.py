@@ -75,7 +75,6 @@ def pointing_reads_values(chromium, path):
       const drawn = new DOMParser().parseFromString(decodeURIComponent(picture.src.split(/,(.*)/s)[1]), 'image/svg+xml');
       Object.assign(drawn.documentElement.style, { position: 'absolute', left: 0, top: 0, pointerEvents: 'none',
                                                    width: `${box.width}px`, height: `${box.height}px` });
-      drawing.querySelector('svg')?.remove();
       picture.after(drawn.documentElement);
       return panel.curves.find((curve) => curve.label === 'RATTLE').points.map(([x, y]) => [
         box.left + scale * (left + width * (x - panel.x.from) / (panel.x.to - panel.x.from)),
@@ -101,6 +100,7 @@ def pointing_reads_values(chromium, path):
           return [box.left + box.width / 2, box.top + box.height / 2];
         })()""")
         check(max(abs(ring[0] - x), abs(ring[1] - y)) < 1, f"the ring is at {ring}, not at {x}, {y}")
+    chromium.evaluate("document.querySelector('.drawing svg').remove()")
     chromium.mouse("mouseMoved", 1, 1)
     check(chromium.evaluate("value.hidden"), "the value stays")
 
