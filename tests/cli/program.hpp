@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "folder.hpp"
+
 namespace hbvm::core {
 
 using Arguments = std::vector<std::string>;
@@ -34,30 +36,6 @@ inline std::string text_of(const std::filesystem::path& path) {
   text << file.rdbuf();
   return text.str();
 }
-
-/// A folder of one's own, removed in the end.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "hbvm_cli_test_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return *this / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Runs `hbvm` with these arguments, without a terminal and with an empty standard input. `limit` is called in the new
 /// process before the program is; `meanwhile` is told which process it is.

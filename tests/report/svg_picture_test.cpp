@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hbvm/error.hpp"
+#include "refusal.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -25,14 +25,8 @@ TEST(SvgPicture, HasTheNumbersOfFiguresBesideIt) {
 
 TEST(SvgPicture, SaysWhichLineIsWrong) {
   for (const auto& [text, message] : {std::pair{"<svg>\n<g>", "f.svg:2: <svg> does not end"},
-                                      {"<html></html>", "f.svg:1: no drawing: there is no <svg>"}}) {
-    try {
-      svg_picture(text, "f.svg");
-      ADD_FAILURE() << text;
-    } catch (const InputError& error) {
-      EXPECT_STREQ(error.what(), message);
-    }
-  }
+                                      {"<html></html>", "f.svg:1: no drawing: there is no <svg>"}})
+    EXPECT_EQ(refusal_of([&, text = text] { svg_picture(text, "f.svg"); }), message);
 }
 
 }  // namespace
