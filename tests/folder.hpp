@@ -1,7 +1,6 @@
 #pragma once
 
-#include <stdlib.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -17,7 +16,7 @@ inline std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// A folder of one's own, removed in the end.
+/// A folder for the files of a test, removed with them.
 class Folder {
  public:
   Folder() {
@@ -31,8 +30,10 @@ class Folder {
   }
   Folder(const Folder&) = delete;
 
+  const std::filesystem::path& path() const { return path_; }
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
   std::string write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << text;
     return *this / name;
   }

@@ -85,22 +85,10 @@ Motion Motions::of(const std::string& problem) {
 }
 
 Auditor::Kind Auditor::kind_of(const Claim& claim) {
-  switch (claim.quantity) {
-    case Quantity::B:
-    case Quantity::C:
-    case Quantity::D:
-    case Quantity::X:
-    case Quantity::symmetry:
-    case Quantity::W:
-      return is_tableau(claim) ? Kind::special : Kind::tableau;
-    case Quantity::order_conditions:
-    case Quantity::hidden_constant:
-    case Quantity::hidden_drift:
-    case Quantity::sweeps:
-      return Kind::special;
-    default:
-      return claim.form == Form::round_off ? Kind::round_off : claim.form == Form::digits ? Kind::digits : Kind::rates;
-  }
+  // Conditions on coefficients are the last quantities, and what has no rate stands before them.
+  if (claim.quantity >= Quantity::B) return is_tableau(claim) ? Kind::special : Kind::tableau;
+  if (claim.quantity >= Quantity::hidden_constant) return Kind::special;
+  return claim.form == Form::round_off ? Kind::round_off : claim.form == Form::digits ? Kind::digits : Kind::rates;
 }
 
 Auditor::Auditor(const std::vector<Claim>& claims, const Unit& unit, const AuditOptions& options, Motions& motions,

@@ -15,7 +15,7 @@ TEST(ReportCommand, MakesAPageOfWhatAStudyWrote) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   expect_words(outcome.err, {"written to"});
   const std::string page = text_of(folder / "report.html");
-  expect_words(page, {"<svg", "hbvm run kepler"});
+  expect_words(page, {"%3Csvg", "hbvm run kepler"});
   // Once more, beside its own page, and elsewhere.
   EXPECT_EQ(hbvm({"report", where, "--out", folder / "other.html"}).code, 0);
   EXPECT_EQ(text_of(folder / "other.html").find("not shown: other"), std::string::npos);
