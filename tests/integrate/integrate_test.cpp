@@ -150,10 +150,7 @@ TEST(FailedIntegration, OfTheFirstStepHasShownTheStart) {
 }
 
 template <class S>
-class FreeMotion : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class FreeMotion : public InDigits<50> {};
 TYPED_TEST_SUITE(FreeMotion, AllScalars, ScalarNames);
 
 TYPED_TEST(FreeMotion, IsAParabola) {

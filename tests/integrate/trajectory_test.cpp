@@ -88,10 +88,7 @@ TEST(Trajectory, HasEveryNthAndTheLastMeshPoint) {
 }
 
 template <class S>
-class TrajectoryNumbers : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class TrajectoryNumbers : public InDigits<50> {};
 TYPED_TEST_SUITE(TrajectoryNumbers, AllScalars, ScalarNames);
 
 TYPED_TEST(TrajectoryNumbers, ReadBackAsTheSameValues) {

@@ -56,10 +56,7 @@ struct Raised {
 };
 
 template <class S>
-class Raising : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Raising : public InDigits<50> {};
 TYPED_TEST_SUITE(Raising, AllScalars, ScalarNames);
 
 TYPED_TEST(Raising, MakesTheStepsOfTheMethodWhereTheNodesSuffice) {

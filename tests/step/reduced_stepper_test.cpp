@@ -9,10 +9,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class Reduced : public ::testing::Test {
- protected:
-  PrecisionScope digits{40};
-};
+class Reduced : public InDigits<40> {};
 TYPED_TEST_SUITE(Reduced, AllScalars, ScalarNames);
 
 /// The forces of a Point, and its multiplier.
