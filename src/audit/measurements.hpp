@@ -45,12 +45,4 @@ std::map<Quantity, double> tableau_defects(const Claim& subject);
 /// Of hidden_constant, hidden_drift or sweeps; of a tableau its order, or the greatest q for which it fulfils C(q).
 double special_value(const Cell& cell);
 
-#define HBVM_DECLARE(S)                                                                           \
-  extern template Ladders step_ladder<S>(const Cell&, const Enough&);                             \
-  extern template Ladders interval_ladder<S>(const Cell&, long, const Enough&);                   \
-  extern template std::map<Quantity, RoundOff> round_off<S>(const Cell&, const ConservationRun&); \
-  extern template std::map<Quantity, double> tableau_defects<S>(const Claim& subject);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -59,13 +59,4 @@ template <Scalar S>
 Mpfr delta_lambda(Laboratory& laboratory, Trial<S>& trial, const Vector<Mpfr>& q0, const Vector<Mpfr>& p1,
                   const Mpfr& h, Index s);
 
-#define HBVM_DECLARE(S)                                                                                               \
-  extern template class Trial<S>;                                                                                     \
-  extern template StepPolynomials polynomials<S>(Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&,    \
-                                                 Index);                                                              \
-  extern template Mpfr delta_lambda<S>(Laboratory&, Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&, \
-                                       Index);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -27,8 +27,4 @@ class Calibration {
 /// Typical nanoseconds of an operation, from double to many digits: to plan with, never to measure with.
 double typical_nanoseconds(const Precision& precision);
 
-#define HBVM_DECLARE(S) extern template class Calibration<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

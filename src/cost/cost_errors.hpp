@@ -52,9 +52,4 @@ class CostJudge {
   CostErrors resolution_;
 };
 
-#define HBVM_DECLARE(S) \
-  extern template CostErrors CostJudge::errors<S>(const Vector<S>&, const Vector<S>&, const Vector<S>&) const;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

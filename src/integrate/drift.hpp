@@ -58,8 +58,4 @@ class Drift final : public Observer<S> {
   S H0_ = 0, e_H_ = 0, e_g_ = 0, e_hid_ = 0, redundancy_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class Drift<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -34,8 +34,4 @@ class Trajectory final : public Observer<S> {
   S H0_;
 };
 
-#define HBVM_DECLARE(S) extern template class Trajectory<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

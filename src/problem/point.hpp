@@ -59,8 +59,4 @@ class Point {
   Forces forces_;
 };
 
-#define HBVM_DECLARE(S) extern template class Point<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -34,12 +34,4 @@ template <Scalar S>
 S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, const Vector<S>& q,
                     const Vector<S>& p);
 
-#define HBVM_DECLARE(S)                                                                                       \
-  extern template std::optional<int> degree_of_U<S>(const Problem<S>&);                                       \
-  extern template ChosenK choose_k<S>(const Assembled<S>&, const HbvmName&, const S&, SolverKind);            \
-  extern template S quadrature_defect<S>(const Problem<S>&, int, int, const S&, SolverKind, const Vector<S>&, \
-                                         const Vector<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -105,8 +105,4 @@ class HealthWatch final : public Observer<S> {
 /// One line each: the figures, then the warnings.
 std::string to_text(const Health& health);
 
-#define HBVM_DECLARE(S) extern template class HealthWatch<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -54,8 +54,4 @@ class MotionRecorder final : public Observer<S> {
   S H0_ = 0, energy_ = 0, constraints_ = 0, hidden_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class MotionRecorder<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -53,8 +53,4 @@ class RunStepper final : public Stepper<S> {
   HalvingStepper<S>* halving_ = nullptr;
 };
 
-#define HBVM_DECLARE(S) extern template class RunStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -33,8 +33,4 @@ class ShadowedRun final : public Observer<S> {
 /// Lines for people: the worst component, or the failure.
 std::string to_text(const Shadow& shadow);
 
-#define HBVM_DECLARE(S) extern template class ShadowedRun<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -26,8 +26,4 @@ StartState read_start_state(const std::string& json, const std::string& file);
 template <Scalar S>
 State<S> evaluate(const StartState& start, const Scene& text, const Assembled<S>& scene);
 
-#define HBVM_DECLARE(S) extern template State<S> evaluate<S>(const StartState&, const Scene&, const Assembled<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

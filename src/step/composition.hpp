@@ -42,10 +42,4 @@ class CompositionStepper final : public Stepper<S> {
 /// compose:INNER,P from "INNER,P", INNER being symmetric and of order 2: "rattle,6". \throws InputError
 MethodPtr composition_method(std::string_view arguments);
 
-#define HBVM_DECLARE(S)                                      \
-  extern template Vector<S> composition_steps<S>(int order); \
-  extern template class CompositionStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

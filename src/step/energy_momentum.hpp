@@ -80,8 +80,4 @@ class EnergyMomentum final : public Stepper<S> {
 /// From no arguments. \throws InputError
 MethodPtr energy_momentum_method(std::string_view arguments);
 
-#define HBVM_DECLARE(S) extern template class EnergyMomentum<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -61,8 +61,4 @@ class HalvingStepper final : public Stepper<S> {
   long successes_ = 0, patience_ = 1;  ///< successes since the last failure or change of size, and those to wait for
 };
 
-#define HBVM_DECLARE(S) extern template class HalvingStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -56,11 +56,4 @@ MethodPtr hbvm_method(std::string_view arguments);
 /// The method as one of these, or null.
 const HbvmMethod* as_hbvm(const Method& method);
 
-#define HBVM_DECLARE(S)                                                         \
-  extern template int HbvmMethod::constraint_nodes<S>(const Problem<S>&) const; \
-  extern template Hbvm<S> HbvmMethod::coefficients<S>(int) const;               \
-  extern template StepperMaker<S> HbvmMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

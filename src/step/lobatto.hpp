@@ -92,10 +92,4 @@ class LobattoStepper final : public Stepper<S> {
 /// From "S". \throws InputError
 MethodPtr lobatto_method(std::string_view arguments);
 
-#define HBVM_DECLARE(S)                            \
-  extern template Lobatto<S> make_lobatto<S>(int); \
-  extern template class LobattoStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -61,8 +61,4 @@ class ProjectedStepper final : public Stepper<S> {
 MethodPtr projected_hbvm_method(std::string_view arguments);
 MethodPtr restored_hbvm_method(std::string_view arguments);
 
-#define HBVM_DECLARE(S) extern template class ProjectedStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

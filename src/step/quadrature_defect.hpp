@@ -40,8 +40,4 @@ class QuadratureDefect {
   S unit_, least_, defect_ = 0, relative_ = 0, difference_ = 0, size_ = 0, t_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class QuadratureDefect<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

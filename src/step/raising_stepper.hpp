@@ -136,8 +136,4 @@ class RaisingStepper final : public Stepper<S> {
   S g_noise_ = 0, g_alarm_ = 0;         ///< what counts as round-off in a step, and what is looked at since the first
 };
 
-#define HBVM_DECLARE(S) extern template class RaisingStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -83,10 +83,4 @@ class ReducedStepper : public Stepper<S> {
   SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
-#define HBVM_DECLARE(S)                      \
-  extern template class ReducedEquations<S>; \
-  extern template class ReducedStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

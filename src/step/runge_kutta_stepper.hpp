@@ -92,8 +92,4 @@ class RungeKuttaStepper final : public Stepper<S> {
   SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
-#define HBVM_DECLARE(S) extern template class RungeKuttaStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -43,7 +43,7 @@ TEST(Quantities, MomentumIsTheRawOne) { EXPECT_EQ(parse_quantity("p"), Quantity:
 
 TEST(Quantities, UnknownAreRefusedWithTheKnown) {
   for (const char* const unknown : {"energy", "", "Q", "raw  p", "raw p ", "u"}) {
-    const std::string message = refusal_of([&] { parse_quantity(unknown); });
+    const std::string message = message_of([&] { parse_quantity(unknown); });
     EXPECT_NE(message.find("'" + std::string(unknown) + "'"), std::string::npos) << message;
     for (const Quantity quantity : all_quantities())
       EXPECT_NE(message.find(name_of(quantity)), std::string::npos) << name_of(quantity) << " is not in " << message;

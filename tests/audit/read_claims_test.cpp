@@ -4,10 +4,10 @@
 
 #include "audit/claims.hpp"
 #include "folder.hpp"
-#include "refusal.hpp"
 #include "scalar/literal.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -60,7 +60,7 @@ class ReadClaims : public ::testing::Test {
     return text.replace(at, from.size(), to);
   }
   void expect_refusal(const std::string& text, int line, const std::vector<std::string>& words) const {
-    const std::string message = refusal_of([&] { read(text); });
+    const std::string message = message_of([&] { read(text); });
     EXPECT_TRUE(message.starts_with(path() + ":" + std::to_string(line) + ": ")) << line << " is not in " << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     EXPECT_EQ(message.rfind(path()), 0u) << "the place stands twice in " << message;

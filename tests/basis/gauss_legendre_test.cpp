@@ -136,10 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, GaussLegendre,
                          name_of);
 
 template <class S>
-class GaussLegendreFormula : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class GaussLegendreFormula : public InDigits<50> {};
 TYPED_TEST_SUITE(GaussLegendreFormula, AllScalars, ScalarNames);
 
 TYPED_TEST(GaussLegendreFormula, RefusesANumberOfNodesOutOfRange) {

@@ -7,7 +7,7 @@
 
 #include "folder.hpp"
 #include "read_file.hpp"
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -145,7 +145,7 @@ TEST_F(Cells, ThatFailEndAllAndLoseNothing) {
   CellStore store(path("store"));
   CellOptions options;
   options.store = &store;
-  EXPECT_EQ(refusal_of([&] { run_cells(cells, options); }), "number nine");
+  EXPECT_EQ(message_of([&] { run_cells(cells, options); }), "number nine");
   EXPECT_EQ(runs_, 9);
   const CellStore again(path("store"));
   EXPECT_TRUE(again.find(cells[8].key));

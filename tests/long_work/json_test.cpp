@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -35,7 +35,7 @@ TEST(JsonText, OfAnotherKindIsRefused) {
   };
   EXPECT_EQ(read("{\"x\": 3}"), 3);
   for (const char* const text : {"", "{", "[]", "{\"y\": 3}", "{\"x\": \"3\"}"}) {
-    const std::string refusal = refusal_of([&] { read(text); });
+    const std::string refusal = message_of([&] { read(text); });
     EXPECT_TRUE(refusal.starts_with("this is no result of a test: ")) << text << refusal;
   }
 }

@@ -8,10 +8,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class EnergyOfTerms : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class EnergyOfTerms : public InDigits<50> {};
 TYPED_TEST_SUITE(EnergyOfTerms, AllScalars, ScalarNames);
 
 TYPED_TEST(EnergyOfTerms, IsThatOfAPoint) {

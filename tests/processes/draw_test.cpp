@@ -8,7 +8,7 @@
 #include "folder.hpp"
 #include "hbvm/figure.hpp"
 #include "read_file.hpp"
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -58,13 +58,12 @@ TEST_F(FigureTest, IsDrawnInSilenceInEveryFormatWhateverTheLocale) {
     EXPECT_GT(std::filesystem::file_size(file), 1'000u);
   }
   const std::string svg = read_file(folder_ / "it's a figure.svg");
-  for (const char* const words : {"a caption", "what_made_it", "it's 90° of λ", "two"})
-    EXPECT_NE(svg.find(words), std::string::npos) << words;
+  expect_words(svg, {"a caption", "what_made_it", "it's 90° of λ", "two"});
 }
 
 TEST_F(FigureTest, NamesThePackageThatIsMissing) {
   const Environment path("PATH", folder_.path().c_str());
-  const std::string refusal = refusal_of<Error>([&] { draw(figure_, folder_ / "figure.svg"); });
+  const std::string refusal = message_of<Error>([&] { draw(figure_, folder_ / "figure.svg"); });
   EXPECT_NE(refusal.find("apt install gnuplot-nox"), std::string::npos) << refusal;
 }
 

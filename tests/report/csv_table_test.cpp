@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
 std::string refusal(const std::string& text) {
-  return refusal_of([&] { read_csv_table(text, "f.csv"); });
+  return message_of([&] { read_csv_table(text, "f.csv"); });
 }
 
 TEST(CsvTable, IsReadWithQuotesAndLinesWithinThem) {

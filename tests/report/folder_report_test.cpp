@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "folder.hpp"
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 struct FolderReportTest : ::testing::Test {
   std::string page() const { return folder_report(folder.path(), "1.2", "hbvm report x"); }
   std::string refusal() const {
-    return refusal_of([&] { page(); });
+    return message_of([&] { page(); });
   }
 
   Folder folder;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -47,7 +47,7 @@ TEST(JsonFacts, DescribeACsv) {
 }
 
 TEST(JsonFacts, SayWhichLineIsWrong) {
-  const std::string refusal = refusal_of([] { read_facts("{\n\"a\": 1,\n}\n", "f.json"); });
+  const std::string refusal = message_of([] { read_facts("{\n\"a\": 1,\n}\n", "f.json"); });
   EXPECT_TRUE(refusal.starts_with("f.json:3: no JSON")) << refusal;
 }
 

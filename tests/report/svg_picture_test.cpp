@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -26,7 +26,7 @@ TEST(SvgPicture, HasTheNumbersOfFiguresBesideIt) {
 TEST(SvgPicture, SaysWhichLineIsWrong) {
   for (const auto& [text, message] : {std::pair{"<svg>\n<g>", "f.svg:2: <svg> does not end"},
                                       {"<html></html>", "f.svg:1: no drawing: there is no <svg>"}})
-    EXPECT_EQ(refusal_of([&, text = text] { svg_picture(text, "f.svg"); }), message);
+    EXPECT_EQ(message_of([&, text = text] { svg_picture(text, "f.svg"); }), message);
 }
 
 }  // namespace

@@ -35,10 +35,7 @@ TEST(OnFailureText, IsReadAndWritten) {
 }
 
 template <class S>
-class RunSteps : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class RunSteps : public InDigits<50> {};
 TYPED_TEST_SUITE(RunSteps, AllScalars, ScalarNames);
 
 /// Each substep conserves energy and constraint: at the end of a run whose steps cannot be made whole, both are

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "folder.hpp"
-#include "refusal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -27,7 +27,7 @@ TEST(ExpectedCsvs, AreColumnsAndRows) {
 
 TEST(ExpectedCsvs, RefuseRowsOfAnotherLength) {
   for (const char* const row : {"1,2", "1,2,3,4", "1,2,3,"}) {
-    const std::string text = refusal_of([&] { expected_of(std::string("# a,b,c\n1,2,3\n") + row + "\n"); });
+    const std::string text = message_of([&] { expected_of(std::string("# a,b,c\n1,2,3\n") + row + "\n"); });
     EXPECT_NE(text.find("'" + std::string(row) + "'"), std::string::npos) << text;
     EXPECT_NE(text.find("instead of 3"), std::string::npos) << text;
   }

@@ -27,8 +27,4 @@ struct EffectUse {
 template <Scalar S>
 EffectTerm<S> make_term(const EffectUse<S>& use);
 
-#define HBVM_DECLARE(S) extern template EffectTerm<S> make_term<S>(const EffectUse<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -13,8 +13,4 @@ namespace hbvm::core {
 template <Scalar S>
 std::optional<ConstraintForms<S>> quadratic_form(const FormulaUse<S>& use);
 
-#define HBVM_DECLARE(S) extern template std::optional<ConstraintForms<S>> quadratic_form<S>(const FormulaUse<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -18,10 +18,4 @@ namespace hbvm::core {
 template <Scalar S>
 EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<SpaceBlock>& blocks, const Vector<S>& q);
 
-#define HBVM_DECLARE(S)                                                                                       \
-  extern template EffectSymmetry<S> formula_symmetry<S>(const FormulaUse<S>&, const std::vector<SpaceBlock>&, \
-                                                        const Vector<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

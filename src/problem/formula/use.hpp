@@ -56,11 +56,4 @@ void check_formula(const FormulaUse<S>& use, const EffectTerm<S>& term, const Ve
 template <Scalar S>
 FormulaUse<Mpfr> exactly(const FormulaUse<S>& use);
 
-#define HBVM_DECLARE(S)                                                                                \
-  extern template EffectTerm<S> make_term<S>(const FormulaUse<S>&);                                    \
-  extern template void check_formula<S>(const FormulaUse<S>&, const EffectTerm<S>&, const Vector<S>&); \
-  extern template FormulaUse<Mpfr> exactly<S>(const FormulaUse<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

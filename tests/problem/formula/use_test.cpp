@@ -96,10 +96,7 @@ S value_of(const std::string& text) {
 }
 
 template <class S>
-class Formulas : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Formulas : public InDigits<50> {};
 TYPED_TEST_SUITE(Formulas, AllScalars, ScalarNames);
 
 TYPED_TEST(Formulas, FollowTheGrammarOfNumbers) {
