@@ -7,7 +7,7 @@
 #include <set>
 
 #include "audit/audit.hpp"
-#include "cell.hpp"
+#include "claim_group.hpp"
 #include "coefficients.hpp"
 #include "motion.hpp"
 #include "scalar/precision.hpp"
@@ -79,7 +79,7 @@ class Auditor {
   void weigh(Finding& f);
   void weigh_coefficients(Finding& f);
 
-  Cell cell_;
+  ClaimGroup group_;
   const Unit& unit_;
   const AuditOptions& options_;
   Motions& motions_;

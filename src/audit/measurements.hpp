@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "cell.hpp"
+#include "claim_group.hpp"
 
 namespace hbvm::core {
 
@@ -13,12 +13,12 @@ using Enough = std::function<bool(const Ladders&)>;
 /// down to 2^-128, until it is enough. Steps that cannot be made are left out; if none of the coarse ones can be made,
 /// nothing is. \throws InputError, IntegrationError
 template <Scalar S>
-Ladders step_ladder(const Cell& cell, const Enough& enough);
+Ladders step_ladder(const ClaimGroup& group, const Enough& enough);
 
-/// The errors over the cell's windows in 4, 8, …, `most` steps a window, of what is asked for, until it is enough.
+/// The errors over the group's windows in 4, 8, …, `most` steps a window, of what is asked for, until it is enough.
 /// \throws InputError, IntegrationError
 template <Scalar S>
-Ladders interval_ladder(const Cell& cell, long most, const Enough& enough);
+Ladders interval_ladder(const ClaimGroup& group, long most, const Enough& enough);
 
 /// So many steps of 2^log2_step of the time scale.
 struct ConservationRun {
@@ -36,13 +36,13 @@ struct RoundOff {
 };
 /// \throws StageFailure, InputError, IntegrationError
 template <Scalar S>
-std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& run);
+std::map<Quantity, RoundOff> round_off(const ClaimGroup& group, const ConservationRun& run);
 
 /// How far the coefficients of HBVM(k, s) are from the conditions they must meet, as log2.
 template <Scalar S>
 std::map<Quantity, double> tableau_defects(const Claim& subject);
 
 /// Of hidden_constant, hidden_drift or sweeps; of a tableau its order, or the greatest q for which it fulfils C(q).
-double special_value(const Cell& cell);
+double special_value(const ClaimGroup& group);
 
 }  // namespace hbvm::core

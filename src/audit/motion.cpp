@@ -7,7 +7,7 @@
 #include "hbvm/error.hpp"
 #include "integrate/coefficient_decay.hpp"
 #include "linear/product.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "reference/reference_motion.hpp"
 #include "step/hbvm_stepper.hpp"
@@ -34,7 +34,7 @@ class VectorField {
     return forces.applied + forces.constraint;
   }
   /// Its two parts, of which an acceleration may be a small difference.
-  const typename Point<Mpfr>::Forces& forces(const PhasePoint& y) { return point_.forces(y.q, y.p); }
+  const typename StateEvaluator<Mpfr>::Forces& forces(const PhasePoint& y) { return point_.forces(y.q, y.p); }
 
   /// (f(y + eta x) - f(y - eta x))/(2 eta): f'(y) x but for eta^2.
   PhasePoint derivative(const PhasePoint& y, const PhasePoint& x, const Mpfr& eta) {
@@ -44,7 +44,7 @@ class VectorField {
 
  private:
   const Problem<Mpfr>& problem_;
-  Point<Mpfr> point_;
+  StateEvaluator<Mpfr> point_;
 };
 
 /// log2 of the spectral radius of f'(y) by the power method, in the norm of the kinetic energy: sixteen iterations,
@@ -201,7 +201,7 @@ Motion motion_of(const std::string& scene_name) {
   HbvmStepper<Mpfr> stepper(problem, method, SolverKind::automatic);
   State<Mpfr> state(assembled.q0, assembled.p0);
   VectorField field(problem);
-  Point<Mpfr> point(problem);
+  StateEvaluator<Mpfr> point(problem);
   Products products(problem, field, scale);
   products.observe({state.q, state.p});
   for (int n = 0; n < steps; ++n) {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 
 namespace hbvm::core {
 
@@ -15,16 +15,16 @@ struct Sensitivity {
   std::vector<double> momenta;
 
   /// \param point of the problem \throws IntegrationError if gradients are dependent, against (3), at q
-  static Sensitivity at(const Problem<Mpfr>& problem, Point<Mpfr>& point, int log2_scale,
+  static Sensitivity at(const Problem<Mpfr>& problem, StateEvaluator<Mpfr>& point, int log2_scale,
                         const std::vector<MomentumComponent<Mpfr>>& momenta, const Vector<Mpfr>& q,
                         const Vector<Mpfr>& p);
 };
 
-/// Sizes of such errors, entry by entry, with signs that follow a pattern.
+/// ErrorSizes of such errors, entry by entry, with signs that follow a pattern.
 struct Kick {
   Vector<Mpfr> q, p;
 };
-Kick kick(const Problem<Mpfr>& problem, Point<Mpfr>& point, int log2_scale, const Vector<Mpfr>& q,
+Kick kick(const Problem<Mpfr>& problem, StateEvaluator<Mpfr>& point, int log2_scale, const Vector<Mpfr>& q,
           const Vector<Mpfr>& p, unsigned pattern);
 
 }  // namespace hbvm::core

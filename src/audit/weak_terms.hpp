@@ -29,18 +29,18 @@ class WeakTerms {
   Bits of_g() const { return of_g_; }
 
  private:
-  struct Sizes {
+  struct ErrorSizes {
     double greatest, least, least_of_all;
-    Sizes();
+    ErrorSizes();
     Bits bits() const { return {std::max(greatest - least, double{0}), std::max(greatest - least_of_all, double{0})}; }
   };
-  void expand(const EffectTerm<Mpfr>& term, Index instance, Sizes& sizes);
+  void expand(const EffectTerm<Mpfr>& term, Index instance, ErrorSizes& sizes);
 
   const Assembled<Mpfr>& scene_;
   int exact_degree_;
   std::vector<Vector<Mpfr>> places_, directions_;  ///< of all coordinates
   Mpfr size_ = 0;                                  ///< of a direction
-  Sizes of_U_;
+  ErrorSizes of_U_;
   Bits of_g_;
 };
 

@@ -14,12 +14,12 @@
 #include "hbvm/version.hpp"
 #include "interruption.hpp"
 #include "long_work.hpp"
+#include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "processes/in_processes.hpp"
 #include "report/csvw.hpp"
 #include "signals.hpp"
 #include "write_file.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 namespace {

@@ -13,6 +13,7 @@
 #include "hbvm/version.hpp"
 #include "integrate/time_grid.hpp"
 #include "interruption.hpp"
+#include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
@@ -29,7 +30,6 @@
 #include "signals.hpp"
 #include "step/registry.hpp"
 #include "write_file.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 namespace {

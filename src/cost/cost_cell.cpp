@@ -97,7 +97,7 @@ class CostRun {
       m.seconds = run.cpu_seconds;
       m.sweeps = run.sweeps;
       add_counts_of(m, account_of(assembled_.problem, made->counts()));
-      Point<S> point(assembled_.problem);
+      StateEvaluator<S> point(assembled_.problem);
       const OutputState<S> output = output_state(point, run.end.q, run.end.p);
       m.errors = judge.errors<S>(run.end.q, output.p, output.lambda);
       m.raw = judge.errors<S>(run.end.q, run.end.p, run.end.lambda);

@@ -37,9 +37,9 @@ Tableau read_tableau(const std::string& path) {
     for (const core::Expression& entry : row) numbers.emplace_back(entry.text());
     return numbers;
   };
-  for (const auto& row : read.A) tableau.A.push_back(texts(row));
-  tableau.b = texts(read.b);
-  tableau.c = texts(read.c);
+  for (const auto& row : read.A) tableau.A.push_back(to_texts(row));
+  tableau.b = to_texts(read.b);
+  tableau.c = to_texts(read.c);
   return tableau;
 }
 

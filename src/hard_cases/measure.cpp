@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "integrate/integrate.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "run/round_off.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/with_scalar.hpp"
@@ -102,7 +102,7 @@ class TemporaryFile {
 /// The greatest |T| + |U| over the lines of a trajectory.
 double energy_size(const Scene& scene, std::istream& csv) {
   const Assembled<double> assembled = assemble<double>(scene, Consistency::unchecked);
-  Point<double> point(assembled.problem);
+  StateEvaluator<double> point(assembled.problem);
   Vector<double> q(assembled.problem.m()), p(q);
   double size = 0;
   std::string line;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "integrate/observer.hpp"
-#include "problem/point.hpp"
 #include "problem/redundant_constraints.hpp"
+#include "problem/state_evaluator.hpp"
 
 namespace hbvm::core {
 
@@ -26,7 +26,7 @@ class Trajectory final : public Observer<S> {
 
  private:
   const Problem<S>& problem_;
-  Point<S> point_;
+  StateEvaluator<S> point_;
   RedundantConstraints<S> redundant_;
   std::ostream& out_;
   long every_, steps_;

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "integrate/observer.hpp"
-#include "problem/point.hpp"
 #include "problem/redundant_constraints.hpp"
+#include "problem/state_evaluator.hpp"
 
 namespace hbvm::core {
 
@@ -47,7 +47,7 @@ class MotionRecorder final : public Observer<S> {
   void remember(Archive& archive) override;
 
  private:
-  Point<S> point_;
+  StateEvaluator<S> point_;
   RedundantConstraints<S> redundant_;
   long steps_;
   Recording& recording_;

@@ -8,7 +8,7 @@
 #include "run/health.hpp"
 #include "run/shadow.hpp"
 #include "run/simulate.hpp"
-#include "run/texts.hpp"
+#include "run/vector_text.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
 
@@ -179,17 +179,17 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   result.until = to_text(grid.until());
   result.t = to_text(end.t);
   result.steps = grid.steps();
-  result.q = texts(end.q);
-  result.p = texts(end.p);
+  result.q = to_texts(end.q);
+  result.p = to_texts(end.p);
   RedundantConstraints<S> redundant(scene.problem);
-  result.lambda = texts(redundant.multipliers(end.q, end.lambda));
-  result.q_carry = texts(simulated.state.q_carry);
-  result.p_carry = texts(simulated.state.p_carry);
-  Point<S> point(scene.problem);
+  result.lambda = to_texts(redundant.multipliers(end.q, end.lambda));
+  result.q_carry = to_texts(simulated.state.q_carry);
+  result.p_carry = to_texts(simulated.state.p_carry);
+  StateEvaluator<S> point(scene.problem);
   const OutputState<S> output = output_state(point, end.q, end.p);
-  result.output_p = texts(output.p);
+  result.output_p = to_texts(output.p);
   const Vector<S> output_lambda = redundant.multipliers(end.q, output.lambda);
-  result.output_lambda = texts(output_lambda);
+  result.output_lambda = to_texts(output_lambda);
   result.output_delta_H = to_text(S(point.energy(end.q, output.p) - simulated.H0));
   result.e_H = to_text(simulated.e_H);
   result.e_g = to_text(simulated.e_g);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "step/stepper.hpp"
 
 namespace hbvm::core {
@@ -29,7 +29,7 @@ class ReducedEquations {
 
   const Problem<S>& problem_;
   PotentialEvaluator<S> potential_;
-  Point<S> point_;
+  StateEvaluator<S> point_;
   Matrix<S> force_;  // 1 x m
   Vector<S> velocity_, total_;
   std::vector<PartCount> parts_;

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "method/runge_kutta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "solver/extrapolation.hpp"
 #include "solver/position_scale.hpp"
 #include "step/constraint_projection.hpp"
@@ -72,7 +72,7 @@ class RungeKuttaStepper final : public Stepper<S> {
   Matrix<S> A_;
   bool explicit_;
   PotentialEvaluator<S> potential_;
-  std::optional<Point<S>> point_;  ///< if there are constraints
+  std::optional<StateEvaluator<S>> point_;  ///< if there are constraints
   std::optional<ConstraintProjection<S>> projection_;
   Matrix<S> P_, P_before_, Q_, V_, F_;  ///< s x m
   // One stage of an explicit method.

@@ -29,7 +29,7 @@ ordered_json json_of(const Arguments& arguments, const Arguments& files = {}) {
 }
 
 template <Scalar S>
-Texts texts(const Vector<S>& v) {
+Texts to_texts(const Vector<S>& v) {
   Texts result;
   for (Index i = 0; i < v.size(); ++i) result.push_back(to_text(v[i]));
   return result;
@@ -70,7 +70,7 @@ TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
       SceneRun<S> run(load_scene("modified_pendulum"), 3, 2, "1/16", "1");
       Drift<S> drift(run.scene.problem);
       const Integration<S> result = run({&drift});
-      Point<S> point(run.scene.problem);
+      StateEvaluator<S> point(run.scene.problem);
       const OutputState<S> output = output_state(point, result.end.q, result.end.p);
       EXPECT_EQ(j["q"], texts<S>(result.end.q));
       EXPECT_EQ(j["p"], texts<S>(result.end.p));

@@ -10,7 +10,7 @@ namespace {
 
 /// A table with its columns, which refer to it.
 struct Read {
-  AgainstRequest request;
+  ComparisonRequest request;
   ResultsTable rows;
   ResultsColumns columns;
 

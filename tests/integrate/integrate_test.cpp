@@ -3,7 +3,7 @@
 #include "clock.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm::core {

@@ -4,7 +4,7 @@
 
 #include "printing.hpp"
 #include "problem/any_constraint.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 #include "scalar/text.hpp"
@@ -404,17 +404,17 @@ TEST_F(MomentaBySampling, OfEveryEffectAlone) {
   for (const Index d : {2, 3}) {
     const auto check = [&]<class Effect>() {
       for (const bool from_a_point : {false, true}) {
-        EffectUse<double> use;
-        use.kind = Effect::kind;
-        use.dimension = d;
+        EffectInput<double> input;
+        input.kind = Effect::kind;
+        input.dimension = d;
         for (const EffectKey& key : Effect::keys) {
           if (key.is_vector)
-            use.vectors[std::string(key.name)] = std::vector<double>(static_cast<std::size_t>(d), 0.5);
+            input.vectors[std::string(key.name)] = std::vector<double>(static_cast<std::size_t>(d), 0.5);
           else
-            use.numbers[std::string(key.name)] = key.name == "exponent" ? 4 : 0.75;
+            input.numbers[std::string(key.name)] = key.name == "exponent" ? 4 : 0.75;
         }
         for (const Index body : {0, 1}) {
-          EffectUse<double>::Instance instance;
+          EffectInput<double>::Instance instance;
           instance.x.blocks = {{body * d, 1}};
           if (from_a_point)
             instance.x.shift = random.vector(d);
@@ -423,9 +423,9 @@ TEST_F(MomentaBySampling, OfEveryEffectAlone) {
           instance.mass_matrix = body == 0 ? Matrix<double>(Matrix<double>::Identity(d, d)) : mass_block<double>(d);
           instance.masses[0] = instance.masses[1] = 1.5;
           instance.charges[0] = instance.charges[1] = -1.25;
-          use.instances = {instance};
+          input.instances = {instance};
           Problem<double> problem = free_bodies<double>(d, {2, 3});
-          problem.potential.terms.push_back(make_term(use));
+          problem.potential.terms.push_back(make_term(input));
           expect_same(problem, std::string(Effect::kind) + " in " + std::to_string(d) + " dimensions");
         }
       }

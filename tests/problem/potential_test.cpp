@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "problem/dense.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -14,7 +14,7 @@ class PotentialTest : public ::testing::Test {
   PrecisionScope digits{50};
   RandomValues<S> random{73};
 
-  using Use = EffectUse<S>;
+  using Use = EffectInput<S>;
   using Instance = typename Use::Instance;
 
   static Instance instance(const Displacement<S>& x, int mass) {
@@ -28,8 +28,9 @@ class PotentialTest : public ::testing::Test {
   static Displacement<S> pair() { return {{{0, S(1)}, {d, S(-1)}}, {}}; }
 
   static EffectTerm<S> gravity() {
-    Use use{"uniform_gravity", d, {}, {{"acceleration", {S(2), S(-3)}}}, {instance(body(0), 1), instance(body(1), 5)}};
-    return make_term(use);
+    Use input{
+        "uniform_gravity", d, {}, {{"acceleration", {S(2), S(-3)}}}, {instance(body(0), 1), instance(body(1), 5)}};
+    return make_term(input);
   }
   static EffectTerm<S> attraction(int strength = 2) {
     return make_term(Use{"mutual_gravity", d, {{"strength", S(strength)}}, {}, {instance(pair(), 3)}});

@@ -4,7 +4,7 @@
 
 #include "method/perturbation.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "scene/scene.hpp"
 #include "step/hbvm_stepper.hpp"
@@ -200,7 +200,7 @@ TEST(RoutesAgreementTeeth, FindsACoefficientThatIsOff) {
   const Scene text = load_scene("modified_pendulum");
   const Assembled<Mpfr> scene = assemble<Mpfr>(text);
   const RouteRun taylor = by_taylor(scene);
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   constexpr int s = 24;
   const auto by = [&](const Hbvm<Mpfr>& method) {
     HbvmStepper<Mpfr> stepper(scene.problem, method, SolverKind::automatic);

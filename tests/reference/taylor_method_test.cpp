@@ -7,7 +7,7 @@
 
 #include "interrupting.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "step/registry.hpp"
 #include "words.hpp"
@@ -29,7 +29,7 @@ TEST_F(TaylorMethod, HasAllDigitsWhateverTheStep) {
     const PrecisionScope scope(digits);
     for (const char* const name : {"double_pendulum", "tethered_satellites", "kepler"}) {
       const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
-      Point<Mpfr> point(scene.problem);
+      StateEvaluator<Mpfr> point(scene.problem);
       const auto end = [&](const char* method, long steps) {
         const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
         State<Mpfr> state(scene.q0, scene.p0);
@@ -59,7 +59,7 @@ TEST_F(TaylorMethod, KnowsTheMultiplierOfTheEnd) {
   const auto stepper = parse_method("taylor")->make_stepper(scene.problem, SolverKind::automatic);
   State<Mpfr> state(scene.q0, scene.p0);
   EXPECT_GT(stepper->step(state, Mpfr(2)), 1);
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   EXPECT_LE(distance(stepper->multiplier(), point.multiplier(state.q, state.p)), 1'000 * epsilon<Mpfr>());
 }
 

@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/joined_bodies.hpp"
 #include "scene/wrong_change.hpp"
 
@@ -108,7 +108,7 @@ TEST_F(EveryKey, ConstraintsOfRigidBodiesComeFirst) {
 
 TEST_F(EveryKey, ConstraintsAreScaledAsTheFormatSays) {
   const Vector<Mpfr> q = generic(scene.problem.m(), 1);
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Vector<Mpfr> g = point.constraints(q);
   Index i = 0;
   for (const Index first : {top, stone + 3})
@@ -132,7 +132,7 @@ TEST_F(EveryKey, HiddenConstraintsAreTheirTimeDerivatives) {
   const Vector<Mpfr> q = generic(scene.problem.m(), 1), p = generic(scene.problem.m(), 2);
   Vector<Mpfr> v(p.size());
   scene.problem.mass.velocity(lanes(p), lanes(v));
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Vector<Mpfr> hidden = point.hidden_constraints(q, p);
   // g is quadratic: the central difference is exact.
   const Vector<Mpfr> ahead = point.constraints(Vector<Mpfr>(q + v)), behind = point.constraints(Vector<Mpfr>(q - v));
@@ -175,7 +175,7 @@ TEST_F(EveryKey, EnergyIsTheSumOfTheTable) {
   const Mpfr r = distance(qa, charge), z = axis.dot(Vector<Mpfr>(qa - charge)) / r;
   V += literal<Mpfr>("1.5 * 2 * 1.08e-3 / 4 / 2") * (3 * z * z - 1) / (r * r * r);
 
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Mpfr H = point.energy(q, Vector<Mpfr>::Zero(q.size()));
   expect_near(H, V, 1'000, "potential energy");
 }
@@ -216,7 +216,7 @@ kind = "angle"
 first = )" + GetParam().first +
                            "\nsecond = " + GetParam().second + "\nvalue = \"5/2\"\n";
   const Assembled<Mpfr> scene = assembled<Mpfr>(text);
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Vector<Mpfr> q = generic(6, 1), p = generic(6, 2);
   const auto along = [](const Vector<Mpfr>& x) { return Mpfr(-(x[0] - x[3]) - (x[1] - x[4]) - 2 * (x[2] - x[5])); };
   expect_near(point.constraints(q)[0], Mpfr(along(q) - Mpfr(5) / 2), 10, "angle");
@@ -267,7 +267,7 @@ strength = 3
 
 double energy_at_start(const std::string& text) {
   const Assembled<double> scene = assembled<double>(text);
-  return Point<double>(scene.problem).energy(scene.q0, scene.p0);
+  return StateEvaluator<double>(scene.problem).energy(scene.q0, scene.p0);
 }
 
 TEST(DefaultPairs, AllChargedBodiesAndPoints) {
@@ -492,7 +492,7 @@ TEST(Assemble, SetsRedundantConstraintsAside) {
                      {"constraint " + std::to_string(expected[r] + 1), scene.problem.redundant[r].constraint.name});
         EXPECT_FALSE(scene.redundant[r].others.empty()) << title;
       }
-      Point<S> point(scene.problem);
+      StateEvaluator<S> point(scene.problem);
       EXPECT_TRUE(is_finite(max_norm(point.multiplier(scene.q0, scene.p0)))) << title;
     };
     check(double());
@@ -575,7 +575,7 @@ TEST(Assemble, StartsThousandsOfRods) {
   }
   const auto scene = assembled<double>(text + rods);
   EXPECT_EQ(scene.problem.nu(), n);
-  Point<double> point(scene.problem);
+  StateEvaluator<double> point(scene.problem);
   EXPECT_EQ(max_norm(point.hidden_constraints(scene.q0, scene.p0)), 0);
   EXPECT_EQ(max_norm(point.multiplier(scene.q0, scene.p0)), 0);
 }
@@ -661,7 +661,7 @@ TEST_F(JoinedBodies, ConstraintsSayWhichPartTheyAre) {
 }
 
 TEST_F(JoinedBodies, ConstraintsAreThoseOfTheirPoints) {
-  const Vector<Mpfr> g = Point<Mpfr>(scene.problem).constraints(q);
+  const Vector<Mpfr> g = StateEvaluator<Mpfr>(scene.problem).constraints(q);
   const Vector<Mpfr> hinge = point(base, {"1", "0", "0"}) - point(arm, {"0", "-1/2", "0"});
   const Vector<Mpfr> ball = point(arm, {"0", "1/2", "0"}) - point(bob, {"0", "0", "0"});
   for (Index i = 0; i < 3; ++i) {
@@ -697,12 +697,13 @@ TEST_F(JoinedBodies, EffectsActOnTheirPoints) {
   }
   for (const Vector<Mpfr>& x : {Vector<Mpfr>(at - hook), Vector<Mpfr>(point(arm, {"1/3", "0", "1"}) - hook)})
     V += 3 * half * x.dot(x);
-  expect_near(Point<Mpfr>(scene.problem).energy(q, Vector<Mpfr>::Zero(q.size())), V, 1'000, "potential energy");
+  expect_near(StateEvaluator<Mpfr>(scene.problem).energy(q, Vector<Mpfr>::Zero(q.size())), V, 1'000,
+              "potential energy");
 }
 
 /// The forces are the derivatives of that energy.
 TEST_F(JoinedBodies, ForcesAreDerivatives) {
-  Point<Mpfr> at(scene.problem);
+  StateEvaluator<Mpfr> at(scene.problem);
   const Vector<Mpfr> zero = Vector<Mpfr>::Zero(q.size()), v = generic(q.size(), 2);
   const Mpfr step = literal<Mpfr>("1e-16");
   const Mpfr slope =
@@ -788,7 +789,7 @@ TEST(PointsOfRigidBodies, LieOnPlanesAndQuadrics) {
       "g = \"x^2 + 4*x*y + y^2/3 - z^2 + x + 5*z - 4\"\n"
       "[[constraint]]\nkind = \"formula\"\non = \"right\"\ng = \"x + 2*y + 3*z + 5\"\n");
   const Vector<Mpfr> q = generic(built_in.problem.m(), 3), p = generic(built_in.problem.m(), 4);
-  Point<Mpfr> one(built_in.problem), other(formulas.problem);
+  StateEvaluator<Mpfr> one(built_in.problem), other(formulas.problem);
   const Vector<Mpfr> g = one.constraints(q), hidden = one.hidden_constraints(q, p), lambda = one.multiplier(q, p);
   const Vector<Mpfr> g2 = other.constraints(q), hidden2 = other.hidden_constraints(q, p),
                      lambda2 = other.multiplier(q, p);

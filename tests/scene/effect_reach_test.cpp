@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
@@ -72,7 +72,7 @@ void expect_same(const SameEffect& same) {
     v[i] = Mpfr((3 * i * i + 11 * i) % 19 - 9) / 7;
   }
   const Vector<Mpfr> zero = Vector<Mpfr>::Zero(q.size());
-  Point<Mpfr> at(all.problem), other(points.problem);
+  StateEvaluator<Mpfr> at(all.problem), other(points.problem);
   const auto near = [](const Mpfr& a, const Mpfr& b) { return magnitude(Mpfr(a - b)) <= 1'000 * epsilon<Mpfr>(); };
   EXPECT_PRED2(near, at.energy(q, zero), other.energy(q, zero));
   const Vector<Mpfr> force = at.forces(q, zero).applied, expected = other.forces(q, zero).applied;

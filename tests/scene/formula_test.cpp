@@ -9,7 +9,7 @@
 #include "problem/effect/trace.hpp"
 #include "problem/energy_terms.hpp"
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "scene/formula_scene.hpp"
 #include "scene/joined_bodies.hpp"
@@ -45,7 +45,7 @@ class FormulaScene : public ::testing::Test {
     const auto add = [&](const auto& values) {
       result.insert(result.end(), values.data(), values.data() + values.size());
     };
-    Point<S> point(problem);
+    StateEvaluator<S> point(problem);
     result.push_back(point.energy(q, p));
     result.push_back(point.energy_size(q, p));
     add(point.constraints(q));
@@ -123,7 +123,7 @@ TYPED_TEST(FormulaScene, OfPairsHasDisplacementsAndTheirSymmetry) {
       "between = [\"a\", \"b\"]\n";
   for (const std::string& text : {pair, changed(pair, "2*x +", "2*x + 0*x1 +"), changed(pair, "2*x", "2*x1 - 2*x2")}) {
     const Assembled<S> scene = this->assembled(text);
-    Point<S> point(scene.problem);
+    StateEvaluator<S> point(scene.problem);
     const Vector<S> force = point.forces(scene.q0, scene.p0).applied;
     const S expected[] = {2 - S(6) / 10, S(-8) / 10, S(6) / 10 - 2, S(8) / 10};
     for (Index i = 0; i < 4; ++i) EXPECT_LE(magnitude(S(force[i] - expected[i])), 4 * epsilon<S>()) << text;
@@ -304,7 +304,7 @@ TEST(FormulaScenes, OfRandomTextsAreReadOrRefused) {
     try {
       const Assembled<double> scene =
           assemble<double>(read_scene(changed(pendulum_by_formulas, "\"-9.81*m*y\"", "\"" + text + "\""), "test.toml"));
-      Point<double> point(scene.problem);
+      StateEvaluator<double> point(scene.problem);
       EXPECT_TRUE(is_finite(point.energy(scene.q0, scene.p0))) << text;
       ++read;
     } catch (const InputError& error) {

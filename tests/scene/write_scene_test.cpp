@@ -1,5 +1,5 @@
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "scene/joined_bodies.hpp"
 #include "scene/scene_text.hpp"
@@ -30,7 +30,7 @@ void expect_same(const Assembled<Mpfr>& a, const Assembled<Mpfr>& b) {
     EXPECT_EQ(x.potential.terms[t].kind, y.potential.terms[t].kind);
     EXPECT_EQ(x.potential.terms[t].displacements.size(), y.potential.terms[t].displacements.size());
   }
-  Point<Mpfr> one(x), other(y);
+  StateEvaluator<Mpfr> one(x), other(y);
   for (const auto& [q, p] : {std::pair(a.q0, a.p0), std::pair(generic(a.q0), generic(a.p0))}) {
     EXPECT_EQ(one.energy(q, p), other.energy(q, p));
     EXPECT_EQ(one.constraints(q), other.constraints(q));

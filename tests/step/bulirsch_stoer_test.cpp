@@ -5,7 +5,7 @@
 
 #include "interrupting.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "step/odeint_methods.hpp"
 #include "step/registry.hpp"

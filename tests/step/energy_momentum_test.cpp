@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "step/stepping.hpp"
 
 namespace hbvm::core {
@@ -19,7 +19,7 @@ TYPED_TEST(EnergyMomentumTest, KeepsEnergyMomentaAndConstraints) {
                                  "kepler", "bead_on_ellipsoid", "quartic_oscillator"}) {
     const Assembled<S> scene = assemble<S>(load_scene(name));
     const Problem<S>& problem = scene.problem;
-    Point<S> point(problem);
+    StateEvaluator<S> point(problem);
     EnergyMomentum<S> stepper(problem);
     State<S> state(scene.q0, scene.p0);
     const S H0 = point.energy(state.q, state.p), size = point.energy_size(state.q, state.p);
@@ -49,7 +49,7 @@ TEST(EnergyMomentum, HasItsOrders) {
       for (long n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / (2 * steps)));
       return std::pair(state, Vector<Mpfr>(stepper->multiplier()));
     };
-    Point<Mpfr> point(scene.problem);
+    StateEvaluator<Mpfr> point(scene.problem);
     const State<Mpfr> exact = end("hbvm:10,10", 16).first;
     const Vector<Mpfr> p = point.tangential(exact.q, exact.p), lambda = point.multiplier(exact.q, p);
     const auto ratio = [&](const auto& error) { return order_of<Mpfr>(error(128), error(256)); };
@@ -86,7 +86,7 @@ TYPED_TEST(EnergyMomentumTest, HoldsForUnevenMassesAndLengths) {
       "          { kind = \"mutual_gravity\", strength = \"1/1000\", between = [\"heavy\", \"far\"] },\n"
       "          { kind = \"mutual_gravity\", strength = \"1/1000\", between = [\"light\", \"far\"] }]\n",
       "uneven"));
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   const S H0 = point.energy(scene.q0, scene.p0), size = point.energy_size(scene.q0, scene.p0);
   const State<S> end = after("energy_momentum", scene, S(1) / 128, 50);
   EXPECT_LE(magnitude(S(point.energy(end.q, end.p) - H0)), 10'000 * size * epsilon<S>());

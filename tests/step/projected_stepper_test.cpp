@@ -1,7 +1,7 @@
 #include "step/projected_stepper.hpp"
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "step/stepping.hpp"
 
 namespace hbvm::core {
@@ -22,7 +22,7 @@ TYPED_TEST(ProjectedSteps, BeginAsHbvmEnds) {
   State<S> raw(scene.q0, scene.p0), state = raw;
   plain->step(raw, S(S(1) / 16));
   projected->step(state, S(S(1) / 16));
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   EXPECT_EQ(state.q, raw.q);
   EXPECT_LE(distance(state.p, point.tangential(raw.q, raw.p)), 16 * epsilon<S>());
   EXPECT_GT(distance(state.p, raw.p), 1'000 * epsilon<S>());
@@ -33,7 +33,7 @@ TYPED_TEST(ProjectedSteps, BeginAsHbvmEnds) {
 TEST(ProjectedHbvm, LosesEnergyAtItsRate) {
   const PrecisionScope digits(50);
   const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("modified_pendulum"));
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Mpfr H0 = point.energy(scene.q0, scene.p0);
   const auto lost = [&](const std::string& method, long steps) {
     const State<Mpfr> end = after(method, scene, Mpfr(1) / (2 * steps), steps);
@@ -53,7 +53,7 @@ TYPED_TEST(ProjectedSteps, RestoreTheEnergy) {
     const Assembled<S> scene = assemble<S>(load_scene("modified_pendulum"));
     const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
     State<S> state(scene.q0, scene.p0);
-    Point<S> point(scene.problem);
+    StateEvaluator<S> point(scene.problem);
     const S H0 = point.energy(state.q, state.p), size = point.energy_size(state.q, state.p);
     for (int n = 0; n < 500; ++n) {
       stepper->step(state, S(S(1) / 16));
@@ -68,7 +68,7 @@ TEST(ProjectedHbvm, HasOrder2s) {
   const auto end = [&](const std::string& method, long steps) {
     return after(method, scene, Mpfr(1) / (4 * steps), steps);
   };
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const State<Mpfr> exact = end("hbvm:12,12", 8);
   const Vector<Mpfr> p = point.tangential(exact.q, exact.p);
   for (const char* const family : {"projected_hbvm", "restored_hbvm"})
@@ -89,7 +89,7 @@ TEST(RestoredHbvm, TakesAStateThatItDidNotMake) {
   used->step(state, 0.05);
   used->step(slow, 0.05);
   fresh->step(again, 0.05);
-  Point<double> point(scene.problem);
+  StateEvaluator<double> point(scene.problem);
   EXPECT_NEAR(point.energy(slow.q, slow.p), point.energy(again.q, again.p), 1e-14);
 }
 

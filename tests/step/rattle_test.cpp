@@ -1,7 +1,7 @@
 #include "step/rattle.hpp"
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "step/stepping.hpp"
 
 namespace hbvm::core {
@@ -31,7 +31,7 @@ TYPED_TEST(RattleTest, IsOfOrderTwo) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
   const State<S> exact = after("hbvm:6,6", scene, S(1) / 32, 32, SolverKind::fixed_point);
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   const Vector<S> p = point.tangential(exact.q, exact.p);
   S last = 0;
   for (const long steps : {64L, 128L, 256L}) {
@@ -65,7 +65,7 @@ TYPED_TEST(RattleTest, WithoutConstraintsIsLeapfrog) {
 TYPED_TEST(RattleTest, MultiplierIsThatOfTheEnd) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   S last = 0;
   for (const long steps : {64L, 128L, 256L}) {
     Rattle<S> rattle(scene.problem);
@@ -117,7 +117,7 @@ TYPED_TEST(RattleTest, FindsPositionsWhereNothingPulls) {
                  "constraint = [{ kind = \"rod\", between = [\"a\", \"b\"], length = 1 }]\n",
                  "side by side"));
   const State<S> end = after("rattle", scene, S(1) / 10, 100);
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   EXPECT_LE(max_norm(point.constraints(end.q)), 1'000 * epsilon<S>());
   EXPECT_LE(magnitude(S(end.q[0] - S(8) / 7)), 1'000 * epsilon<S>());
 }

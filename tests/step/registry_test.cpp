@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/stepping.hpp"
 #include "step/tableau_method.hpp"
@@ -166,7 +166,7 @@ TYPED_TEST(EveryMethod, ThatKeepsBothConstraintsEndsItsStepsOnThem) {
       const Assembled<S> scene = assemble<S>(load_scene(name));
       const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
       State<S> state(scene.q0, scene.p0);
-      Point<S> point(scene.problem);
+      StateEvaluator<S> point(scene.problem);
       EXPECT_TRUE(parse_method(method)->kept().hidden);
       for (int n = 0; n < steps; ++n) {
         stepper->step(state, S(S(1) / steps_of_one));

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "step/odeint_methods.hpp"
 #include "step/registry.hpp"
@@ -16,7 +16,7 @@ TEST(Rkf78, HasOrder8) {
   const PrecisionScope digits(60);
   for (const char* const name : {"double_pendulum", "modified_pendulum", "kepler"}) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
-    Point<Mpfr> point(scene.problem);
+    StateEvaluator<Mpfr> point(scene.problem);
     const auto end = [&](const char* method, long steps) {
       const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
       State<Mpfr> state(scene.q0, scene.p0);

@@ -2,7 +2,7 @@
 
 #include "method/tableaux.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "step/compensated_sum.hpp"
 #include "step/hbvm_stepper.hpp"
@@ -184,7 +184,7 @@ TYPED_TEST(RungeKuttaSteps, TakeConstraintsByTheIndexReducedEquations) {
   const Hbvm<S> fine = make_hbvm<S>(8, 8);
   HbvmStepper<S> exact(scene.problem, fine, SolverKind::newton);
   const State<S> expected = after<S>(exact, scene, S(1) / 64, 16);
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   const Vector<S> p = point.tangential(expected.q, expected.p);
   for (const OnConstraints on_constraints : {OnConstraints::drift, OnConstraints::project}) {
     S last_error = 0, last_g = 0;

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "audit/audit.hpp"
-#include "audit/cell.hpp"
+#include "audit/claim_group.hpp"
 #include "step/hbvm_method.hpp"
 
 namespace hbvm::core {

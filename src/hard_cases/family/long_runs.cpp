@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "hard_cases/family.hpp"
-#include "hard_cases/walk.hpp"
+#include "hard_cases/round_off_growth.hpp"
 
 namespace hbvm::core {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "hard_cases/family.hpp"
+#include "hard_cases/round_off_growth.hpp"
 #include "hard_cases/scenes.hpp"
-#include "hard_cases/walk.hpp"
 
 namespace hbvm::core {
 

@@ -2,7 +2,7 @@
 
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
@@ -18,7 +18,7 @@ CaseResult on_the_right_root(const RunRequest& request) {
   if (!result.failure.empty()) return result;
   const double e_H = evaluate<double>(Expression::parse(run(request, {}).e_H));
   const Assembled<double> scene = assemble<double>(request.scene);
-  const double size = Point<double>(scene.problem).energy_size(scene.q0, scene.p0);
+  const double size = StateEvaluator<double>(scene.problem).energy_size(scene.q0, scene.p0);
   double stiffness = 0;
   for (const SceneEffect& effect : request.scene.effects)
     if (effect.kind == "spring") stiffness = evaluate<double>(effect.numbers.at("stiffness"));

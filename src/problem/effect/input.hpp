@@ -9,7 +9,7 @@ namespace hbvm::core {
 /// The numbers of one use of an effect. They are its keys, and for each body or pair its parameters. These come in the
 /// order mass matrix (on_each_body only), masses (two for pairs, else one), charges (two, or one and the centre's).
 template <Scalar S>
-struct EffectUse {
+struct EffectInput {
   std::string kind;
   Index dimension = 0;
   std::map<std::string, S, std::less<>> numbers;
@@ -25,6 +25,6 @@ struct EffectUse {
 
 /// Evaluates the effect's formula once on Traced values and compiles U and dU/dx.
 template <Scalar S>
-EffectTerm<S> make_term(const EffectUse<S>& use);
+EffectTerm<S> make_term(const EffectInput<S>& input);
 
 }  // namespace hbvm::core

@@ -1,4 +1,4 @@
-#include "compare/against.hpp"
+#include "compare/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 
 #include "hbvm/error.hpp"
 #include "problem/energy_terms.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/compute_reference.hpp"
 #include "reference/reference_motion.hpp"
 #include "reference/store.hpp"
@@ -49,7 +49,7 @@ int digits_of(const ResultsTable& rows) {
 
 /// The rows to be compared: those after the start.
 /// \throws InputError, with line and column, for times that do not ascend
-std::vector<std::size_t> choose_rows(const ResultsColumns& columns, const ResultsTable& rows, FileAgainst& out) {
+std::vector<std::size_t> choose_rows(const ResultsColumns& columns, const ResultsTable& rows, FileComparison& out) {
   const ResultsColumns::Reading& time = *columns.find("t");
   std::vector<std::size_t> usable;
   Mpfr last = 0;
@@ -136,7 +136,7 @@ class Exact {
 
 /// What a file has at t = 0 beside the start of the scene. Its last two digits may be rounding. That may be of what it
 /// was printed with, or of a start computed in double, whatever digits of that are printed.
-void compare_start(const ResultsColumns& columns, const ResultsTable& rows, const Exact& start, FileAgainst& out) {
+void compare_start(const ResultsColumns& columns, const ResultsTable& rows, const Exact& start, FileComparison& out) {
   const ResultsColumns::Reading& time = *columns.find("t");
   std::size_t row = 0;
   while (row < rows.cells.size() && columns.value(time, row) != 0) ++row;
@@ -167,7 +167,7 @@ std::string panel_title(const std::string& file) {
 }
 
 /// From the coarsest step to the finest; files whose step is unknown are left out.
-std::vector<std::size_t> by_step(const std::vector<FileAgainst>& files) {
+std::vector<std::size_t> by_step(const std::vector<FileComparison>& files) {
   std::vector<std::size_t> order;
   for (std::size_t f = 0; f < files.size(); ++f)
     if (std::isfinite(files[f].step)) order.push_back(f);
@@ -176,7 +176,7 @@ std::vector<std::size_t> by_step(const std::vector<FileAgainst>& files) {
   return order;
 }
 
-double order_between(const FileAgainst& coarse, const FileAgainst& fine) {
+double order_between(const FileComparison& coarse, const FileComparison& fine) {
   const double steps = std::log10(coarse.step / fine.step);
   // Times that a program added up are not quite the same.
   constexpr long nearly = 1'000'000;
@@ -220,9 +220,9 @@ std::string step_stored(const std::string& csv, const std::string& metadata) {
   return {};
 }
 
-double Against::least_digits() const {
+double Comparison::least_digits() const {
   double least = std::numeric_limits<double>::infinity();
-  for (const FileAgainst& file : files)
+  for (const FileComparison& file : files)
     for (const ComponentDigits& c : file.components) {
       for (const double right : c.digits)
         if (right < least) least = right;
@@ -231,9 +231,9 @@ double Against::least_digits() const {
   return least;
 }
 
-Against compare_with_reference(const AgainstRequest& request) {
+Comparison compare_with_reference(const ComparisonRequest& request) {
   constexpr int more_digits = 4, least_digits = 20, greatest_digits = most_reference_digits;
-  Against result;
+  Comparison result;
   std::vector<ResultsTable> rows;
   for (const ResultsFile& file : request.files) rows.emplace_back(file);
   for (const ResultsTable& r : rows) result.digits = std::max(result.digits, digits_of(r));
@@ -244,10 +244,10 @@ Against compare_with_reference(const AgainstRequest& request) {
   EnergyTerms<Mpfr> energy(scene.problem);
   energy.evaluate(scene.q0, scene.p0);
   const Mpfr H0 = energy.H();
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Exact start_of_scene(scene.problem, scene.q0, scene.p0);
   for (std::size_t f = 0; f < request.files.size(); ++f) {
-    FileAgainst& out = result.files.emplace_back();
+    FileComparison& out = result.files.emplace_back();
     out.name = request.files[f].name;
     const ResultsColumns columns(request, request.files[f], rows[f]);
     const std::vector<std::size_t> chosen = choose_rows(columns, rows[f], out);
@@ -322,7 +322,7 @@ Against compare_with_reference(const AgainstRequest& request) {
         {ordered[i], ordered[i + 1], order_between(result.files[ordered[i]], result.files[ordered[i + 1]])});
   // The growth of a small change of the start until the first file's times.
   {
-    const FileAgainst& first = result.files.front();
+    const FileComparison& first = result.files.front();
     double most = result.digits;
     for (const ComponentDigits& c : first.components)
       if (c.digits.front() < most) most = c.digits.front();
@@ -343,12 +343,12 @@ Against compare_with_reference(const AgainstRequest& request) {
   return result;
 }
 
-Figure against_figure(const AgainstRequest& request, const Against& against, const std::string& name) {
+Figure comparison_figure(const ComparisonRequest& request, const Comparison& against, const std::string& name) {
   const PrecisionScope scope(20);
   Figure figure;
   figure.name = name;
   figure.caption = "Right digits beside the reference of " + plain(request.scene.name);
-  for (const FileAgainst& file : against.files) {
+  for (const FileComparison& file : against.files) {
     Panel panel;
     panel.title = panel_title(file.name);
     panel.x.label = "t";

@@ -46,7 +46,7 @@ struct Frame {
 
 /// A [[constraint]] table in numbers, for the form to make itself of. Each map has the keys that the form names.
 template <Scalar S>
-struct ConstraintUse {
+struct ConstraintInput {
   Index dimension = 0;
   std::map<std::string, Displacement<S>, std::less<>> pairs;
   std::map<std::string, std::array<Frame<S>, 2>, std::less<>> frames = {};  ///< of the ends of the pairs

@@ -1,4 +1,4 @@
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 
 #include <cmath>
 #include <optional>
@@ -29,14 +29,14 @@ long floor_of(const S& x) {
 
 /// In the order in which make_term numbers them.
 template <Scalar S>
-std::vector<S> parameters_of(const EffectUse<S>& use, const typename EffectUse<S>::Instance& instance) {
+std::vector<S> parameters_of(const EffectInput<S>& input, const typename EffectInput<S>::Instance& instance) {
   std::vector<S> p;
   for (Index i = 0; i < instance.mass_matrix.rows(); ++i)
     for (Index j = 0; j < instance.mass_matrix.cols(); ++j) p.push_back(instance.mass_matrix(i, j));
   p.insert(p.end(), std::begin(instance.masses), std::end(instance.masses));
   p.insert(p.end(), std::begin(instance.charges), std::end(instance.charges));
-  for (const auto& [key, value] : use.numbers) p.push_back(value);
-  for (const auto& [key, values] : use.vectors) p.insert(p.end(), values.begin(), values.end());
+  for (const auto& [key, value] : input.numbers) p.push_back(value);
+  for (const auto& [key, values] : input.vectors) p.insert(p.end(), values.begin(), values.end());
   return p;
 }
 
@@ -49,14 +49,14 @@ Matrix<S> scaled(const Matrix<S>& v) {
 
 /// The axis of an instance, n = a or M a, and a bound of its round-off.
 template <Scalar S>
-void find_axis(const EffectUse<S>& use, const EffectAxis& axis, Index instance, EffectSymmetry<S>& result) {
-  const Index d = use.dimension;
-  const std::vector<S>& entries = use.vectors.find(axis.key)->second;
+void find_axis(const EffectInput<S>& input, const EffectAxis& axis, Index instance, EffectSymmetry<S>& result) {
+  const Index d = input.dimension;
+  const std::vector<S>& entries = input.vectors.find(axis.key)->second;
   Matrix<S> a(d, 1);
   for (Index j = 0; j < d; ++j) a(j, 0) = entries[static_cast<std::size_t>(j)];
   a = scaled(a);
   Matrix<S> M = Matrix<S>::Identity(d, d);
-  if (axis.times_mass) M = scaled(use.instances[static_cast<std::size_t>(instance)].mass_matrix);
+  if (axis.times_mass) M = scaled(input.instances[static_cast<std::size_t>(instance)].mass_matrix);
   for (Index j = 0; j < d; ++j) {
     S sum = 0, size = 0;
     for (Index l = 0; l < d; ++l) {
@@ -70,17 +70,17 @@ void find_axis(const EffectUse<S>& use, const EffectAxis& axis, Index instance, 
 }
 
 template <class Effect, Scalar S>
-EffectSymmetry<S> symmetry_of(const EffectUse<S>& use) {
+EffectSymmetry<S> symmetry_of(const EffectInput<S>& input) {
   EffectSymmetry<S> result;
   result.kind = Effect::symmetry;
   bool all_act = true;
-  for (const std::string_view key : Effect::factors) all_act = all_act && use.numbers.find(key)->second != 0;
-  for (const auto& instance : use.instances)
+  for (const std::string_view key : Effect::factors) all_act = all_act && input.numbers.find(key)->second != 0;
+  for (const auto& instance : input.instances)
     result.acts.push_back(all_act && !(Effect::needs_charge && (instance.charges[0] == 0 || instance.charges[1] == 0)));
   if constexpr (Effect::symmetry != Symmetry::central) {
-    const auto count = static_cast<Index>(use.instances.size());
-    result.axes = result.axis_round_off = Matrix<S>(count, use.dimension);
-    for (Index n = 0; n < count; ++n) find_axis(use, Effect::axis, n, result);
+    const auto count = static_cast<Index>(input.instances.size());
+    result.axes = result.axis_round_off = Matrix<S>(count, input.dimension);
+    for (Index n = 0; n < count; ++n) find_axis(input, Effect::axis, n, result);
   }
   return result;
 }
@@ -88,9 +88,9 @@ EffectSymmetry<S> symmetry_of(const EffectUse<S>& use) {
 }  // namespace
 
 template <Scalar S>
-EffectTerm<S> make_term(const EffectUse<S>& use) {
+EffectTerm<S> make_term(const EffectInput<S>& input) {
   Trace<S> trace;
-  const auto d = static_cast<std::size_t>(use.dimension);
+  const auto d = static_cast<std::size_t>(input.dimension);
   Interaction<Traced<S>> formal;
   for (std::size_t j = 0; j < d; ++j) formal.x.emplace_back(trace, trace.input(j));
   std::size_t index = 0;
@@ -100,12 +100,12 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
   for (int i = 0; i < 2; ++i) formal.charges.push_back(parameter());
   // The keys' values are parameters, too. The code depends on them only where the formula asks for whole numbers, and
   // on the zeros of vectors. So one compiled kernel serves all values.
-  for (const auto& [key, value] : use.numbers) {
+  for (const auto& [key, value] : input.numbers) {
     formal.numbers.emplace(key, parameter());
     if (const auto n = whole(value)) formal.whole_numbers.emplace(key, *n);
     formal.floors.emplace(key, floor_of(value));
   }
-  for (const auto& [key, values] : use.vectors) {
+  for (const auto& [key, values] : input.vectors) {
     for (const S& value : values) {
       const Traced<S> entry = parameter();
       formal.vectors[key].push_back(value == 0 ? Traced<S>(trace, trace.constant(value)) : entry);
@@ -114,23 +114,23 @@ EffectTerm<S> make_term(const EffectUse<S>& use) {
 
   std::optional<typename Trace<S>::Id> U;
   EffectTerm<S> term;
-  with_effect(use.kind, [&]<class Effect>() {
+  with_effect(input.kind, [&]<class Effect>() {
     U = Effect::U(formal).id();
-    term.symmetry = symmetry_of<Effect>(use);
+    term.symmetry = symmetry_of<Effect>(input);
   });
-  if (!U) throw Error("no effect of kind '" + use.kind + "'");  // the scene reader has checked
+  if (!U) throw Error("no effect of kind '" + input.kind + "'");  // the scene reader has checked
 
   std::vector<std::vector<S>> parameters;
-  for (const auto& instance : use.instances) {
+  for (const auto& instance : input.instances) {
     term.displacements.push_back(instance.x);
-    parameters.push_back(parameters_of(use, instance));
+    parameters.push_back(parameters_of(input, instance));
   }
-  term.kind = use.kind;
+  term.kind = input.kind;
   compile(trace, *U, d, index, parameters, term);
   return term;
 }
 
-#define HBVM_DEFINE(S) template EffectTerm<S> make_term<S>(const EffectUse<S>&);
+#define HBVM_DEFINE(S) template EffectTerm<S> make_term<S>(const EffectInput<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

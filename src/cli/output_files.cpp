@@ -1,4 +1,4 @@
-#include "written.hpp"
+#include "output_files.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "audit/sizes.hpp"
+#include "audit/error_sizes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@ namespace hbvm::core {
 namespace {
 
 TEST(AuditSizes, AreTheGreatestOfEach) {
-  Sizes sizes;
+  ErrorSizes sizes;
   raise(sizes, Quantity::q, -10, -50);
   raise(sizes, Quantity::q, -12, -40);
   raise(sizes, Quantity::p, -30, -60);

@@ -2,20 +2,20 @@
 
 #include <initializer_list>
 
-#include "audit/cell.hpp"
+#include "audit/claim_group.hpp"
 #include "step/hbvm_method.hpp"
 
 namespace hbvm::core {
 
 /// What one HBVM on one problem is asked for, from one start.
-inline Cell cell_of(const std::string& problem, HbvmName method, std::initializer_list<Quantity> quantities,
-                    Span span = Span::interval) {
-  Cell cell;
+inline ClaimGroup group_of(const std::string& problem, HbvmName method, std::initializer_list<Quantity> quantities,
+                           Span span = Span::interval) {
+  ClaimGroup group;
   for (const Quantity quantity : quantities) {
-    cell.claims.push_back(make_claim("test", quantity, problem, span, Form::exactly, 0));
-    cell.claims.back().method = hbvm_of(method);
+    group.claims.push_back(make_claim("test", quantity, problem, span, Form::exactly, 0));
+    group.claims.back().method = hbvm_of(method);
   }
-  return cell;
+  return group;
 }
 
 /// Whether rungs bear out this rate, and no other whole one beside it.

@@ -1,4 +1,4 @@
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 
 #include "hbvm/error.hpp"
 #include "linear/product.hpp"
@@ -7,7 +7,7 @@
 namespace hbvm::core {
 
 template <Scalar S>
-Point<S>::Point(const Problem<S>& problem)
+StateEvaluator<S>::StateEvaluator(const Problem<S>& problem)
     : problem_(problem),
       potential_(problem.potential, 1),
       gradient_(problem, 1),
@@ -22,20 +22,20 @@ Point<S>::Point(const Problem<S>& problem)
       row_(1, problem.nu()) {}
 
 template <Scalar S>
-S Point<S>::energy(const Vector<S>& q, const Vector<S>& p) {
+S StateEvaluator<S>::energy(const Vector<S>& q, const Vector<S>& p) {
   problem_.mass.velocity(lanes(p), lanes(v_));
   potential_.values(lanes(q), U_);
   return dot(p, v_) / 2 - U_[0];
 }
 
 template <Scalar S>
-S Point<S>::energy_size(const Vector<S>& q, const Vector<S>& p) {
+S StateEvaluator<S>::energy_size(const Vector<S>& q, const Vector<S>& p) {
   const S at_rest = energy(q, Vector<S>::Zero(problem_.m()));
   return magnitude(S(energy(q, p) - at_rest)) + magnitude(at_rest);
 }
 
 template <Scalar S>
-S Point<S>::constraint_size(const Vector<S>& q) const {
+S StateEvaluator<S>::constraint_size(const Vector<S>& q) const {
   S size = 0;
   for (const Constraint<S>& constraint : problem_.constraints)
     raise_to(size, value(constraint, problem_.dimension, q).size);
@@ -43,14 +43,14 @@ S Point<S>::constraint_size(const Vector<S>& q) const {
 }
 
 template <Scalar S>
-const Vector<S>& Point<S>::constraints(const Vector<S>& q) {
+const Vector<S>& StateEvaluator<S>::constraints(const Vector<S>& q) {
   for (Index a = 0; a < problem_.nu(); ++a)
     g_[a] = value(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, q).g;
   return g_;
 }
 
 template <Scalar S>
-const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S>& p) {
+const Vector<S>& StateEvaluator<S>::hidden_constraints(const Vector<S>& q, const Vector<S>& p) {
   if (problem_.nu() == 0) return hidden_;
   gradient_.update(lanes(q));
   problem_.mass.velocity(lanes(p), lanes(v_));
@@ -59,7 +59,7 @@ const Vector<S>& Point<S>::hidden_constraints(const Vector<S>& q, const Vector<S
 }
 
 template <Scalar S>
-void Point<S>::solve_gram(Vector<S>& x) {
+void StateEvaluator<S>::solve_gram(Vector<S>& x) {
   const auto refuse_unless = [](bool regular) {
     if (!regular) throw IntegrationError("the constraints' gradients are linearly dependent: (3) does not hold here");
   };
@@ -75,7 +75,7 @@ void Point<S>::solve_gram(Vector<S>& x) {
 }
 
 template <Scalar S>
-const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
+const Vector<S>& StateEvaluator<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
   tangential_ = p;
   if (problem_.nu() == 0) return tangential_;
   hidden_constraints(q, p);
@@ -86,7 +86,7 @@ const Vector<S>& Point<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
 }
 
 template <Scalar S>
-void Point<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force) {
+void StateEvaluator<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force) {
   // (17), where the curvature of g_a along v is v^T nabla^2 g_a v
   gradient_.update(lanes(q));
   problem_.mass.velocity(lanes(force), lanes(acceleration_));
@@ -99,7 +99,7 @@ void Point<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, const Mat
 }
 
 template <Scalar S>
-const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
+const Vector<S>& StateEvaluator<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
   if (problem_.nu() == 0) return multiplier_;
   potential_.force(lanes(q), force_);
   find_multiplier(q, p, force_);
@@ -107,7 +107,7 @@ const Vector<S>& Point<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
 }
 
 template <Scalar S>
-const Vector<S>& Point<S>::constraint_force(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force) {
+const Vector<S>& StateEvaluator<S>::constraint_force(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force) {
   forces_.constraint = Vector<S>::Zero(problem_.m());
   if (problem_.nu() == 0) return forces_.constraint;
   find_multiplier(q, p, force);
@@ -117,14 +117,14 @@ const Vector<S>& Point<S>::constraint_force(const Vector<S>& q, const Vector<S>&
 }
 
 template <Scalar S>
-const typename Point<S>::Forces& Point<S>::forces(const Vector<S>& q, const Vector<S>& p) {
+const typename StateEvaluator<S>::Forces& StateEvaluator<S>::forces(const Vector<S>& q, const Vector<S>& p) {
   potential_.force(lanes(q), force_);
   forces_.applied = force_.transpose();
   constraint_force(q, p, force_);
   return forces_;
 }
 
-#define HBVM_DEFINE(S) template class Point<S>;
+#define HBVM_DEFINE(S) template class StateEvaluator<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

@@ -1,4 +1,4 @@
-#include "problem/formula/use.hpp"
+#include "problem/formula/input.hpp"
 
 #include "hbvm/error.hpp"
 #include "problem/effect/compile.hpp"
@@ -11,9 +11,9 @@ namespace {
 template <Scalar S>
 class Recording : public FormulaEvaluation<Recording<S>, S, Traced<S>> {
  public:
-  Recording(const FormulaUse<S>& use, Trace<S>& trace)
-      : FormulaEvaluation<Recording<S>, S, Traced<S>>(use, leaves(use.inputs(), trace, &Trace<S>::input),
-                                                      leaves(use.parameters, trace, &Trace<S>::parameter)),
+  Recording(const FormulaInput<S>& input, Trace<S>& trace)
+      : FormulaEvaluation<Recording<S>, S, Traced<S>>(input, leaves(input.inputs(), trace, &Trace<S>::input),
+                                                      leaves(input.parameters, trace, &Trace<S>::parameter)),
         trace_(trace) {}
 
   Traced<S> constant(const S& value) { return {trace_, trace_.constant(value)}; }
@@ -34,8 +34,8 @@ class Recording : public FormulaEvaluation<Recording<S>, S, Traced<S>> {
 template <Scalar S>
 class Checking : public FormulaEvaluation<Checking<S>, S, S> {
  public:
-  Checking(const FormulaUse<S>& use, const std::vector<S>& inputs, const std::vector<S>& parameters)
-      : FormulaEvaluation<Checking<S>, S, S>(use, inputs, parameters), text_(use.formula.text()) {}
+  Checking(const FormulaInput<S>& input, const std::vector<S>& inputs, const std::vector<S>& parameters)
+      : FormulaEvaluation<Checking<S>, S, S>(input, inputs, parameters), text_(input.formula.text()) {}
 
   S constant(const S& value) const { return value; }
   void check(const Expression::Node& node, const S& value) const {
@@ -75,42 +75,43 @@ Displacement<Mpfr> exactly(const Displacement<S>& x) {
 }  // namespace
 
 template <Scalar S>
-EffectTerm<S> make_term(const FormulaUse<S>& use) {
+EffectTerm<S> make_term(const FormulaInput<S>& input) {
   EffectTerm<S> term;
   term.kind = "formula";
-  term.arguments = use.arguments;
+  term.arguments = input.arguments;
   std::vector<std::vector<S>> parameters;
-  for (const auto& instance : use.instances) {
+  for (const auto& instance : input.instances) {
     term.displacements.insert(term.displacements.end(), instance.x.begin(), instance.x.end());
     parameters.push_back(instance.parameters);
   }
   Trace<S> trace;
-  const typename Trace<S>::Id U = Recording<S>(use, trace).value().id();
-  compile(trace, U, use.inputs(), use.parameters, parameters, term);
+  const typename Trace<S>::Id U = Recording<S>(input, trace).value().id();
+  compile(trace, U, input.inputs(), input.parameters, parameters, term);
   return term;
 }
 
 template <Scalar S>
-void check_formula(const FormulaUse<S>& use, const EffectTerm<S>& term, const Vector<S>& q) {
-  const Index d = use.dimension;
+void check_formula(const FormulaInput<S>& input, const EffectTerm<S>& term, const Vector<S>& q) {
+  const Index d = input.dimension;
   Matrix<S> x(term.instances(), term.arguments * d);
   displace(term, d, lanes(q), x.data(), x.rows());
   for (Index n = 0; n < x.rows(); ++n) {
     const Vector<S> inputs = x.row(n).transpose();
-    Checking<S>(use, {inputs.begin(), inputs.end()}, use.instances[static_cast<std::size_t>(n)].parameters).value();
+    Checking<S>(input, {inputs.begin(), inputs.end()}, input.instances[static_cast<std::size_t>(n)].parameters).value();
   }
   Execution<S> gradient(term.gradient, term.gradient_coefficients, x, 1);
   gradient.run();
   for (Index n = 0; n < x.rows(); ++n)
     for (Index i = 0; i < x.cols(); ++i)
       if (!is_finite(gradient.output(i, n)))
-        throw ExpressionError(use.formula.text(), 0, "a derivative has no value at the start");
+        throw ExpressionError(input.formula.text(), 0, "a derivative has no value at the start");
 }
 
 template <Scalar S>
-FormulaUse<Mpfr> exactly(const FormulaUse<S>& use) {
-  FormulaUse<Mpfr> result{use.formula, use.constants, use.dimension, use.arguments, use.variables, use.parameters};
-  for (const auto& instance : use.instances) {
+FormulaInput<Mpfr> exactly(const FormulaInput<S>& input) {
+  FormulaInput<Mpfr> result{input.formula,   input.constants, input.dimension,
+                            input.arguments, input.variables, input.parameters};
+  for (const auto& instance : input.instances) {
     auto& copy = result.instances.emplace_back();
     for (const Displacement<S>& x : instance.x) copy.x.push_back(exactly(x));
     for (const S& value : instance.parameters) copy.parameters.push_back(rounded_to<Mpfr>(raw(exactly(value))));
@@ -118,10 +119,10 @@ FormulaUse<Mpfr> exactly(const FormulaUse<S>& use) {
   return result;
 }
 
-#define HBVM_DEFINE(S)                                                                          \
-  template EffectTerm<S> make_term<S>(const FormulaUse<S>&);                                    \
-  template void check_formula<S>(const FormulaUse<S>&, const EffectTerm<S>&, const Vector<S>&); \
-  template FormulaUse<Mpfr> exactly<S>(const FormulaUse<S>&);
+#define HBVM_DEFINE(S)                                                                            \
+  template EffectTerm<S> make_term<S>(const FormulaInput<S>&);                                    \
+  template void check_formula<S>(const FormulaInput<S>&, const EffectTerm<S>&, const Vector<S>&); \
+  template FormulaInput<Mpfr> exactly<S>(const FormulaInput<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

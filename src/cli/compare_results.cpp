@@ -1,4 +1,4 @@
-#include "against_results.hpp"
+#include "compare_results.hpp"
 
 #include <fmt/format.h>
 
@@ -9,15 +9,15 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "compare/against.hpp"
+#include "compare/comparison.hpp"
 #include "hbvm/error.hpp"
 #include "interruption.hpp"
+#include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
 #include "report/csvw.hpp"
 #include "signals.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -35,7 +35,7 @@ std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std:
 }
 
 /// With the steps that were given, or else those that are stored in or beside them.
-std::vector<ResultsFile> read_results(const AgainstArguments& arguments) {
+std::vector<ResultsFile> read_results(const ComparisonArguments& arguments) {
   if (!arguments.steps.empty() && arguments.steps.size() != arguments.files.size())
     throw InputError(fmt::format("--steps: there are {} for {} files", arguments.steps.size(), arguments.files.size()));
   std::vector<ResultsFile> files;
@@ -67,9 +67,9 @@ std::string shown_time(const std::string& text) {
 
 std::string digits_text(double digits) { return std::isnan(digits) ? "-" : fmt::format("{:.1f}", digits); }
 
-nlohmann::ordered_json json_of(const Against& against) {
+nlohmann::ordered_json json_of(const Comparison& against) {
   nlohmann::ordered_json j{{"digits", against.digits}, {"files", nlohmann::ordered_json::array()}};
-  for (const FileAgainst& file : against.files) {
+  for (const FileComparison& file : against.files) {
     nlohmann::ordered_json entry{{"name", file.name}, {"t", file.times}, {"unused", file.unused}};
     entry["start"] = file.has_start ? nlohmann::ordered_json::array() : nlohmann::ordered_json(nullptr);
     for (const StartDifference& d : file.start)
@@ -91,7 +91,7 @@ nlohmann::ordered_json json_of(const Against& against) {
   return j;
 }
 
-void print_start(const FileAgainst& file) {
+void print_start(const FileComparison& file) {
   if (!file.has_start) {
     fmt::print("  no row at t = 0: that it starts as the scene does is not seen\n");
     return;
@@ -104,7 +104,7 @@ void print_start(const FileAgainst& file) {
 }
 
 /// The component with the fewest digits, or none if there are none to count.
-const ComponentDigits* least_right(const FileAgainst& file, std::size_t n) {
+const ComponentDigits* least_right(const FileComparison& file, std::size_t n) {
   const ComponentDigits* least = nullptr;
   for (const ComponentDigits& c : file.components)
     if (!std::isnan(c.digits[n]) && (!least || c.digits[n] < least->digits[n])) least = &c;
@@ -112,7 +112,7 @@ const ComponentDigits* least_right(const FileAgainst& file, std::size_t n) {
 }
 
 /// Where most is lost from one time to the next.
-void print_loss(const FileAgainst& file) {
+void print_loss(const FileComparison& file) {
   std::size_t where = 0;
   const ComponentDigits* what = nullptr;
   double most = 1;
@@ -128,7 +128,7 @@ void print_loss(const FileAgainst& file) {
                shown_time(file.times[where]), most, what->name);
 }
 
-void print(const FileAgainst& file, const std::vector<double>& by_growth) {
+void print(const FileComparison& file, const std::vector<double>& by_growth) {
   fmt::print("{}\n", file.name);
   print_start(file);
   for (const std::string& reason : file.unused) fmt::print("  not used: {}\n", reason);
@@ -159,17 +159,17 @@ void print(const FileAgainst& file, const std::vector<double>& by_growth) {
   print_loss(file);
 }
 
-std::string step_text(const FileAgainst& file) {
+std::string step_text(const FileComparison& file) {
   return file.step_text.empty() ? fmt::format("{:.3g}, by its times,", file.step) : file.step_text;
 }
 
-void print(const Against& against) {
+void print(const Comparison& against) {
   const bool stored = std::all_of(against.files.begin(), against.files.end(), [](const auto& f) { return f.stored; });
   fmt::print("right digits beside a reference of {} digits, {}\n", against.digits, stored ? "stored" : "computed now");
   for (std::size_t f = 0; f < against.files.size(); ++f)
     print(against.files[f], f == 0 ? against.by_growth : std::vector<double>());
   for (const Convergence& c : against.orders) {
-    const FileAgainst &a = against.files[c.coarse], &b = against.files[c.fine];
+    const FileComparison &a = against.files[c.coarse], &b = against.files[c.fine];
     fmt::print("order of convergence from {} to {}: {}\n", a.name, b.name,
                std::isfinite(c.order)
                    ? fmt::format("{:.2f}", c.order)
@@ -180,7 +180,7 @@ void print(const Against& against) {
 }
 
 /// \throws CLI::RuntimeError if it is not what was asked for
-void judge(const Against& against, const AgainstArguments& arguments) {
+void judge(const Comparison& against, const ComparisonArguments& arguments) {
   // An order that is measured at two steps is off by what follows the leading error.
   constexpr double room = double{1} / 4;
   std::string failed;
@@ -198,12 +198,12 @@ void judge(const Against& against, const AgainstArguments& arguments) {
 
 }  // namespace
 
-void AgainstArguments::refuse_alone() const {
+void ComparisonArguments::refuse_alone() const {
   if (!map.empty() || plot || !steps.empty() || order || digits)
     throw InputError("reference: --map, --plot, --steps, --expect-order and --require go with --against");
 }
 
-void add_against_options(CLI::App& command, AgainstArguments& arguments) {
+void add_comparison_options(CLI::App& command, ComparisonArguments& arguments) {
   command
       .add_option("--against", arguments.files,
                   "Files of results of any program, CSV: how many of their digits are right")
@@ -225,10 +225,10 @@ void add_against_options(CLI::App& command, AgainstArguments& arguments) {
   command.add_option("--plot", arguments.plot, "With --against: digits against time, SVG, PDF or PNG");
 }
 
-void compare_results(const std::optional<std::string>& scene, bool json, const AgainstArguments& arguments) {
+void compare_results(const std::optional<std::string>& scene, bool json, const ComparisonArguments& arguments) {
   if (!scene)
     throw InputError("reference --against: a scene is missing, as in hbvm reference SCENE --against FILE.csv");
-  AgainstRequest request;
+  ComparisonRequest request;
   request.scene = load_scene(*scene);
   request.files = read_results(arguments);
   request.map = read_map(arguments.map);
@@ -239,9 +239,9 @@ void compare_results(const std::optional<std::string>& scene, bool json, const A
     bar.update(static_cast<long>(part * parts), parts);
     end_if_asked("the comparison was not finished");
   };
-  const Against against = compare_with_reference(request);
+  const Comparison against = compare_with_reference(request);
   if (arguments.plot) {
-    draw(against_figure(request, against, "against"), *arguments.plot);
+    draw(comparison_figure(request, against, "against"), *arguments.plot);
     say_written(*arguments.plot);
   }
   if (json)

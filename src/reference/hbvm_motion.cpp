@@ -1,4 +1,4 @@
-#include "hbvm_walk.hpp"
+#include "hbvm_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-HbvmWalk::HbvmWalk(const Problem<Mpfr>& problem, const Hbvm<Mpfr>& method, const Vector<Mpfr>& q, const Vector<Mpfr>& p,
-                   double digits, const Mpfr& longest)
+HbvmMotion::HbvmMotion(const Problem<Mpfr>& problem, const Hbvm<Mpfr>& method, const Vector<Mpfr>& q,
+                       const Vector<Mpfr>& p, double digits, const Mpfr& longest)
     : problem_(problem),
       stepper_(problem, method, SolverKind::newton),
       bounds_(problem),
@@ -26,15 +26,15 @@ HbvmWalk::HbvmWalk(const Problem<Mpfr>& problem, const Hbvm<Mpfr>& method, const
       log2_h_(std::min(log2_of(longest), first_length())),
       most_log2_(log2_h_) {}
 
-ExactPoint HbvmWalk::output() {
+ExactPoint HbvmMotion::output() {
   const Vector<Mpfr> tangential = point_.tangential(state_.q, state_.p);
   return {state_.q, tangential, point_.multiplier(state_.q, tangential)};
 }
 
-double HbvmWalk::first_length() {
+double HbvmMotion::first_length() {
   // A step that is far too long costs more than some that are too short.
   constexpr double part = 2;
-  const Point<Mpfr>::Forces forces = point_.forces(state_.q, state_.p);
+  const StateEvaluator<Mpfr>::Forces forces = point_.forces(state_.q, state_.p);
   Vector<Mpfr> v(state_.p.size()), acceleration(v.size());
   const Vector<Mpfr> force = forces.applied + forces.constraint;
   problem_.mass.velocity(lanes(state_.p), lanes(v));
@@ -53,7 +53,7 @@ double HbvmWalk::first_length() {
   return least - part;
 }
 
-double HbvmWalk::room(double log2_h) const {
+double HbvmMotion::room(double log2_h) const {
   const Matrix<Mpfr>& gamma = stepper_.unknowns()->gamma;
   const Index s = gamma.rows();
   const double bits = significand_bits<Mpfr>();
@@ -77,7 +77,7 @@ double HbvmWalk::room(double log2_h) const {
   return least;
 }
 
-bool HbvmWalk::is_bounded(const Vector<Mpfr>& q0, const Mpfr& h, double log2_h, double log2_rho) {
+bool HbvmMotion::is_bounded(const Vector<Mpfr>& q0, const Mpfr& h, double log2_h, double log2_rho) {
   const Matrix<Mpfr>& gamma = stepper_.unknowns()->gamma;
   const Index d = problem_.dimension;
   Matrix<Mpfr> v(gamma.rows(), gamma.cols());
@@ -96,14 +96,14 @@ bool HbvmWalk::is_bounded(const Vector<Mpfr>& q0, const Mpfr& h, double log2_h, 
   });
 }
 
-void HbvmWalk::shorten(double by, const std::string& why) {
+void HbvmMotion::shorten(double by, const std::string& why) {
   log2_h_ -= by;
   const double bits = significand_bits<Mpfr>();
   if (!(log2_h_ > most_log2_ - 2 * bits) || !(log2_h_ > log2_of(now_) - bits))
     throw IntegrationError("the motion cannot be followed beyond t = " + to_scientific(now_, 10) + ": " + why);
 }
 
-void HbvmWalk::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step) {
+void HbvmMotion::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step) {
   // log2 of how many times as long a step may be. These are the least, that when its length is chosen, and the most
   // before another length is worth its new matrix.
   constexpr double least_room = double{5} / 100, usual_room = double{2} / 10, much_room = double{5} / 10, most_rise = 1,

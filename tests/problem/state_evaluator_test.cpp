@@ -1,9 +1,9 @@
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 
 #include "hbvm/error.hpp"
 #include "printing.hpp"
 #include "problem/dense.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 #include "scalar/literal.hpp"
 
 namespace hbvm::core {
@@ -22,8 +22,8 @@ class PointTest : public ::testing::Test {
     return v;
   }
 
-  static typename EffectUse<S>::Instance body(Index offset, const Matrix<S>& M) {
-    typename EffectUse<S>::Instance instance;
+  static typename EffectInput<S>::Instance body(Index offset, const Matrix<S>& M) {
+    typename EffectInput<S>::Instance instance;
     instance.x = {{{offset, S(1)}}, {}};
     instance.mass_matrix = M;
     instance.masses[0] = M(0, 0);
@@ -39,25 +39,25 @@ class PointTest : public ::testing::Test {
     return problem;
   }
 
-  static EffectTerm<S> gravity(Index d, std::vector<typename EffectUse<S>::Instance> bodies) {
-    EffectUse<S> use;
-    use.kind = "uniform_gravity";
-    use.dimension = d;
+  static EffectTerm<S> gravity(Index d, std::vector<typename EffectInput<S>::Instance> bodies) {
+    EffectInput<S> input;
+    input.kind = "uniform_gravity";
+    input.dimension = d;
     std::vector<S> acceleration(static_cast<std::size_t>(d), S(0));
     acceleration.back() = -1;
-    use.vectors.emplace("acceleration", acceleration);
-    use.instances = std::move(bodies);
-    return make_term(use);
+    input.vectors.emplace("acceleration", acceleration);
+    input.instances = std::move(bodies);
+    return make_term(input);
   }
 
   /// All constraint forms, gravity and a quartic trap.
   static Problem<S> mixed(Index d) {
     Problem<S> problem = constrained_problem<S>(d);
     const Matrix<S> identity = Matrix<S>::Identity(d, d);
-    std::vector<typename EffectUse<S>::Instance> bodies{body(0, identity * S(2)), body(d, mass_block<S>(d)),
-                                                        body(2 * d, identity), body(3 * d, identity * (S(3) / 4))};
+    std::vector<typename EffectInput<S>::Instance> bodies{body(0, identity * S(2)), body(d, mass_block<S>(d)),
+                                                          body(2 * d, identity), body(3 * d, identity * (S(3) / 4))};
     problem.potential.terms.push_back(gravity(d, bodies));
-    EffectUse<S> trap;
+    EffectInput<S> trap;
     trap.kind = "trap";
     trap.dimension = d;
     trap.numbers = {{"stiffness", S(1) / 2}, {"exponent", S(4)}};
@@ -70,7 +70,7 @@ TYPED_TEST_SUITE(PointTest, AllScalars, ScalarNames);
 
 TYPED_TEST(PointTest, EnergyIsKineticEnergyMinusU) {
   const auto problem = this->pendulum(2, TypeParam(2), TypeParam(9));
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   // m = 2 at height 3 with p = (4, 0): U = -6, H = 16/4 + 6
   EXPECT_EQ(point.energy(this->vector({"0", "3"}), this->vector({"4", "0"})), 10);
   EXPECT_EQ(point.energy(this->vector({"0", "-3"}), this->vector({"0", "0"})), -6);
@@ -83,7 +83,7 @@ TYPED_TEST(PointTest, EnergyWithAFullMassBlock) {
   M << TypeParam(2), TypeParam(1), TypeParam(1), TypeParam(1);
   problem.mass.add_full(M);
   problem.potential.terms.push_back(this->gravity(2, {this->body(0, M)}));
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   // v = (1, 2), p = M v = (4, 3): T = 1/2 v.p = 5; U = a.M q with a = (0, -1), q = (5, 7): -(5 + 7)
   EXPECT_EQ(point.energy(this->vector({"5", "7"}), this->vector({"4", "3"})), 5 + 12);
 }
@@ -91,7 +91,7 @@ TYPED_TEST(PointTest, EnergyWithAFullMassBlock) {
 TYPED_TEST(PointTest, ConstraintsAreTheirValues) {
   for (const Index d : {2, 3}) {
     const auto problem = this->mixed(d);
-    Point<TypeParam> point(problem);
+    StateEvaluator<TypeParam> point(problem);
     const auto q = this->random.vector(problem.m());
     EXPECT_EQ(point.constraints(q), dense_constraints(problem, q));
   }
@@ -100,7 +100,7 @@ TYPED_TEST(PointTest, ConstraintsAreTheirValues) {
 TYPED_TEST(PointTest, HiddenConstraintsAreTheRatesOfTheConstraints) {
   for (const Index d : {2, 3}) {
     const auto problem = this->mixed(d);
-    Point<TypeParam> point(problem);
+    StateEvaluator<TypeParam> point(problem);
     const auto q = this->random.vector(problem.m()), p = this->random.vector(problem.m());
     const Matrix<TypeParam> W = dense_inverse(dense_mass(problem.mass)), G = dense_gradient(problem, q);
     const Vector<TypeParam> expected = times<TypeParam>(G.transpose(), times(W, p));
@@ -111,7 +111,7 @@ TYPED_TEST(PointTest, HiddenConstraintsAreTheRatesOfTheConstraints) {
 TYPED_TEST(PointTest, TangentialMomentaFulfilTheHiddenConstraints) {
   for (const Index d : {2, 3}) {
     const auto problem = this->mixed(d);
-    Point<TypeParam> point(problem);
+    StateEvaluator<TypeParam> point(problem);
     for (int trial = 0; trial < 5; ++trial) {
       const auto q = this->random.vector(problem.m()), p = this->random.vector(problem.m());
       const Vector<TypeParam> tangential = point.tangential(q, p);
@@ -127,7 +127,7 @@ TYPED_TEST(PointTest, TangentialMomentaFulfilTheHiddenConstraints) {
 
 TYPED_TEST(PointTest, TangentialMomentumIsTheNearest) {
   const auto problem = this->mixed(3);
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   const auto q = this->random.vector(problem.m()), p = this->random.vector(problem.m());
   const Vector<TypeParam> tangential = point.tangential(q, p),
                           other = point.tangential(q, this->random.vector(problem.m()));
@@ -141,7 +141,7 @@ TYPED_TEST(PointTest, TangentialMomentumIsTheNearest) {
 
 TYPED_TEST(PointTest, ATangentialMomentumIsNotChanged) {
   const auto problem = this->pendulum(2, TypeParam(1), TypeParam(1));
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   const auto q = this->vector({"0", "-1"}), p = this->vector({"5/3", "0"});
   EXPECT_EQ(point.tangential(q, p), p);
   EXPECT_EQ(point.tangential(q, this->vector({"5/3", "7"})), p);
@@ -151,7 +151,7 @@ TYPED_TEST(PointTest, ATangentialMomentumIsNotChanged) {
 // pivot, (1 + 1) / 2, at rest on the side 0, above the pivot (|p|^2 - 1) / 2.
 TYPED_TEST(PointTest, MultiplierOfTheSimplePendulum) {
   const auto problem = this->pendulum(2, TypeParam(1), TypeParam(1));
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   EXPECT_EQ(point.multiplier(this->vector({"0", "-1"}), this->vector({"1", "0"}))[0], 1);
   EXPECT_EQ(point.multiplier(this->vector({"1", "0"}), this->vector({"0", "0"}))[0], 0);
   EXPECT_EQ(point.multiplier(this->vector({"0", "1"}), this->vector({"3", "0"}))[0], 4);
@@ -164,9 +164,9 @@ TYPED_TEST(PointTest, ForcesKeepTheHiddenConstraints) {
   using S = TypeParam;
   for (const Index d : {2, 3}) {
     const Problem<S> problem = this->mixed(d);
-    Point<S> point(problem);
+    StateEvaluator<S> point(problem);
     const Vector<S> q = this->random.vector(problem.m()), p = this->random.vector(problem.m());
-    const typename Point<S>::Forces forces = point.forces(q, p);
+    const typename StateEvaluator<S>::Forces forces = point.forces(q, p);
     const Vector<S> rate = forces.applied + forces.constraint;
     Vector<S> v(problem.m());
     problem.mass.velocity(lanes(p), lanes(v));
@@ -182,13 +182,13 @@ TYPED_TEST(PointTest, ForcesKeepTheHiddenConstraints) {
 
 TYPED_TEST(PointTest, MultiplierOfAHeavyPendulumOfAnotherLength) {
   const auto problem = this->pendulum(2, TypeParam(4), TypeParam(4));
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   EXPECT_EQ(point.multiplier(this->vector({"0", "-2"}), this->vector({"8", "0"}))[0], 3);
 }
 
 TYPED_TEST(PointTest, MultiplierOfTheConicalPendulumIsItsDepth) {
   const auto problem = this->pendulum(3, TypeParam(1), TypeParam(1));
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   const auto q = this->vector({"1/sqrt(2)", "0", "-1/sqrt(2)"}), p = this->vector({"0", "sqrt(1/sqrt(2))", "0"});
   EXPECT_LE(magnitude(TypeParam(point.multiplier(q, p)[0] - literal<TypeParam>("1/sqrt(2)"))),
             4 * epsilon<TypeParam>());
@@ -198,7 +198,7 @@ TYPED_TEST(PointTest, MultiplierKeepsTheAccelerationOnTheConstraints) {
   using S = TypeParam;
   for (const Index d : {2, 3}) {
     const auto problem = this->mixed(d);
-    Point<S> point(problem);
+    StateEvaluator<S> point(problem);
     const auto q = this->random.vector(problem.m()), p = this->random.vector(problem.m());
     const Vector<S> lambda = point.multiplier(q, p);
     PotentialEvaluator<S> potential(problem.potential, 1);
@@ -214,7 +214,7 @@ TYPED_TEST(PointTest, MultiplierKeepsTheAccelerationOnTheConstraints) {
 TYPED_TEST(PointTest, DependentConstraintsAreAnError) {
   auto problem = this->pendulum(2, TypeParam(1), TypeParam(1));
   problem.constraints.push_back(problem.constraints[0]);
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   const auto q = this->vector({"0", "-1"}), p = this->vector({"1", "0"});
   EXPECT_THROW(point.tangential(q, p), IntegrationError);
   EXPECT_THROW(point.multiplier(q, p), IntegrationError);
@@ -222,7 +222,7 @@ TYPED_TEST(PointTest, DependentConstraintsAreAnError) {
 
 TYPED_TEST(PointTest, AVanishingGradientIsAnError) {
   const auto problem = this->pendulum(2, TypeParam(1), TypeParam(1));
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   const auto origin = this->vector({"0", "0"}), p = this->vector({"1", "0"});
   EXPECT_THROW(point.tangential(origin, p), IntegrationError);
   EXPECT_NO_THROW(point.tangential(this->vector({"0", "1"}), p));
@@ -231,7 +231,7 @@ TYPED_TEST(PointTest, AVanishingGradientIsAnError) {
 TYPED_TEST(PointTest, NoConstraints) {
   auto problem = this->pendulum(2, TypeParam(1), TypeParam(1));
   problem.constraints.clear();
-  Point<TypeParam> point(problem);
+  StateEvaluator<TypeParam> point(problem);
   const auto q = this->vector({"3", "4"}), p = this->vector({"1", "2"});
   EXPECT_EQ(point.constraints(q).size(), 0);
   EXPECT_EQ(point.hidden_constraints(q, p).size(), 0);

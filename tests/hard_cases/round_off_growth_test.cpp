@@ -1,4 +1,4 @@
-#include "hard_cases/walk.hpp"
+#include "hard_cases/round_off_growth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST(Straying, OfARandomWalkIsTheRootOfTimeThatOfADriftIsTime) {
   EXPECT_NEAR(drift.points().back().distance, steps / 1000., 1e-9);
 }
 
-TEST(Walk, OfAMethodThatLosesEnergyIsNotThatOfRoundOff) {
+TEST(RoundOffGrowth, OfAMethodThatLosesEnergyIsNotThatOfRoundOff) {
   const auto request = [](const char* method, const char* until) {
     return request_of(load_scene("kepler"), method, "paper", "1/32", until, "double");
   };
@@ -52,7 +52,7 @@ TEST(Walk, OfAMethodThatLosesEnergyIsNotThatOfRoundOff) {
   EXPECT_TRUE(kept.criteria[0].holds()) << kept.criteria[0].value;
 }
 
-TEST(Walk, MeasuresConstraintsToo) {
+TEST(RoundOffGrowth, MeasuresConstraintsToo) {
   const CaseResult result =
       long_run(request_of(load_scene("simple_pendulum"), "hbvm:1,1", "paper", "1/32", "64", "quad"));
   ASSERT_EQ(result.criteria.size(), 4u);

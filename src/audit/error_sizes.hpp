@@ -9,11 +9,11 @@
 namespace hbvm::core {
 
 /// Greatest error of a quantity at one step, and what round-off explains of it, as log2.
-struct Size {
+struct ErrorSize {
   double error, floor;
 };
-using Sizes = std::map<Quantity, Size>;
-void raise(Sizes& sizes, Quantity quantity, double error, double floor);
+using ErrorSizes = std::map<Quantity, ErrorSize>;
+void raise(ErrorSizes& sizes, Quantity quantity, double error, double floor);
 
 /// log2 of the least errors that can be told from the reference's own, by component; the greatest over several starts.
 struct Margins {

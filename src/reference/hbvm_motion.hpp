@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "between/force_bounds.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "step/hbvm_stepper.hpp"
 
@@ -15,12 +15,12 @@ namespace hbvm::core {
 /// whose half axes add up to rho/2 steps. Then the Legendre coefficients of the momenta fall by rho each, and the error
 /// of the output state is rho^(-2s). A step is so short that its coefficients fall as fast as the digits need. It is
 /// also so short that the forces are bounded along such an ellipse, see ForceBounds.
-class HbvmWalk {
+class HbvmMotion {
  public:
   /// From this state on, with so many digits right, by steps of `longest` at most to begin with. Problem and method
   /// must outlive it.
-  HbvmWalk(const Problem<Mpfr>& problem, const Hbvm<Mpfr>& method, const Vector<Mpfr>& q, const Vector<Mpfr>& p,
-           double digits, const Mpfr& longest);
+  HbvmMotion(const Problem<Mpfr>& problem, const Hbvm<Mpfr>& method, const Vector<Mpfr>& q, const Vector<Mpfr>& p,
+             double digits, const Mpfr& longest);
 
   /// \param after_step is called with the time from the start after every step, and may throw to end the work
   /// \throws IntegrationError where no step is short enough
@@ -45,7 +45,7 @@ class HbvmWalk {
   const Problem<Mpfr>& problem_;
   HbvmStepper<Mpfr> stepper_;
   ForceBounds bounds_;
-  Point<Mpfr> point_;
+  StateEvaluator<Mpfr> point_;
   State<Mpfr> state_;
   Mpfr now_ = 0;
   double log2_rho_;            ///< that the digits need

@@ -31,7 +31,7 @@ class Straying {
 };
 
 /// What round-off did to energy and constraints over a long run, in units of epsilon times the size of their terms.
-struct Walk {
+struct RoundOffGrowth {
   std::vector<Straying::Point> H, g;      ///< g: of the constraint that strays most; empty without constraints
   double e_H = 0, e_g = 0;                ///< in the same units
   double turnover_H = 0, turnover_g = 0;  ///< what a step adds to them, of either sign, over the size of their terms
@@ -39,7 +39,7 @@ struct Walk {
 };
 
 /// \throws StepError, InputError
-Walk walk_of(const RunRequest& request);
+RoundOffGrowth round_off_growth_of(const RunRequest& request);
 
 /// Exponents of the growth of energy and constraints, at most 0.6 where round-off walks at random, and their sizes.
 /// These are a few roundings of what each step adds, of either sign, and those of their evaluation.

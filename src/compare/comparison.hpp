@@ -23,7 +23,7 @@ struct ResultsFile {
 /// writes it beside its CSV), or else a comment "# step = 1/64" of its own. Empty if there is none.
 std::string step_stored(const std::string& csv, const std::string& metadata);
 
-struct AgainstRequest {
+struct ComparisonRequest {
   Scene scene;
   std::vector<ResultsFile> files;
   /// What theirs is, an expression in the names of their columns, and which of ours that is: "t", "bob.x", "bob.px" or
@@ -48,7 +48,7 @@ struct StartDifference {
   bool opposite = false;  ///< only the sign is another
 };
 
-struct FileAgainst {
+struct FileComparison {
   std::string name;
   std::vector<std::string> times;   ///< those that were compared
   std::vector<std::string> unused;  ///< "2 times before the start", one a reason
@@ -71,9 +71,9 @@ struct Convergence {
   double order = 0;
 };
 
-struct Against {
+struct Comparison {
   int digits = 0;  ///< of the reference
-  std::vector<FileAgainst> files;
+  std::vector<FileComparison> files;
   /// Digits that an error of the size of the first file's first would have left at its times by the growth of errors
   /// alone.
   std::vector<double> by_growth;
@@ -90,11 +90,11 @@ struct Against {
 /// Right digits of results beside the reference, which is found in the store or computed at their times. At most
 /// `most_times` of a file are compared, evenly spaced, its last among them. \throws InputError for files, columns and
 /// maps that cannot be read, naming line and column; IntegrationError
-Against compare_with_reference(const AgainstRequest& request);
+Comparison compare_with_reference(const ComparisonRequest& request);
 inline constexpr std::size_t most_times = 50;
 
 /// Digits against time: a panel a file, a curve a component; of the first also what the growth of errors alone would
 /// leave.
-Figure against_figure(const AgainstRequest& request, const Against& against, const std::string& name);
+Figure comparison_figure(const ComparisonRequest& request, const Comparison& against, const std::string& name);
 
 }  // namespace hbvm::core

@@ -1,4 +1,4 @@
-#include "walk.hpp"
+#include "round_off_growth.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "hard_cases/line_fit.hpp"
 #include "integrate/integrate.hpp"
 #include "measure.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "run/round_off.hpp"
 #include "scalar/with_scalar.hpp"
 #include "scene/assemble.hpp"
@@ -76,8 +76,8 @@ class Walker final : public Observer<S> {
     }
   }
 
-  Walk walk() const {
-    Walk walk;
+  RoundOffGrowth walk() const {
+    RoundOffGrowth walk;
     walk.H = H_.points();
     for (Straying::Point& point : walk.H) point.distance /= H_size_;
     walk.e_H = H_greatest_ / H_size_;
@@ -119,7 +119,7 @@ class Walker final : public Observer<S> {
   }
 
   const Problem<S>& problem_;
-  Point<S> point_;
+  StateEvaluator<S> point_;
   ConstraintGradient<S> gradient_;
   long stride_;
   Vector<S> v_, q_, p_;
@@ -131,14 +131,14 @@ class Walker final : public Observer<S> {
 };
 
 template <Scalar S>
-Walk walk_in(const RunRequest& request) {
+RoundOffGrowth walk_in(const RunRequest& request) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants);
   const Assembled<S> scene = assemble<S>(request.scene);
   const std::unique_ptr<Stepper<S>> stepper = request.method->make_stepper(scene.problem, request.solver);
   State<S> state(scene.q0, scene.p0);
   Walker<S> walker(scene.problem, grid.steps());
   integrate<S>(*stepper, state, grid, {&walker});
-  Walk walk = walker.walk();
+  RoundOffGrowth walk = walker.walk();
   walk.steps = grid.steps();
   return walk;
 }
@@ -168,13 +168,13 @@ void add_criteria(CaseResult& result, const std::string& name, const std::vector
 
 }  // namespace
 
-Walk walk_of(const RunRequest& request) {
+RoundOffGrowth round_off_growth_of(const RunRequest& request) {
   return with_scalar(request.precision, [&]<Scalar S>() { return walk_in<S>(request); });
 }
 
 CaseResult long_run(const RunRequest& request) {
   return guarded([&] {
-    const Walk walk = walk_of(request);
+    const RoundOffGrowth walk = round_off_growth_of(request);
     CaseResult result;
     add_criteria(result, "e_H", walk.H, walk.e_H, walk.turnover_H, walk.steps);
     if (!walk.g.empty()) add_criteria(result, "e_g", walk.g, walk.e_g, walk.turnover_g, walk.steps);

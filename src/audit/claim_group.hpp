@@ -29,7 +29,7 @@ struct Starts {
 };
 
 /// The claims about one method on one problem that one series of runs decides. Not empty.
-struct Cell {
+struct ClaimGroup {
   std::vector<Claim> claims;
   Starts starts;
   int log2_scale = 0;      ///< of the motion's time scale

@@ -1,11 +1,11 @@
-#include "sizes.hpp"
+#include "error_sizes.hpp"
 
 #include <algorithm>
 
 namespace hbvm::core {
 
-void raise(Sizes& sizes, Quantity quantity, double error, double floor) {
-  const auto [place, is_new] = sizes.try_emplace(quantity, Size{error, floor});
+void raise(ErrorSizes& sizes, Quantity quantity, double error, double floor) {
+  const auto [place, is_new] = sizes.try_emplace(quantity, ErrorSize{error, floor});
   if (is_new) return;
   place->second.error = std::max(place->second.error, error);
   place->second.floor = std::max(place->second.floor, floor);

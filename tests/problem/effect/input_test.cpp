@@ -1,4 +1,4 @@
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 
 #include <array>
 #include <cmath>
@@ -107,14 +107,14 @@ const std::vector<EffectCase>& effect_cases() {
 /// Three instances that share three bodies: a pair, a body and a fixed point, and a weighted displacement. All numbers
 /// but the random positions are exact in binary.
 template <Scalar S>
-EffectUse<S> use_of(const EffectCase& effect, Index d) {
-  EffectUse<S> use;
-  use.kind = effect.kind;
-  use.dimension = d;
-  for (const auto& [key, text] : effect.numbers) use.numbers.emplace(key, literal<S>(text));
+EffectInput<S> use_of(const EffectCase& effect, Index d) {
+  EffectInput<S> input;
+  input.kind = effect.kind;
+  input.dimension = d;
+  for (const auto& [key, text] : effect.numbers) input.numbers.emplace(key, literal<S>(text));
   if (effect.vector_key != nullptr) {
     const std::vector<S> components{S(1), S(-2), S(3) / 2};
-    use.vectors.emplace(effect.vector_key, std::vector<S>(components.begin(), components.begin() + d));
+    input.vectors.emplace(effect.vector_key, std::vector<S>(components.begin(), components.begin() + d));
   }
   const auto shift = [&](const S& a, const S& b, const S& c) {
     const S components[] = {a, b, c};
@@ -128,7 +128,7 @@ EffectUse<S> use_of(const EffectCase& effect, Index d) {
   int n = 0;
   for (const Displacement<S>& x : displacements) {
     ++n;
-    typename EffectUse<S>::Instance instance;
+    typename EffectInput<S>::Instance instance;
     instance.x = x;
     instance.mass_matrix = Matrix<S>(d, d);
     for (Index i = 0; i < d; ++i)
@@ -137,9 +137,9 @@ EffectUse<S> use_of(const EffectCase& effect, Index d) {
     instance.masses[1] = S(n + 1) / 2;
     instance.charges[0] = S(2 * n - 5) / 4;
     instance.charges[1] = S(n + 2);
-    use.instances.push_back(std::move(instance));
+    input.instances.push_back(std::move(instance));
   }
-  return use;
+  return input;
 }
 
 /// Positions of three bodies that keep all distances between 1/2 and 4.
@@ -157,9 +157,9 @@ Matrix<S> positions(RandomValues<S>& random, Index lanes, Index d) {
 class Formula {
  public:
   template <Scalar S>
-  Formula(const EffectCase& effect, const EffectUse<S>& use) : effect_(effect), d_(use.dimension) {
-    for (const auto& [key, value] : use.numbers) numbers_.emplace(key, exact(value));
-    for (const auto& instance : use.instances) {
+  Formula(const EffectCase& effect, const EffectInput<S>& input) : effect_(effect), d_(input.dimension) {
+    for (const auto& [key, value] : input.numbers) numbers_.emplace(key, exact(value));
+    for (const auto& instance : input.instances) {
       Things things;
       things.mass_matrix = Matrix<Mpfr>(d_, d_);
       for (Index i = 0; i < d_ * d_; ++i) things.mass_matrix.data()[i] = exact(instance.mass_matrix.data()[i]);
@@ -168,7 +168,7 @@ class Formula {
       things.charge_a = exact(instance.charges[0]);
       things.charge_b = exact(instance.charges[1]);
       if (effect.vector_key != nullptr) {
-        const auto& vector = use.vectors.find(effect.vector_key)->second;
+        const auto& vector = input.vectors.find(effect.vector_key)->second;
         things.vector = Vector<Mpfr>(d_);
         for (Index j = 0; j < d_; ++j) things.vector[j] = exact(vector[static_cast<std::size_t>(j)]);
       }
@@ -221,11 +221,11 @@ template <Scalar S>
 void expect_formula(const EffectCase& effect, Index d) {
   constexpr Index count = 3;
   RandomValues<S> random(71);
-  const EffectUse<S> use = use_of<S>(effect, d);
+  const EffectInput<S> input = use_of<S>(effect, d);
   Potential<S> potential;
   potential.dimension = d;
   potential.m = 3 * d;
-  potential.terms.push_back(make_term(use));
+  potential.terms.push_back(make_term(input));
   EXPECT_EQ(potential.terms[0].kind, effect.kind);
   EXPECT_EQ(potential.terms[0].degree, effect.degree);
   EXPECT_EQ(potential.terms[0].constant_force, effect.degree == 1);
@@ -241,7 +241,7 @@ void expect_formula(const EffectCase& effect, Index d) {
   const int working = digits10<S>();
   const S eps = epsilon<S>();
   const PrecisionScope reference(static_cast<unsigned>(2 * working + 60));
-  const Formula formula(effect, use);
+  const Formula formula(effect, input);
   // A power of the distance amplifies the rounding of the displacement by the exponent, 14 at most.
   const Mpfr tolerance = 500 * Formula::exact(eps), h = pow(Mpfr(10), -working - 10);
   for (Index i = 0; i < count; ++i) {
@@ -289,24 +289,24 @@ class Term : public ::testing::Test {
  protected:
   PrecisionScope digits{50};
 
-  static EffectUse<S> one_body(const char* kind, const std::vector<std::pair<const char*, const char*>>& numbers) {
-    EffectUse<S> use;
-    use.kind = kind;
-    use.dimension = 2;
-    for (const auto& [key, text] : numbers) use.numbers.emplace(key, literal<S>(text));
-    typename EffectUse<S>::Instance instance;
+  static EffectInput<S> one_body(const char* kind, const std::vector<std::pair<const char*, const char*>>& numbers) {
+    EffectInput<S> input;
+    input.kind = kind;
+    input.dimension = 2;
+    for (const auto& [key, text] : numbers) input.numbers.emplace(key, literal<S>(text));
+    typename EffectInput<S>::Instance instance;
     instance.x = {{{0, S(1)}}, {}};
     instance.mass_matrix = Matrix<S>::Identity(2, 2);
-    use.instances.push_back(instance);
-    return use;
+    input.instances.push_back(instance);
+    return input;
   }
 
-  static EffectUse<S> spring(const char* exponent, const char* rest_length) {
+  static EffectInput<S> spring(const char* exponent, const char* rest_length) {
     return one_body("spring", {{"stiffness", "1"}, {"rest_length", rest_length}, {"exponent", exponent}});
   }
 
-  static Matrix<S> force_at(const EffectUse<S>& use, const S& x, const S& y) {
-    const Potential<S> potential{2, 2, {make_term(use)}};
+  static Matrix<S> force_at(const EffectInput<S>& input, const S& x, const S& y) {
+    const Potential<S> potential{2, 2, {make_term(input)}};
     PotentialEvaluator<S> evaluator(potential, 1);
     Matrix<S> q(1, 2), force;
     q << x, y;

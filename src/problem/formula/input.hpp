@@ -25,7 +25,7 @@ using FormulaVariables = std::map<std::string, FormulaVariable, std::less<>>;
 /// A formula of a scene, U or g, with what its names stand for and all it holds for. Formula and constants must outlive
 /// it.
 template <Scalar S>
-struct FormulaUse {
+struct FormulaInput {
   const Expression& formula;
   const Constants& constants;
   Index dimension = 0;
@@ -45,15 +45,15 @@ struct FormulaUse {
 /// \throws ExpressionError at a place of the formula: a part without variables that has no value, an unknown name
 /// \throws InputError if its derivatives take too many operations
 template <Scalar S>
-EffectTerm<S> make_term(const FormulaUse<S>& use);
+EffectTerm<S> make_term(const FormulaInput<S>& input);
 
 /// Refuses a formula that has no value, or none of its derivatives, where an instance is at q.
 /// \throws ExpressionError at the operation that has none
 template <Scalar S>
-void check_formula(const FormulaUse<S>& use, const EffectTerm<S>& term, const Vector<S>& q);
+void check_formula(const FormulaInput<S>& input, const EffectTerm<S>& term, const Vector<S>& q);
 
 /// The use of the formula in the digits of the scope, with nothing rounded.
 template <Scalar S>
-FormulaUse<Mpfr> exactly(const FormulaUse<S>& use);
+FormulaInput<Mpfr> exactly(const FormulaInput<S>& input);
 
 }  // namespace hbvm::core

@@ -1,4 +1,4 @@
-#include "problem/formula/use.hpp"
+#include "problem/formula/input.hpp"
 
 #include "hbvm/error.hpp"
 #include "printing.hpp"
@@ -15,7 +15,7 @@ const Constants use_constants{{"k", Expression::parse("3/7")}};
 
 /// Of one body in space with a parameter, at the origin of q.
 template <Scalar S>
-FormulaUse<S> use_of(const Expression& formula, const S& parameter) {
+FormulaInput<S> use_of(const Expression& formula, const S& parameter) {
   using Is = FormulaVariable::Is;
   return {formula,
           use_constants,
@@ -47,7 +47,7 @@ std::vector<S> outputs(const EffectTerm<S>& term, const Vector<S>& x) {
 
 Expression formula(const std::string& text) { return Expression::parse(text, Expression::Syntax::formula); }
 
-/// Against jets of Arb's balls in twice the digits, which share neither reader nor trace nor arithmetic with it.
+/// Comparison jets of Arb's balls in twice the digits, which share neither reader nor trace nor arithmetic with it.
 void expect_random_formulas(unsigned digits, int trials) {
   RandomValues<double> random(static_cast<std::uint64_t>(digits));
   const PrecisionScope scope(digits);
@@ -151,10 +151,10 @@ TEST(Formula, KeepsDigitsWhereComposedFunctionsLoseThem) {
 std::string refusal_of(const std::string& text, const char* at) {
   try {
     const Expression read = formula(text);
-    const FormulaUse<double> use = use_of<double>(read, literal<double>("5"));
+    const FormulaInput<double> input = use_of<double>(read, literal<double>("5"));
     Vector<double> q(3);
     q << literal<double>(at), 2, -2;
-    check_formula(use, make_term(use), q);
+    check_formula(input, make_term(input), q);
   } catch (const ExpressionError& error) {
     return std::to_string(error.at() + 1) + ": " + error.reason();
   }

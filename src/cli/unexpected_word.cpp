@@ -1,4 +1,4 @@
-#include "words.hpp"
+#include "unexpected_word.hpp"
 
 #include "hbvm/error.hpp"
 #include "nearest.hpp"

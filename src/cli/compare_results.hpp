@@ -8,7 +8,7 @@
 namespace hbvm::core {
 
 /// What `hbvm reference --against` is asked for.
-struct AgainstArguments {
+struct ComparisonArguments {
   std::vector<std::string> files, map, steps;
   std::optional<std::string> plot;
   std::optional<double> order, digits;
@@ -17,11 +17,11 @@ struct AgainstArguments {
   void refuse_alone() const;
 };
 
-void add_against_options(CLI::App& command, AgainstArguments& arguments);
+void add_comparison_options(CLI::App& command, ComparisonArguments& arguments);
 
 /// Compares the files with the reference and prints what is right.
 /// \throws InputError as compare_with_reference() does; CLI::RuntimeError with exit code 1 if the order or the digits
 /// that were asked for are not there
-void compare_results(const std::optional<std::string>& scene, bool json, const AgainstArguments& arguments);
+void compare_results(const std::optional<std::string>& scene, bool json, const ComparisonArguments& arguments);
 
 }  // namespace hbvm::core

@@ -7,9 +7,9 @@ namespace hbvm::core {
 
 /// What a problem says at one state (q, p). Owns its storage; one a thread. The problem must outlive it.
 template <Scalar S>
-class Point {
+class StateEvaluator {
  public:
-  explicit Point(const Problem<S>& problem);
+  explicit StateEvaluator(const Problem<S>& problem);
 
   /// H = 1/2 p^T M^-1 p - U(q), (1).
   S energy(const Vector<S>& q, const Vector<S>& p);

@@ -1,4 +1,4 @@
-#include "reference/hbvm_walk.hpp"
+#include "reference/hbvm_motion.hpp"
 
 #include "hbvm/error.hpp"
 #include "method/hbvm.hpp"
@@ -28,7 +28,7 @@ Walked walk(const Scene& text, const char* time) {
   const Assembled<Mpfr> scene = assemble<Mpfr>(text);
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(16, 16);
   const Mpfr t = literal<Mpfr>(time);
-  HbvmWalk way(scene.problem, method, scene.q0, scene.p0, walk_digits - 4, t);
+  HbvmMotion way(scene.problem, method, scene.q0, scene.p0, walk_digits - 4, t);
   Mpfr last = 0;
   way.advance_to(t, [&last](const Mpfr& now) {
     EXPECT_GT(now, last);
@@ -38,7 +38,7 @@ Walked walk(const Scene& text, const char* time) {
   return {way.state().q, way.state().p, way.steps()};
 }
 
-TEST(HbvmWalk, FollowsKnownMotions) {
+TEST(HbvmMotion, FollowsKnownMotions) {
   const PrecisionScope scope(walk_digits);
   for (const char* name : {"simple_pendulum", "conical_pendulum"}) {
     const ExactPoint exact = known_motion(name, literal<Mpfr>("7/3"));
@@ -51,7 +51,7 @@ TEST(HbvmWalk, FollowsKnownMotions) {
 }
 
 /// Free fall is a polynomial: a step is as long as the time, once it is known to be.
-TEST(HbvmWalk, TakesLongStepsWhereItMay) {
+TEST(HbvmMotion, TakesLongStepsWhereItMay) {
   const PrecisionScope scope(walk_digits);
   const Walked fall = walk(particle("-x"), "1000");
   EXPECT_EQ(fall.q[0], 1 - literal<Mpfr>("500000"));
@@ -59,7 +59,7 @@ TEST(HbvmWalk, TakesLongStepsWhereItMay) {
 }
 
 /// A bump that no node of a usual step would feel: steps become short where it is, and long again.
-TEST(HbvmWalk, ShortensItsStepsBeforeABump) {
+TEST(HbvmMotion, ShortensItsStepsBeforeABump) {
   const PrecisionScope scope(walk_digits);
   const Walked found = walk(particle("-x^2/2 - exp(-((x - 1/5)*1000)^2)/4"), "3");
   // By quadrature of the time to pass.
@@ -69,7 +69,7 @@ TEST(HbvmWalk, ShortensItsStepsBeforeABump) {
 }
 
 /// What it cannot pass it names, with the time: a kink, and a collision.
-TEST(HbvmWalk, EndsWhereNoStepIsShortEnough) {
+TEST(HbvmMotion, EndsWhereNoStepIsShortEnough) {
   const PrecisionScope scope(walk_digits);
   const auto end_of = [](const Scene& scene) { return message_of<IntegrationError>([&] { walk(scene, "5"); }); };
   expect_words(end_of(particle("-sqrt(x^2)")), {"beyond t = 1.414213562", "effect 'formula': a square root of 0"});
