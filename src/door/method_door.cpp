@@ -32,7 +32,7 @@ MethodFacts method_facts(const std::string& text) {
 Tableau read_tableau(const std::string& path) {
   const core::Tableau read = core::read_tableau(path);
   Tableau tableau{.name = read.name, .A = {}, .b = {}, .c = {}, .order = read.order, .digits = read.digits};
-  const auto texts = [](const std::vector<core::Expression>& row) {
+  const auto to_texts = [](const std::vector<core::Expression>& row) {
     Numbers numbers;
     for (const core::Expression& entry : row) numbers.emplace_back(entry.text());
     return numbers;

@@ -11,8 +11,8 @@ Nodes nodes(int n, const std::string& name) {
   Nodes result{precision.name(), {}, {}};
   core::with_scalar(precision, [&]<core::Scalar S>() {
     const core::Quadrature<S> formula = core::gauss_legendre<S>(n);
-    result.c = core::texts<S>(formula.c);
-    result.b = core::texts<S>(formula.b);
+    result.c = core::to_texts<S>(formula.c);
+    result.b = core::to_texts<S>(formula.b);
     return 0;
   });
   return result;

@@ -244,7 +244,7 @@ TEST(AuditTable, CellsHoldNoLines) {
   for (const auto& group : table.groups) {
     for (const std::string& key : group.keys) EXPECT_EQ(key.find('\n'), std::string::npos) << key;
     for (const auto& row : group.rows)
-      for (const std::string& group : row) EXPECT_EQ(group.find('\n'), std::string::npos) << group;
+      for (const std::string& cell : row) EXPECT_EQ(cell.find('\n'), std::string::npos) << cell;
   }
   EXPECT_NE(to_csv(table).find("\n\"a,b.toml\",\"one, two | three four\","), std::string::npos) << to_csv(table);
 }

@@ -72,11 +72,11 @@ TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
       const Integration<S> result = run({&drift});
       StateEvaluator<S> point(run.scene.problem);
       const OutputState<S> output = output_state(point, result.end.q, result.end.p);
-      EXPECT_EQ(j["q"], texts<S>(result.end.q));
-      EXPECT_EQ(j["p"], texts<S>(result.end.p));
-      EXPECT_EQ(j["lambda"], texts<S>(result.end.lambda));
-      EXPECT_EQ(j["output"]["p"], texts<S>(output.p));
-      EXPECT_EQ(j["output"]["lambda"], texts<S>(output.lambda));
+      EXPECT_EQ(j["q"], to_texts<S>(result.end.q));
+      EXPECT_EQ(j["p"], to_texts<S>(result.end.p));
+      EXPECT_EQ(j["lambda"], to_texts<S>(result.end.lambda));
+      EXPECT_EQ(j["output"]["p"], to_texts<S>(output.p));
+      EXPECT_EQ(j["output"]["lambda"], to_texts<S>(output.lambda));
       EXPECT_EQ(j["output"]["delta_H"], to_text(S(point.energy(result.end.q, output.p) - drift.H0())));
       EXPECT_EQ(j["e_H"], to_text(drift.e_H()));
       EXPECT_EQ(j["e_g"], to_text(drift.e_g()));

@@ -161,7 +161,7 @@ struct Text {
   std::vector<std::string> lines{};  ///< of the file
 };
 
-const std::vector<Text>& to_texts() {
+const std::vector<Text>& texts() {
   static const std::vector<Text> all = [] {
     std::vector<Text> result;
     const auto add = [&](const fs::path& path) {
@@ -191,7 +191,7 @@ const std::vector<Text>& to_texts() {
 TEST(EquationIndex, KnowsAllThatTheSourcesCiteAndWhatItIsOf) {
   const auto index = read_index();
   std::size_t cited = 0;
-  for (const Text& text : to_texts())
+  for (const Text& text : texts())
     for (const Citation& citation : citations(text.prose)) {
       if (citation.number.kind.empty() && tables.contains(text.path.lexically_relative(project))) continue;
       const std::string place =
@@ -237,7 +237,7 @@ TEST(EquationIndex, IsWhatClaimsCite) {
 
 TEST(EquationIndex, NamesFilesThatCite) {
   std::map<fs::path, std::string> prose;
-  for (const Text& text : to_texts()) prose[text.path] = text.prose;
+  for (const Text& text : texts()) prose[text.path] = text.prose;
   std::size_t named = 0;
   for (const auto& [number, entry] : read_index())
     for (const std::string& file : entry.files) {
