@@ -69,8 +69,8 @@ class Auditor {
   void climb(const std::vector<std::size_t>& members, std::size_t at_least, const Measure& measure);
   unsigned least_digits() const;
   void take(Finding& f, const std::vector<Rung>& rungs, const Precision& precision);
-  /// An error over an interval falls no faster than that of its first step, which can be followed far deeper: to where
-  /// a wrong 25th digit of a coefficient takes over.
+  /// An error over an interval falls no faster than that of its first step. The latter can be followed far deeper: to
+  /// where a wrong 25th digit of a coefficient takes over.
   void compare_with_one_step();
   /// One run of all claims about conservation in one precision; the worst of all counts.
   void conserve_in(const Precision& precision, int log2_step, long steps);

@@ -21,7 +21,7 @@ class LimitReached : public Error {
   using Error::Error;
 };
 
-/// The states of a motion that a method starts from: number i lies about lead + i stride steps of an eighth of the time
+/// The states of a motion that a method starts from. State i lies about lead + i stride steps of an eighth of the time
 /// scale after the scene's own start.
 struct Starts {
   int count = 1;

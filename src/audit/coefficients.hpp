@@ -9,8 +9,8 @@
 
 namespace hbvm::core {
 
-/// To how many decimal digits a condition is met, and to how many it must be: to all that are looked at, or, where the
-/// numbers of a tableau are decimals, to those that a unit in their last digit leaves.
+/// To how many decimal digits a condition is met, and to how many it must be. All digits that are looked at are due.
+/// Where the numbers of a tableau are decimals, only those are due that a unit in their last digit leaves.
 struct Met {
   int seen = 0, due = 0;
   bool holds() const { return seen >= due; }

@@ -9,9 +9,9 @@ namespace hbvm::core {
 /// Asked after every rung whether finer ones are not needed.
 using Enough = std::function<bool(const Ladders&)>;
 
-/// The errors of one step, of every quantity, at 2^-2, 2^-3, …, 2^-12 of the time scale and then every fourth power
-/// down to 2^-128, until it is enough. Steps that cannot be made are left out; if none of the coarse ones can be made,
-/// nothing is. \throws InputError, IntegrationError
+/// The errors of one step, of every quantity, until it is enough. Steps are 2^-2, 2^-3, …, 2^-12 of the time scale, and
+/// then every fourth power down to 2^-128. Steps that cannot be made are left out; if none of the coarse ones can be
+/// made, nothing is. \throws InputError, IntegrationError
 template <Scalar S>
 Ladders step_ladder(const ClaimGroup& group, const Enough& enough);
 
@@ -25,11 +25,11 @@ struct ConservationRun {
   int log2_step;
   long steps;
 };
-/// How many units of round-off each coordinate may be off by in every step: as many as numbers are summed for it
-/// (k + s for HBVM), four times over.
+/// How many units of round-off each coordinate may be off by in every step. It is four times as many as numbers are
+/// summed for it (k + s for HBVM).
 double allowed_units(const Claim& claim);
-/// The greatest error of an exactly conserved quantity in such a run, over what round-off may make of it; of
-/// Quantity::reversal, what the start is missed by after as many steps back.
+/// The greatest error of an exactly conserved quantity in such a run, over what round-off may make of it. That of
+/// Quantity::reversal is what the start is missed by after as many steps back.
 struct RoundOff {
   double ratio = 0;
   Rung rung;  ///< the step; log2 of the error and of what is allowed

@@ -47,8 +47,8 @@ class VectorField {
   StateEvaluator<Mpfr> point_;
 };
 
-/// log2 of the spectral radius of f'(y) by the power method, in the norm of the kinetic energy: sixteen iterations,
-/// after eight that leave the fastest part alone. -infinity if no force depends on the state.
+/// log2 of the spectral radius of f'(y) by the power method, in the norm of the kinetic energy. Eight iterations leave
+/// the fastest part alone, and sixteen more are taken. It is -infinity if no force depends on the state.
 double log2_spectral_radius(const Assembled<Mpfr>& scene) {
   constexpr int first = 8, last = 24;
   VectorField field(scene.problem);
@@ -160,8 +160,8 @@ class Products {
   }
 
  private:
-  /// Less than a millionth is nothing: what deviates by so little from an equilibrium shows the orders of the
-  /// deviation at steps too short to be looked at.
+  /// Less than a millionth is nothing. A motion so near to an equilibrium shows the orders of the deviation at steps
+  /// too short to be looked at.
   static constexpr int tolerance = 20;
   static constexpr int balance = 60;
   struct Range {

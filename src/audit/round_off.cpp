@@ -81,8 +81,8 @@ std::map<Quantity, RoundOff> round_off(const ClaimGroup& group, const Conservati
       of_p.step(here.p);
     }
     if (!group.asks_for(Quantity::reversal)) continue;
-    // What the way back makes of an error at the turn shows what it makes of all that were made before: the same way is
-    // gone once more from a state that is off.
+    // What the way back makes of an error at the turn shows what it makes of all that were made before. So the same way
+    // is gone once more from a state that is off.
     const int small = static_cast<int>(last_bit / 2);
     const auto go_back = [&](Vector<Mpfr>& to_q, Vector<Mpfr>& to_p) {
       for (long n = 1; n <= run.steps; ++n) {

@@ -7,9 +7,9 @@
 
 namespace hbvm::core {
 
-/// What one unit of round-off in a state does to everything that is measured there, as log2 of the change for an
-/// epsilon of 1: each block of coordinates is off by a unit of its own size, of what it changes by within the time
-/// scale, and of what the other half of the state makes of that. In any units, and whatever else is in the scene.
+/// What one unit of round-off in a state does to all that is measured there: log2 of the change for an epsilon of 1.
+/// Each block of coordinates is off by a unit of the sum of three sizes. These are its own size, its change within the
+/// time scale, and what the other half of the state makes of that. In any units, and whatever else is in the scene.
 struct Sensitivity {
   double q, p, lambda, hidden, H, g;
   std::vector<double> momenta;

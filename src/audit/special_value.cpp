@@ -9,8 +9,8 @@
 namespace hbvm::core {
 namespace {
 
-/// The derivative of order `order` of q at the start of a step, from the polynomial u: u' = M^-1 sum_j P_j gamma_j,
-/// where on [0, 1] P_j^(r)(0) = sqrt(2 j + 1) (-1)^(j - r) (j + r)! / ((j - r)! r!).
+/// The derivative of order `order` of q at the start of a step, from the polynomial u with u' = M^-1 sum_j P_j gamma_j.
+/// On [0, 1] P_j^(r)(0) = sqrt(2 j + 1) (-1)^(j - r) (j + r)! / ((j - r)! r!).
 Vector<Mpfr> derivative(const Problem<Mpfr>& problem, const StepPolynomials& step, int order) {
   const int r = order - 1, s = static_cast<int>(step.gamma.rows());
   Vector<Mpfr> momentum = Vector<Mpfr>::Zero(problem.m()), velocity = momentum;

@@ -19,7 +19,7 @@ void copy_exactly(To& to, const From& from) {
 }
 
 /// The method under audit on a problem, in the working precision S. What it hands out is exact in the digits of the
-/// laboratory's scope, which it may be called from; its own work is done in a scope of `digits`.
+/// laboratory's scope, which it may be called from. Its own work is done in a scope of `digits`.
 template <Scalar S>
 class Trial {
  public:

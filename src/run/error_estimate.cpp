@@ -26,8 +26,8 @@ MethodPtr method_beside(const Method& method) {
   return hbvm_of({2 * s, s});
 }
 
-/// Errors of one vector, entry by entry. An entry that happens to be met is not trusted with more than two digits
-/// beyond what its group of entries, those of a vector in space, has: what it is compared with has an error, too.
+/// Errors of one vector, entry by entry. What an entry is compared with has an error, too. So one that happens to be
+/// met is trusted with at most two digits more than its group, the entries of a vector in space.
 class Errors {
  public:
   /// \param unsure by which the exact values may be off
@@ -88,8 +88,8 @@ struct Stored {
   }
 };
 
-/// Comparison a reference that was stored. \return nothing if there is none of the motion from the scene's own start,
-/// or if it has too few digits to tell what is right
+/// Comparison with a reference that was stored. \return nothing if there is none from the scene's own start, or if it
+/// has too few digits to tell what is right
 template <Scalar S>
 std::optional<ErrorEstimate> estimate_by_store(const RunRequest& request, const Vector<S>& q, const Vector<S>& output_p,
                                                const Vector<S>& output_lambda) {

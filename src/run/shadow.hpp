@@ -9,8 +9,8 @@
 
 namespace hbvm::core {
 
-/// Keeps the states that a shadow is compared with: those of all mesh points if they are few enough, else of every
-/// `every`-th, and the last.
+/// Keeps the states that a shadow is compared with. Those of all mesh points are kept if they are few enough, else
+/// those of every `every`-th, and the last.
 template <Scalar S>
 class ShadowedRun final : public Observer<S> {
  public:

@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// The step sizes, over that of the whole, of the symmetric composition of order P = 2, 4, 6, ... of a symmetric method
-/// of order 2: five steps of the composition of order P - 2, the third one backwards,
+/// The step sizes, relative to the whole, of the symmetric composition of order P = 2, 4, 6, ... of a symmetric method
+/// of order 2. They are five steps of the composition of order P - 2, the third one backwards,
 ///
 ///     g, g, 1 - 4 g, g, g,   g = 1 / (4 - 4^(1/(P - 1))),
 ///

@@ -27,8 +27,8 @@ class ProjectedStepper final : public Stepper<S> {
   ProjectedStepper(std::unique_ptr<Stepper<S>> inner, OnEnergy on_energy);
 
   const Problem<S>& problem() const override { return inner_->problem(); }
-  /// \throws StageFailure as the other does, and if the gradients of the constraints are linearly dependent or no
-  /// scaling of p restores H; the state is then as it was
+  /// \throws StageFailure as the other does, if the gradients of the constraints are linearly dependent, or if no
+  /// scaling of p restores H. The state is then as it was
   long step(State<S>& state, const S& h) override;
   /// Of the step that was projected.
   const Vector<S>& multiplier() const override { return inner_->multiplier(); }

@@ -37,7 +37,7 @@ class ReducedEquations {
 };
 
 /// Steps of a method for the index-reduced equations, as an ordinary differential equation in the changes of q and p
-/// since the step began, which carry no round-off of q and p themselves; they are added with compensation. What is
+/// since the step began. The changes carry no round-off of q and p themselves, and are added with compensation. What is
 /// evaluated at the end of a step, its multiplier among it, begins the next one.
 template <Scalar S>
 class ReducedStepper : public Stepper<S> {
