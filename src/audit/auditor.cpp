@@ -534,8 +534,8 @@ void Auditor::measure_tableau() {
 
 std::string Auditor::words_on_order(const Finding& f, int found) const {
   const int next = found + 1;
-  const std::string missed = "the conditions of order " + std::to_string(next) + " are met to " +
-                             std::to_string(coefficients_->order(next).seen) + " digits only";
+  std::string missed = "the conditions of order " + std::to_string(next) + " are met to " +
+                       std::to_string(coefficients_->order(next).seen) + " digits only";
   if (f.claim.predicted > found) return missed;
   const std::string to = coefficients_->decimals() && found > 0
                              ? ", its conditions met to " + std::to_string(coefficients_->order(found).seen) + " digits"

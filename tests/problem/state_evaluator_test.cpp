@@ -157,7 +157,6 @@ TYPED_TEST(PointTest, MultiplierOfTheSimplePendulum) {
   EXPECT_EQ(point.multiplier(this->vector({"0", "1"}), this->vector({"3", "0"}))[0], 4);
 }
 
-// m q'' = m g - 2 lambda q and |q| = l give lambda = (|p|^2 / m + m q.g) / (2 l^2).
 /// Along p' = grad U - grad g lambda and q' = M^-1 p the hidden constraints keep their value. Their derivative, by
 /// differences that are exact for what is quadratic, is 0.
 TYPED_TEST(PointTest, ForcesKeepTheHiddenConstraints) {
@@ -180,6 +179,7 @@ TYPED_TEST(PointTest, ForcesKeepTheHiddenConstraints) {
   }
 }
 
+// m q'' = m g - 2 lambda q and |q| = l give lambda = (|p|^2 / m + m q.g) / (2 l^2).
 TYPED_TEST(PointTest, MultiplierOfAHeavyPendulumOfAnotherLength) {
   const auto problem = this->pendulum(2, TypeParam(4), TypeParam(4));
   StateEvaluator<TypeParam> point(problem);

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
@@ -39,16 +43,33 @@ inline long calls_of(const SolverCounts& counts, const std::string& name) {
   return -1;
 }
 
-/// All that a step leaves behind.
+/// The state and the multiplier that a step leaves behind.
 template <Scalar S>
-std::string bits_of(State<S>& state, Stepper<S>& stepper) {
+std::string bits_of(State<S>& state, const Stepper<S>& stepper) {
   Vector<S> multiplier = stepper.multiplier();
-  SolverCounts counts = stepper.counts();
   Archive bits;
   bits(state, multiplier);
-  for (EffectCount& effect : counts.effects) bits(effect.calls, effect.evaluations);
-  for (PartCount& part : counts.parts) bits(part.name, part.calls);
   return bits.text();
+}
+
+/// How often each effect was evaluated and each part entered.
+inline std::vector<std::pair<std::string, std::uint64_t>> all_calls(const SolverCounts& counts) {
+  std::vector<std::pair<std::string, std::uint64_t>> result;
+  for (const EffectCount& effect : counts.effects) result.emplace_back("an effect", effect.evaluations);
+  for (const PartCount& part : counts.parts) result.emplace_back(part.name, part.calls);
+  return result;
+}
+
+/// A run that was taken up again has the counts of one that was not. A stepper that keeps what its last step ended with
+/// computes that once more each time.
+inline void expect_counts(const SolverCounts& resumed, const SolverCounts& whole, std::uint64_t times_taken_up) {
+  const auto again = all_calls(resumed), once = all_calls(whole);
+  ASSERT_EQ(again.size(), once.size());
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    EXPECT_EQ(again[i].first, once[i].first);
+    EXPECT_GE(again[i].second, once[i].second) << again[i].first;
+    EXPECT_LE(again[i].second, once[i].second + times_taken_up) << again[i].first;
+  }
 }
 
 /// A run is kept and taken up by a new stepper after each of its steps. It has the same bits as one that is not, and
@@ -76,6 +97,7 @@ void expect_memory(const std::string& method, const std::string& scene_name, con
     }
     EXPECT_EQ(part->step(resumed, h), whole->step(state, h)) << "step " << n;
     ASSERT_EQ(bits_of(resumed, *part), bits_of(state, *whole)) << "step " << n;
+    expect_counts(part->counts(), whole->counts(), static_cast<std::uint64_t>(n - 1));
     Archive writing;
     writing(*part, resumed);
     kept = writing.text();
