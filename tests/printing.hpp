@@ -4,11 +4,12 @@
 
 #include <ostream>
 
+#include "scalar/mpfr.hpp"
 #include "scalar/text.hpp"
 
 namespace hbvm::core {
 
-/// The scalars a typed suite runs for; Mpfr tests open a PrecisionScope themselves.
+/// The scalars a typed suite runs for; tests of Mpfr open a PrecisionScope.
 using AllScalars = ::testing::Types<double, Quad, Mpfr>;
 
 struct ScalarNames {
@@ -16,6 +17,13 @@ struct ScalarNames {
   static std::string GetName(int) {
     return std::same_as<S, double> ? "double" : std::same_as<S, Quad> ? "Quad" : "Mpfr";
   }
+};
+
+/// A test with so many digits in Mpfr.
+template <int decimals>
+class InDigits : public ::testing::Test {
+ protected:
+  PrecisionScope digits{decimals};
 };
 
 }  // namespace hbvm::core

@@ -25,13 +25,13 @@ struct AuditOptions : CellOptions {
 /// What makes two claims the same: everything but the label.
 std::string key_of(const Claim& claim);
 
-/// Decides each claim. Those about one method on one problem share their runs; precision is raised from double over
-/// quad to mpfr:50, 100, 200 and 400 as long as a claim is undecided. Errors of one step are always looked at down to
-/// 100 digits, so that a coefficient wrong in its 25th shows, and the coefficients themselves in 1000. What is claimed
-/// to be exact is looked at in as many digits as an error of the method would need to show. Steps and intervals are
-/// parts of the motion's own time scale. The error is measured against a closed form or a run with at least four more
-/// stages, by another solver, in 24 more digits, whose own error is estimated. \return a finding a claim, in order:
-/// what cannot be run is found to be so. Of a shard, the findings of its claims alone
+/// Decides each claim. Claims about one method on one problem share their runs. While a claim is undecided, the
+/// precision is raised from double over quad to mpfr:50, 100, 200 and 400. Errors of one step are always looked at down
+/// to 100 digits, so that a coefficient wrong in its 25th shows. The coefficients themselves are looked at in 1000.
+/// What is claimed to be exact is looked at in as many digits as an error of the method would need to show. Steps and
+/// intervals are parts of the motion's own time scale. The error is measured against a closed form or a run by another
+/// solver, whose own error is estimated. That run has at least four more stages and 24 more digits. \return a finding a
+/// claim, in order: what cannot be run is found to be so. Of a shard, the findings of its claims alone
 std::vector<Finding> audit(const std::vector<Claim>& claims, const AuditOptions& options);
 
 }  // namespace hbvm::core

@@ -23,13 +23,13 @@ struct Line {
 };
 
 std::vector<Rung> rungs_of(const Line& line) {
-  Cell cell;
-  cell.claims.resize(1);
-  cell.claims[0].quantity = line.quantity;
-  cell.claims[0].problem = "modified_pendulum";
-  cell.claims[0].method = line.method;
+  ClaimGroup group;
+  group.claims.resize(1);
+  group.claims[0].quantity = line.quantity;
+  group.claims[0].problem = "modified_pendulum";
+  group.claims[0].method = line.method;
   const Ladders ladders = with_scalar(Precision::parse(line.precision), [&]<Scalar S>() {
-    return interval_ladder<S>(cell, 8'192, [](const Ladders&) { return false; });
+    return interval_ladder<S>(group, 8'192, [](const Ladders&) { return false; });
   });
   return ladders.at(line.quantity);
 }

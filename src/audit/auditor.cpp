@@ -85,22 +85,10 @@ Motion Motions::of(const std::string& problem) {
 }
 
 Auditor::Kind Auditor::kind_of(const Claim& claim) {
-  switch (claim.quantity) {
-    case Quantity::B:
-    case Quantity::C:
-    case Quantity::D:
-    case Quantity::X:
-    case Quantity::symmetry:
-    case Quantity::W:
-      return is_tableau(claim) ? Kind::special : Kind::tableau;
-    case Quantity::order_conditions:
-    case Quantity::hidden_constant:
-    case Quantity::hidden_drift:
-    case Quantity::sweeps:
-      return Kind::special;
-    default:
-      return claim.form == Form::round_off ? Kind::round_off : claim.form == Form::digits ? Kind::digits : Kind::rates;
-  }
+  // Conditions on coefficients are the last quantities, and what has no rate stands before them.
+  if (claim.quantity >= Quantity::B) return is_tableau(claim) ? Kind::special : Kind::tableau;
+  if (claim.quantity >= Quantity::hidden_constant) return Kind::special;
+  return claim.form == Form::round_off ? Kind::round_off : claim.form == Form::digits ? Kind::digits : Kind::rates;
 }
 
 Auditor::Auditor(const std::vector<Claim>& claims, const Unit& unit, const AuditOptions& options, Motions& motions,
@@ -109,16 +97,16 @@ Auditor::Auditor(const std::vector<Claim>& claims, const Unit& unit, const Audit
   for (const std::size_t i : unit.members) {
     const Claim& claim = claims[i];
     // The order of a Runge-Kutta method is that of its local error less one, which shows far smaller flaws.
-    (claim.span == Span::step || is_tableau(claim) ? steps_ : intervals_).push_back(cell_.claims.size());
-    cell_.claims.push_back(claim);
+    (claim.span == Span::step || is_tableau(claim) ? steps_ : intervals_).push_back(group_.claims.size());
+    group_.claims.push_back(claim);
   }
 }
 
 void Auditor::work() {
   const double began = thread_seconds();
-  if (options_.limit > 0) cell_.stop_at = began + options_.limit * static_cast<double>(cell_.claims.size());
+  if (options_.limit > 0) group_.stop_at = began + options_.limit * static_cast<double>(group_.claims.size());
   const auto give_up = [&](Verdict verdict, const std::string& reason) {
-    for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+    for (std::size_t c = 0; c < group_.claims.size(); ++c) {
       if (settled_.contains(c)) continue;
       finding(c).verdict = verdict;
       finding(c).reason = reason;
@@ -136,46 +124,46 @@ void Auditor::work() {
   } catch (const Error& error) {
     give_up(Verdict::not_run, error.what());
   }
-  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+  for (std::size_t c = 0; c < group_.claims.size(); ++c) {
     weigh(finding(c));
     finding(c).seconds = thread_seconds() - began;
   }
 }
 
 void Auditor::prepare() {
-  for (std::size_t c = 0; c < cell_.claims.size(); ++c) finding(c).reference = reference();
-  if (options_.coefficient_digits > 0 && CoefficientCheck::is_for(*cell_.subject().method)) {
-    coefficients_.emplace(cell_.subject(), options_.coefficient_digits);
-    cell_.check_time();
+  for (std::size_t c = 0; c < group_.claims.size(); ++c) finding(c).reference = reference();
+  if (options_.coefficient_digits > 0 && CoefficientCheck::is_for(*group_.subject().method)) {
+    coefficients_.emplace(group_.subject(), options_.coefficient_digits);
+    group_.check_time();
     // A unit in the last digit, where half of one is as far as a right digit is off.
     if (const auto& decimals = coefficients_->decimals())
-      cell_.log2_rounding = -decimals->digits * std::numbers::ln10 / std::numbers::ln2;
+      group_.log2_rounding = -decimals->digits * std::numbers::ln10 / std::numbers::ln2;
   }
-  cell_.starts.count = options_.starts;
-  cell_.starts.lead += options_.first_start * cell_.starts.stride;
+  group_.starts.count = options_.starts;
+  group_.starts.lead += options_.first_start * group_.starts.stride;
   if (unit_.kind == Kind::tableau || unit_.kind == Kind::special) return;
-  const std::string& problem = cell_.subject().problem;
+  const std::string& problem = group_.subject().problem;
   motion_ = motions_.of(problem);
   if (motion_.has_closed_form && unit_.kind == Kind::rates)
-    for (std::size_t c = 0; c < cell_.claims.size(); ++c) finding(c).reference = "closed form";
-  cell_.log2_scale = motion_.log2_scale;
-  cell_.log2_interval = options_.log2_interval;
-  const double eighth = std::exp2(cell_.log2_scale - 3), window = std::exp2(cell_.log2_scale + cell_.log2_interval);
+    for (std::size_t c = 0; c < group_.claims.size(); ++c) finding(c).reference = "closed form";
+  group_.log2_scale = motion_.log2_scale;
+  group_.log2_interval = options_.log2_interval;
+  const double eighth = std::exp2(group_.log2_scale - 3), window = std::exp2(group_.log2_scale + group_.log2_interval);
   if (options_.until) {
     // The starts share the time between them, and each goes on to the next.
     const PrecisionScope scope(30);
     const double until = approximately(evaluate<Mpfr>(*options_.until));
-    const double share = until / cell_.starts.count;
-    cell_.windows = std::max(1L, std::lround(std::ceil(share / window)));
-    cell_.starts.lead = 0;
-    cell_.starts.stride = std::max(1L, std::lround(share / eighth));
+    const double share = until / group_.starts.count;
+    group_.windows = std::max(1L, std::lround(std::ceil(share / window)));
+    group_.starts.lead = 0;
+    group_.starts.stride = std::max(1L, std::lround(share / eighth));
   }
   const auto at = [&](long n) { return static_cast<double>(n) * eighth; };
-  const double last = at(cell_.starts.lead + (cell_.starts.count - 1) * cell_.starts.stride);
-  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+  const double last = at(group_.starts.lead + (group_.starts.count - 1) * group_.starts.stride);
+  for (std::size_t c = 0; c < group_.claims.size(); ++c) {
     const bool one_step = is_rate(finding(c).claim) && finding(c).claim.span == Span::step;
     finding(c).interval =
-        Interval{at(cell_.starts.lead), last + (one_step ? 2 * eighth : window * static_cast<double>(cell_.windows))};
+        Interval{at(group_.starts.lead), last + (one_step ? 2 * eighth : window * static_cast<double>(group_.windows))};
   }
 }
 
@@ -198,7 +186,7 @@ void Auditor::decide() {
 }
 
 std::string Auditor::reference() const {
-  const Claim& subject = cell_.subject();
+  const Claim& subject = group_.subject();
   switch (unit_.kind) {
     case Kind::round_off:
       return "the start";
@@ -210,7 +198,7 @@ std::string Auditor::reference() const {
     case Kind::digits:
       break;
   }
-  return "Gauss methods of " + std::to_string(cell_.stages() + 4) + " stages or more";
+  return "Gauss methods of " + std::to_string(group_.stages() + 4) + " stages or more";
 }
 
 std::vector<Precision> Auditor::levels() const {
@@ -221,7 +209,7 @@ std::vector<Precision> Auditor::levels() const {
     constexpr unsigned more = 6;
     if (coefficients_ && coefficients_->decimals() &&
         result.back().digits() >= static_cast<unsigned>(coefficients_->decimals()->digits) + more &&
-        result.size() > first_level(cell_.subject().problem))
+        result.size() > first_level(group_.subject().problem))
       break;
   }
   return result;
@@ -236,7 +224,7 @@ std::string Auditor::decimals_text() const {
 }
 
 std::string Auditor::near_the_start() const {
-  return "from " + std::to_string(cell_.starts.count) + (cell_.starts.count == 1 ? " state" : " states") +
+  return "from " + std::to_string(group_.starts.count) + (group_.starts.count == 1 ? " state" : " states") +
          (options_.until ? " on the way" : " near the start");
 }
 
@@ -244,7 +232,7 @@ template <class Measure>
 void Auditor::climb(const std::vector<std::size_t>& members, std::size_t at_least, const Measure& measure) {
   const std::vector<Precision> all = levels();
   at_least = std::min(at_least, all.size());
-  for (std::size_t level = first_level(cell_.subject().problem); level < all.size(); ++level) {
+  for (std::size_t level = first_level(group_.subject().problem); level < all.size(); ++level) {
     const Precision& precision = all[level];
     const Ladders ladders = with_scalar(precision, measure);
     if (level + 1 == std::min(deep, all.size()) && !steps_.empty() && &members == &steps_) deep_ = ladders;
@@ -272,22 +260,22 @@ void Auditor::climb(const std::vector<std::size_t>& members, std::size_t at_leas
 
 void Auditor::follow_steps() {
   climb(steps_, deep, [&]<Scalar S>() {
-    return step_ladder<S>(cell_, [&](const Ladders& ladders) { return cell_.is_lost(ladders); });
+    return step_ladder<S>(group_, [&](const Ladders& ladders) { return group_.is_lost(ladders); });
   });
 }
 
 void Auditor::follow_intervals() {
-  Cell cell = cell_;
-  cell.claims.clear();
-  for (const std::size_t c : intervals_) cell.claims.push_back(cell_.claims[c]);
+  ClaimGroup group = group_;
+  group.claims.clear();
+  for (const std::size_t c : intervals_) group.claims.push_back(group_.claims[c]);
   const auto holds = [](const Ladders& ladders, const Claim& claim) {
     const auto ladder = ladders.find(claim.quantity);
     return ladder != ladders.end() && judge(claim, convergence_rate(ladder->second)) == Verdict::holds;
   };
   climb(intervals_, 1, [&]<Scalar S>() {
-    return interval_ladder<S>(cell, options_.most_steps, [&](const Ladders& ladders) {
-      return cell.is_lost(ladders) || std::all_of(cell.claims.begin(), cell.claims.end(),
-                                                  [&](const Claim& claim) { return holds(ladders, claim); });
+    return interval_ladder<S>(group, options_.most_steps, [&](const Ladders& ladders) {
+      return group.is_lost(ladders) || std::all_of(group.claims.begin(), group.claims.end(),
+                                                   [&](const Claim& claim) { return holds(ladders, claim); });
     });
   });
   compare_with_one_step();
@@ -295,7 +283,7 @@ void Auditor::follow_intervals() {
 
 unsigned Auditor::least_digits() const {
   unsigned digits = 0;
-  for (const Claim& claim : cell_.claims) digits = std::max(digits, claim.least_digits);
+  for (const Claim& claim : group_.claims) digits = std::max(digits, claim.least_digits);
   return digits;
 }
 
@@ -328,7 +316,7 @@ void Auditor::compare_with_one_step() {
   const Precision precision = all[std::min(deep, all.size()) - 1];
   if (!deep_) {
     deep_ = with_scalar(precision, [&]<Scalar S>() {
-      return step_ladder<S>(cell_, [&](const Ladders& so_far) { return cell_.is_lost(so_far); });
+      return step_ladder<S>(group_, [&](const Ladders& so_far) { return group_.is_lost(so_far); });
     });
   }
   for (const std::size_t c : intervals_) {
@@ -348,8 +336,8 @@ void Auditor::compare_with_one_step() {
 }
 
 void Auditor::conserve_in(const Precision& precision, int log2_step, long steps) {
-  const auto measured = with_scalar(precision, [&]<Scalar S>() { return round_off<S>(cell_, {log2_step, steps}); });
-  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+  const auto measured = with_scalar(precision, [&]<Scalar S>() { return round_off<S>(group_, {log2_step, steps}); });
+  for (std::size_t c = 0; c < group_.claims.size(); ++c) {
     Finding& f = finding(c);
     f.precision = precision.name();
     const auto found = measured.find(f.claim.quantity);
@@ -373,11 +361,11 @@ void Auditor::conserve_in(const Precision& precision, int log2_step, long steps)
 
 void Auditor::conserve() {
   const std::vector<Precision> all = levels();
-  for (std::size_t level = first_level(cell_.subject().problem); level < std::min(deep, all.size()); ++level)
-    conserve_in(all[level], short_steps.log2_step, short_steps.steps * cell_.windows);
+  for (std::size_t level = first_level(group_.subject().problem); level < std::min(deep, all.size()); ++level)
+    conserve_in(all[level], short_steps.log2_step, short_steps.steps * group_.windows);
   int digits = 0;
   std::vector<std::size_t> unproved;
-  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+  for (std::size_t c = 0; c < group_.claims.size(); ++c) {
     if (finding(c).verdict != Verdict::holds) continue;
     finding(c).reason = proof_of(finding(c).claim, coefficients_ ? &*coefficients_ : nullptr);
     if (!finding(c).reason.empty()) continue;
@@ -387,7 +375,7 @@ void Auditor::conserve() {
       continue;
     }
     unproved.push_back(c);
-    digits = std::max(digits, digits_to_show(finding(c).claim, cell_.log2_scale));
+    digits = std::max(digits, digits_to_show(finding(c).claim, group_.log2_scale));
   }
   if (unproved.empty()) return;
   const int shown = std::clamp(digits, 100, most_digits);
@@ -413,17 +401,17 @@ void Auditor::conserve() {
 }
 
 void Auditor::check_tableau() {
-  const HbvmMethod* const hbvm = as_hbvm(*cell_.subject().method);
-  if (!hbvm) throw InputError("the coefficients of " + cell_.subject().method_text() + " have no such conditions");
+  const HbvmMethod* const hbvm = as_hbvm(*group_.subject().method);
+  if (!hbvm) throw InputError("the coefficients of " + group_.subject().method_text() + " have no such conditions");
   const int stages = hbvm->name().k;
   for (std::size_t level = 0; level < deep; ++level) {
     const Precision precision = Precision::parse(precisions[level]);
     const auto units = with_scalar(precision, [&]<Scalar S>() {
-      auto defects = tableau_defects<S>(cell_.subject());
+      auto defects = tableau_defects<S>(group_.subject());
       for (auto& [quantity, defect] : defects) defect = std::exp2(defect - (1 - significand_bits<S>()));
       return defects;
     });
-    for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+    for (std::size_t c = 0; c < group_.claims.size(); ++c) {
       Finding& f = finding(c);
       f.precision = precision.name();
       f.uncertainty = allowed_ulps_a_stage * stages;
@@ -444,12 +432,12 @@ void Auditor::count_digits() {
   constexpr int more = 20;
   constexpr long most_steps_of_a_window = 16;
   double asked = 0;
-  for (const Claim& claim : cell_.claims) asked = std::max(asked, claim.predicted);
+  for (const Claim& claim : group_.claims) asked = std::max(asked, claim.predicted);
   const Precision precision = Precision::parse("mpfr:" + std::to_string(static_cast<int>(std::ceil(asked)) + more));
   const Ladders ladders = with_scalar(precision, [&]<Scalar S>() {
-    return interval_ladder<S>(cell_, most_steps_of_a_window, [](const Ladders&) { return false; });
+    return interval_ladder<S>(group_, most_steps_of_a_window, [](const Ladders&) { return false; });
   });
-  for (std::size_t c = 0; c < cell_.claims.size(); ++c) {
+  for (std::size_t c = 0; c < group_.claims.size(); ++c) {
     Finding& f = finding(c);
     f.precision = precision.name();
     const auto ladder = ladders.find(f.claim.quantity);
@@ -475,7 +463,7 @@ void Auditor::measure_special() {
   Finding& f = finding(0);
   if (is_tableau(f.claim)) return measure_tableau();
   f.precision = f.claim.quantity == Quantity::hidden_constant ? "mpfr:100" : "double";
-  f.measured = special_value(cell_);
+  f.measured = special_value(group_);
   f.uncertainty = f.claim.tolerance;
   const double miss =
       f.claim.form == Form::at_least ? f.claim.predicted - f.measured : std::abs(f.measured - f.claim.predicted);
@@ -546,8 +534,8 @@ void Auditor::measure_tableau() {
 
 std::string Auditor::words_on_order(const Finding& f, int found) const {
   const int next = found + 1;
-  const std::string missed = "the conditions of order " + std::to_string(next) + " are met to " +
-                             std::to_string(coefficients_->order(next).seen) + " digits only";
+  std::string missed = "the conditions of order " + std::to_string(next) + " are met to " +
+                       std::to_string(coefficients_->order(next).seen) + " digits only";
   if (f.claim.predicted > found) return missed;
   const std::string to = coefficients_->decimals() && found > 0
                              ? ", its conditions met to " + std::to_string(coefficients_->order(found).seen) + " digits"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "audit/audit.hpp"
-#include "cell.hpp"
+#include "claim_group.hpp"
 #include "coefficients.hpp"
 #include "motion.hpp"
 #include "scalar/precision.hpp"
@@ -69,8 +69,8 @@ class Auditor {
   void climb(const std::vector<std::size_t>& members, std::size_t at_least, const Measure& measure);
   unsigned least_digits() const;
   void take(Finding& f, const std::vector<Rung>& rungs, const Precision& precision);
-  /// An error over an interval falls no faster than that of its first step, which can be followed far deeper: to where
-  /// a wrong 25th digit of a coefficient takes over.
+  /// An error over an interval falls no faster than that of its first step. The latter can be followed far deeper: to
+  /// where a wrong 25th digit of a coefficient takes over.
   void compare_with_one_step();
   /// One run of all claims about conservation in one precision; the worst of all counts.
   void conserve_in(const Precision& precision, int log2_step, long steps);
@@ -79,7 +79,7 @@ class Auditor {
   void weigh(Finding& f);
   void weigh_coefficients(Finding& f);
 
-  Cell cell_;
+  ClaimGroup group_;
   const Unit& unit_;
   const AuditOptions& options_;
   Motions& motions_;

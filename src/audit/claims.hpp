@@ -13,23 +13,23 @@ enum class Extent {
   full    ///< s = 1 .. 8, all problems, and s = 12 and 20 with 200 digits
 };
 
-/// The paper's statements and those that are known beyond it, each with the label of the theorem, corollary or remark
-/// it belongs to (an error bound "O(h^r)" is claimed "at least"; "exactly" only where the leading term is known not to
-/// vanish).
+/// The paper's statements and those that are known beyond it. Each has the label of the theorem, corollary or remark it
+/// belongs to. An error bound "O(h^r)" is claimed "at least". The form "exactly" is claimed only where the leading term
+/// is known not to vanish.
 std::vector<Claim> paper_claims(Extent extent);
 
-/// Of HBVM(k, s) with r nodes for constraints that are not quadratic: the same orders of all components, symmetry, H at
-/// 2k and g at 2r or, where g is a polynomial of degree d and r >= d s/2, to round-off; angular momentum for k = r = s.
-/// s = 1 .. 6, and 8 with 200 digits, for Extent::full; s = 1 and 2 else.
+/// Claims about HBVM(k, s) with r nodes for constraints that are not quadratic: the same orders of all components, and
+/// symmetry. H has order 2k. g has order 2r, or round-off where it is a polynomial of degree d and r >= d s/2. Angular
+/// momentum is kept for k = r = s. s = 1 .. 6, and 8 with 200 digits, for Extent::full; s = 1 and 2 else.
 std::vector<Claim> general_claims(Extent extent);
 
-/// What a Runge-Kutta method must show on the problems without constraints: the order that its author states (if none,
-/// that which its conditions show to ten digits, as a look in double would have it), the order of the energy error, and
-/// symmetry and conservation of angular momentum if its coefficients say so to ten digits.
+/// What a Runge-Kutta method must show on the problems without constraints: its order, and that of the energy error.
+/// The order is what its author states; if none, what its conditions show to ten digits, as a look in double would have
+/// it. Symmetry and conservation of angular momentum are claimed if the coefficients say so to ten digits.
 std::vector<Claim> tableau_claims(const Tableau& tableau);
 
-/// What a method of the registry says of itself, on scenes with constraints and without: the orders of its components,
-/// what it keeps to round-off, and at which order it loses what it does not keep. \throws InputError for hbvm:auto,S
+/// What a method of the registry says of itself, on scenes with constraints and without. These are the orders of its
+/// components, what it keeps to round-off, and at which order it loses the rest. \throws InputError for hbvm:auto,S
 std::vector<Claim> method_claims(const MethodPtr& method);
 
 /// Claims written in TOML, an array of tables [[claim]] with

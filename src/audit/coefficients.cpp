@@ -45,27 +45,47 @@ int CoefficientCheck::decimal_digits(double log2_defect) const {
 
 namespace {
 
-/// All defects of one method, in this sequence: of trees, B, C and D by order or power, symplecticity, symmetry.
-struct AllDefects {
-  std::vector<Mpfr> trees, B, C, D;
-  Mpfr symplecticity, symmetry;
-
-  explicit AllDefects(const RungeKutta<Mpfr>& method)
-      : symplecticity(symplecticity_defect(method)), symmetry(symmetry_defect(method)) {
-    const int s = method.stages();
-    // A condition that is missed is missed by all that need it.
-    const auto add = [](std::vector<Mpfr>& all, const Mpfr& own) {
-      all.push_back(own);
-      if (all.size() > 1) raise_to(all.back(), all[all.size() - 2]);
-    };
-    for (const Mpfr& defect : order_defects(method, std::min(max_tree_order, 2 * s))) add(trees, defect);
-    for (int n = 1; n <= 2 * s; ++n) add(B, condition_B(method, n));
-    for (int n = 1; n <= s; ++n) {
-      add(C, condition_C(method, n));
-      add(D, condition_D(method, n));
-    }
+/// All defects of one method.
+EachCondition<Mpfr> defects_of(const RungeKutta<Mpfr>& method) {
+  EachCondition<Mpfr> defects{{}, {}, {}, {}, symplecticity_defect(method), symmetry_defect(method)};
+  const int s = method.stages();
+  // A condition that is missed is missed by all that need it.
+  const auto add = [](std::vector<Mpfr>& all, const Mpfr& own) {
+    all.push_back(own);
+    if (all.size() > 1) raise_to(all.back(), all[all.size() - 2]);
+  };
+  for (const Mpfr& defect : order_defects(method, std::min(max_tree_order, 2 * s))) add(defects.trees, defect);
+  for (int n = 1; n <= 2 * s; ++n) add(defects.B, condition_B(method, n));
+  for (int n = 1; n <= s; ++n) {
+    add(defects.C, condition_C(method, n));
+    add(defects.D, condition_D(method, n));
   }
-};
+  return defects;
+}
+
+/// f of what is known of each condition.
+template <class From, class F>
+auto each(const EachCondition<From>& from, const F& f) {
+  using To = decltype(f(from.symmetry));
+  const auto all = [&](const std::vector<From>& values) {
+    std::vector<To> result;
+    for (const From& value : values) result.push_back(f(value));
+    return result;
+  };
+  return EachCondition<To>{all(from.trees), all(from.B),           all(from.C),
+                           all(from.D),     f(from.symplecticity), f(from.symmetry)};
+}
+
+/// Of each condition f(its value in a, that in b).
+template <class T, class F>
+void with_each(EachCondition<T>& a, const EachCondition<T>& b, const F& f) {
+  using Values = std::vector<T> EachCondition<T>::*;
+  for (const Values values :
+       {&EachCondition<T>::trees, &EachCondition<T>::B, &EachCondition<T>::C, &EachCondition<T>::D})
+    for (std::size_t i = 0; i < (a.*values).size(); ++i) f((a.*values)[i], (b.*values)[i]);
+  f(a.symplecticity, b.symplecticity);
+  f(a.symmetry, b.symmetry);
+}
 
 double log2_or_nan(const Mpfr& defect) {
   return is_finite(defect) ? log2_of(defect) : std::numeric_limits<double>::quiet_NaN();
@@ -73,63 +93,22 @@ double log2_or_nan(const Mpfr& defect) {
 
 }  // namespace
 
-void CoefficientCheck::Defects::raise_by_change(const RungeKutta<Mpfr>& method, const RungeKutta<Mpfr>& other) {
-  const AllDefects here(method), there(other);
-  const auto raise = [](double& bound, const Mpfr& a, const Mpfr& b) {
-    const double change = log2_or_nan(Mpfr(abs(Mpfr(a - b))));
-    if (!(change <= bound)) bound = change;
-  };
-  const auto raise_all = [&](std::vector<double>& bounds, const std::vector<Mpfr>& a, const std::vector<Mpfr>& b) {
-    bounds.resize(a.size(), -std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < a.size(); ++i) raise(bounds[i], a[i], b[i]);
-  };
-  raise_all(trees, here.trees, there.trees);
-  raise_all(B, here.B, there.B);
-  raise_all(C, here.C, there.C);
-  raise_all(D, here.D, there.D);
-  raise(symplecticity, here.symplecticity, there.symplecticity);
-  raise(symmetry, here.symmetry, there.symmetry);
-}
-
-CoefficientCheck::Digits CoefficientCheck::digits_of(const Defects& defects) const {
-  Digits result;
-  const auto all = [&](const std::vector<double>& from, std::vector<int>& to) {
-    for (const double defect : from) to.push_back(decimal_digits(defect));
-  };
-  all(defects.trees, result.trees);
-  all(defects.B, result.B);
-  all(defects.C, result.C);
-  all(defects.D, result.D);
-  result.symplecticity = decimal_digits(defects.symplecticity);
-  result.symmetry = decimal_digits(defects.symmetry);
-  return result;
-}
-
 void CoefficientCheck::look_at(const Tableau& tableau) {
-  constexpr double none = -std::numeric_limits<double>::infinity();
   const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau);
-  const AllDefects own(method);
-  const auto logs = [](const std::vector<Mpfr>& all) {
-    std::vector<double> result;
-    for (const Mpfr& x : all) result.push_back(log2_or_nan(x));
-    return result;
-  };
-  const Defects defects{logs(own.trees),          logs(own.B), logs(own.C), logs(own.D), log2_or_nan(own.symplecticity),
-                        log2_or_nan(own.symmetry)};
-  seen_ = digits_of(defects);
-  Defects change{{}, {}, {}, {}, none, none};
+  const EachCondition<Mpfr> own = defects_of(method);
+  const auto digits = [&](double log2_defect) { return decimal_digits(log2_defect); };
+  seen_ = each(each(own, log2_or_nan), digits);
+  // By how much a unit in the last digits changes them, at most.
+  EachCondition<double> change = each(own, [](const Mpfr&) { return -std::numeric_limits<double>::infinity(); });
   constexpr unsigned patterns = 4;
-  if (decimals_)
-    for (unsigned pattern = 1; pattern <= patterns; ++pattern)
-      change.raise_by_change(method, off_by_a_unit(tableau, *decimals_, pattern));
-  else
-    change = {std::vector(own.trees.size(), none),
-              std::vector(own.B.size(), none),
-              std::vector(own.C.size(), none),
-              std::vector(own.D.size(), none),
-              none,
-              none};
-  due_ = digits_of(change);
+  for (unsigned pattern = 1; decimals_ && pattern <= patterns; ++pattern) {
+    EachCondition<Mpfr> changed = defects_of(off_by_a_unit(tableau, *decimals_, pattern));
+    with_each(changed, own, [](Mpfr& x, const Mpfr& from) { x = abs(Mpfr(x - from)); });
+    with_each(change, each(changed, log2_or_nan), [](double& bound, double by) {
+      if (!(by <= bound)) bound = by;
+    });
+  }
+  due_ = each(change, digits);
   // What four patterns of signs leave out, and that the digits are whole.
   constexpr int slack = 2;
   if (!decimals_) return;
@@ -140,7 +119,7 @@ void CoefficientCheck::look_at(const Tableau& tableau) {
   due_.symmetry = std::max(1, due_.symmetry - slack);
 }
 
-int CoefficientCheck::order_by_parts(const Digits& digits, int p) const {
+int CoefficientCheck::order_by_parts(const EachCondition<int>& digits, int p) const {
   const auto at = [](const std::vector<int>& all, int n, int none) {
     return n < 1 ? none : n > static_cast<int>(all.size()) ? 0 : all[static_cast<std::size_t>(n - 1)];
   };

@@ -9,11 +9,18 @@
 
 namespace hbvm::core {
 
-/// To how many decimal digits a condition is met, and to how many it must be: to all that are looked at, or, where the
-/// numbers of a tableau are decimals, to those that a unit in their last digit leaves.
+/// To how many decimal digits a condition is met, and to how many it must be. All digits that are looked at are due.
+/// Where the numbers of a tableau are decimals, only those are due that a unit in their last digit leaves.
 struct Met {
   int seen = 0, due = 0;
   bool holds() const { return seen >= due; }
+};
+
+/// What is known of each condition on a tableau; of those of orders and powers, 1, 2, ..., of all up to there.
+template <class T>
+struct EachCondition {
+  std::vector<T> trees, B, C, D;
+  T symplecticity{}, symmetry{};
 };
 
 /// How far the coefficients of a method meet the conditions they should, as seen in `digits` of them.
@@ -44,27 +51,15 @@ class CoefficientCheck {
   Met row_sums() const { return {seen_.C.front(), due_.C.front()}; }
 
  private:
-  /// log2 of defects, and digits; those of orders, and powers, 1, 2, ... are of all up to there.
-  struct Defects {
-    std::vector<double> trees, B, C, D;
-    double symplecticity = 0, symmetry = 0;
-    /// By how much those of this method, near the other, differ, at most so far.
-    void raise_by_change(const RungeKutta<Mpfr>& method, const RungeKutta<Mpfr>& other);
-  };
-  struct Digits {
-    std::vector<int> trees, B, C, D;
-    int symplecticity = 0, symmetry = 0;
-  };
   void look_at(const Tableau& tableau);
-  Digits digits_of(const Defects& defects) const;
   int decimal_digits(double log2_defect) const;
-  int order_by_parts(const Digits& digits, int p) const;
+  int order_by_parts(const EachCondition<int>& digits, int p) const;
   static int found(const std::vector<int>& seen, const std::vector<int>& due);
 
   int digits_;
   std::optional<Decimals> decimals_;
   int definition_ = 0;
-  Digits seen_, due_;
+  EachCondition<int> seen_, due_;  ///< digits
 };
 
 }  // namespace hbvm::core

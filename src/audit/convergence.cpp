@@ -13,8 +13,8 @@ constexpr std::size_t needed = 5;
 /// By how much log2 of the error may be off: what lies under the floor is part of it, or missing.
 double noise(const Rung& rung) { return std::log2(1 + std::exp2(rung.floor - rung.error)); }
 
-/// A slope between two rungs: how far off it may be, and by how much a term h^n in the error shifts it, but for a
-/// factor common to all, for n = 1 and n = 2.
+/// A slope between two rungs, and how far off it may be. `shift` says how much a term h^n in the error shifts it, for
+/// n = 1 and 2, but for a factor common to all.
 struct Slope {
   double value, noise, shift[2];
 };
@@ -27,7 +27,7 @@ Slope slope_between(const Rung& coarse, const Rung& fine, double finest) {
   return slope;
 }
 
-/// The rate that the slopes between five rungs tend to. If the error is C h^p (1 + a h^n), two slopes tell p and a: the
+/// The rate that the slopes between five rungs tend to. If the error is C h^p (1 + a h^n), two slopes tell p and a. The
 /// rate lies between what n = 1 and n = 2 make of the last two.
 Rate rate_of(std::span<const Rung> rungs) {
   std::vector<Slope> slopes;

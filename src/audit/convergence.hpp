@@ -20,11 +20,11 @@ struct Rate {
   double halvings = 0;  ///< of the step, between the first and the last rung used
 };
 
-/// The rate that the slopes between five clean rungs in a row tend to, with what the higher terms may still change
-/// (from how the slopes change) and what lies under the floors may hide. Of all such five, the ones that know it best
-/// count, as long as every finer clean rung lies where they foretell it; where none does, the finest five: there
-/// another term takes over. If the changes grow from slope to slope, the uncertainty is infinite. \param rungs from
-/// coarse to fine \return nothing if there are no five clean rungs in a row with at least four halvings between them
+/// The rate that the slopes between five clean rungs in a row tend to. Its uncertainty covers what the higher terms may
+/// still change, from how the slopes change, and what the floors may hide. Of all such five, the least uncertain count,
+/// as long as every finer clean rung lies where they foretell it. Where none does, the finest five count: there another
+/// term takes over. If the changes grow from slope to slope, the uncertainty is infinite. \param rungs from coarse to
+/// fine \return nothing if there are no five clean rungs in a row with at least four halvings between them
 std::optional<Rate> convergence_rate(const std::vector<Rung>& rungs);
 
 }  // namespace hbvm::core

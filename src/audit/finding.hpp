@@ -47,10 +47,10 @@ struct Finding {
   std::vector<Ladder> evidence;  ///< precision after precision
 };
 
-/// Whether a measured rate bears a claim out. It fails as soon as the interval value +- uncertainty excludes the
-/// predicted rate (for `at_least`: lies below it), and holds if the interval lies above it or, as the exponents of an
-/// expansion in h are whole numbers, if the predicted rate is whole, in the interval, and that is less than a half
-/// wide.
+/// Whether a measured rate bears a claim out. The claim fails if the interval value +- uncertainty excludes the
+/// predicted rate (for `at_least`: lies below it). A claim `at_least` holds if the interval lies above that rate. The
+/// exponents of an expansion in h are whole numbers. So a claim also holds if the predicted rate is whole and in the
+/// interval, and that is less than a half wide.
 Verdict judge(const Claim& claim, const std::optional<Rate>& rate);
 
 }  // namespace hbvm::core

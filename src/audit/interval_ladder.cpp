@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <deque>
 
+#include "error_sizes.hpp"
 #include "measurements.hpp"
 #include "problem/momenta.hpp"
 #include "sensitivity.hpp"
-#include "sizes.hpp"
 #include "trial.hpp"
 
 namespace hbvm::core {
@@ -16,13 +16,13 @@ constexpr double run_roundings = 14;
 /// The exact motion from one start, at the end of the interval.
 class Destination {
  public:
-  Destination(Laboratory& laboratory, const Cell& cell, const Laboratory::Start& start, const Mpfr& until)
+  Destination(Laboratory& laboratory, const ClaimGroup& group, const Laboratory::Start& start, const Mpfr& until)
       : laboratory_(laboratory),
-        cell_(cell),
+        group_(group),
         start_(start),
         until_(until),
-        steps_(16 * cell.windows),
-        most_steps_(8'192 * cell.windows),
+        steps_(16 * group.windows),
+        most_steps_(8'192 * group.windows),
         known_(laboratory.known(start, until)) {}
 
   /// At least so exact if that can be had: log2 of the errors wanted. More stages are tried first, then shorter steps.
@@ -32,8 +32,8 @@ class Destination {
     for (int refinements = 0;; ++refinements) {
       try {
         if (!motion_)
-          motion_.emplace(laboratory_.problem(), start_.q, start_.p, until_, steps_, cell_.stages() + 2,
-                          [this] { cell_.check_time(); });
+          motion_.emplace(laboratory_.problem(), start_.q, start_.p, until_, steps_, group_.stages() + 2,
+                          [this] { group_.check_time(); });
         if (motion_->errors().q <= wanted_q && motion_->errors().p <= wanted_p) return;
         if (refinements < most_refinements && motion_->refine()) continue;
         if (motion_->is_exact() || steps_ >= most_steps_) return;
@@ -56,7 +56,7 @@ class Destination {
   static constexpr int most_refinements = 8;
 
   Laboratory& laboratory_;
-  const Cell& cell_;
+  const ClaimGroup& group_;
   const Laboratory::Start& start_;
   Mpfr until_;
   long steps_, most_steps_;
@@ -69,20 +69,21 @@ template <Scalar S>
 class IntervalLadder {
  public:
   /// \param unit of round-off in S, as log2, with what the steps of a run add up to
-  IntervalLadder(const Cell& cell, double unit)
+  IntervalLadder(const ClaimGroup& group, double unit)
       : unit_(unit),
-        cell_(cell),
-        laboratory_(cell),
+        group_(group),
+        laboratory_(group),
         problem_(laboratory_.problem()),
         point_(laboratory_.point()),
-        log2_window_(cell.log2_scale + cell.log2_interval),
-        end_errors_(cell.asks_for(Quantity::q) || cell.asks_for(Quantity::p) || cell.asks_for(Quantity::tangential_p) ||
-                    cell.asks_for(Quantity::lagmul) || cell.asks_for(Quantity::output_lambda)) {
-    if (cell.asks_for(Quantity::angular_momentum)) momenta_ = conserved_momenta(problem_);
-    const Mpfr until = cell.windows * ldexp(Mpfr(1), log2_window_);
+        log2_window_(group.log2_scale + group.log2_interval),
+        end_errors_(group.asks_for(Quantity::q) || group.asks_for(Quantity::p) ||
+                    group.asks_for(Quantity::tangential_p) || group.asks_for(Quantity::lagmul) ||
+                    group.asks_for(Quantity::output_lambda)) {
+    if (group.asks_for(Quantity::angular_momentum)) momenta_ = conserved_momenta(problem_);
+    const Mpfr until = group.windows * ldexp(Mpfr(1), log2_window_);
     for (const Laboratory::Start& start : laboratory_.starts()) {
-      destinations_.emplace_back(laboratory_, cell, start, until);
-      sensitivities_.push_back(Sensitivity::at(problem_, point_, cell.log2_scale, momenta_, start.q, start.p));
+      destinations_.emplace_back(laboratory_, group, start, until);
+      sensitivities_.push_back(Sensitivity::at(problem_, point_, group.log2_scale, momenta_, start.q, start.p));
     }
   }
 
@@ -95,9 +96,9 @@ class IntervalLadder {
     for (std::size_t i = 0; i < laboratory_.starts().size(); ++i) {
       const Sensitivity& sensitivity = sensitivities_[i];
       const Floors floors{unit_ + sensitivity.q, unit_ + sensitivity.p, unit_ + sensitivity.lambda,
-                          unit_ + sensitivity.lambda + std::max(cell_.log2_scale - log2_h, double{0})};
+                          unit_ + sensitivity.lambda + std::max(group_.log2_scale - log2_h, double{0})};
       Vector<Mpfr> q, p;
-      run(trial, laboratory_.starts()[i], h, n * cell_.windows, sensitivity, floors, q, p);
+      run(trial, laboratory_.starts()[i], h, n * group_.windows, sensitivity, floors, q, p);
       if (!end_errors_) continue;
       Destination& exact = destinations_[i];
       const Vector<Mpfr> tangential = point_.tangential(q, p);
@@ -125,20 +126,20 @@ class IntervalLadder {
     const Mpfr H0 = point_.energy(q, p);
     std::vector<MomentumValue<Mpfr>> momentum_0;
     for (const auto& component : momenta_) momentum_0.push_back(momentum(problem_, component, q, p));
-    const bool constrained = problem_.nu() > 0, asks_for_g = constrained && cell_.asks_for(Quantity::g);
+    const bool constrained = problem_.nu() > 0, asks_for_g = constrained && group_.asks_for(Quantity::g);
     const Vector<Mpfr> g_0 = asks_for_g ? point_.constraints(q) : Vector<Mpfr>();
     trial.begin(start, h);
     for (long step = 1; step <= steps; ++step) {
-      cell_.check_time();
+      group_.check_time();
       const Vector<Mpfr> before = q;
       trial.step();
       trial.state(q, p);
-      if (constrained && trial.has_polynomials() && cell_.asks_for(Quantity::delta_lambda))
-        add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, before, p, h, cell_.subject().method->stages()),
+      if (constrained && trial.has_polynomials() && group_.asks_for(Quantity::delta_lambda))
+        add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, before, p, h, group_.subject().method->stages()),
             floors.divided);
-      if (cell_.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point_.energy(q, p) - H0)), unit_ + sensitivity.H);
+      if (group_.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point_.energy(q, p) - H0)), unit_ + sensitivity.H);
       if (asks_for_g) add(Quantity::g, distance(point_.constraints(q), g_0), unit_ + sensitivity.g);
-      if (constrained && cell_.asks_for(Quantity::hidden))
+      if (constrained && group_.asks_for(Quantity::hidden))
         add(Quantity::hidden, max_norm(point_.hidden_constraints(q, p)), unit_ + sensitivity.hidden);
       for (std::size_t c = 0; c < momenta_.size(); ++c)
         add(Quantity::angular_momentum, abs(Mpfr(momentum(problem_, momenta_[c], q, p).value - momentum_0[c].value)),
@@ -175,26 +176,26 @@ class IntervalLadder {
   }
 
   double unit_;
-  const Cell& cell_;
+  const ClaimGroup& group_;
   Laboratory laboratory_;
   const Problem<Mpfr>& problem_;
-  Point<Mpfr>& point_;
+  StateEvaluator<Mpfr>& point_;
   int log2_window_;
   bool end_errors_;
   std::vector<MomentumComponent<Mpfr>> momenta_;
   std::deque<Destination> destinations_;
   std::vector<Sensitivity> sensitivities_;
-  Sizes sizes_;
+  ErrorSizes sizes_;
 };
 
 }  // namespace
 
 template <Scalar S>
-Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
-  const double unit = cell.log2_unit<S>() + run_roundings;  // in the scope of S
-  Trial<S> trial(cell.subject());
+Ladders interval_ladder(const ClaimGroup& group, long most, const Enough& enough) {
+  const double unit = group.log2_unit<S>() + run_roundings;  // in the scope of S
+  Trial<S> trial(group.subject());
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
-  IntervalLadder<S> ladder(cell, unit);
+  IntervalLadder<S> ladder(group, unit);
   Ladders ladders;
   for (long n = 4; n <= most; n *= 2) {
     try {
@@ -207,7 +208,7 @@ Ladders interval_ladder(const Cell& cell, long most, const Enough& enough) {
   return ladders;
 }
 
-#define HBVM_DEFINE(S) template Ladders interval_ladder<S>(const Cell&, long, const Enough&);
+#define HBVM_DEFINE(S) template Ladders interval_ladder<S>(const ClaimGroup&, long, const Enough&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

@@ -5,9 +5,9 @@
 
 namespace hbvm::core {
 
-Laboratory::Laboratory(const Cell& cell) : assembled_(assemble<Mpfr>(load_scene(cell.subject().problem))) {
+Laboratory::Laboratory(const ClaimGroup& group) : assembled_(assemble<Mpfr>(load_scene(group.subject().problem))) {
   point_.emplace(assembled_.problem);
-  walk(cell);
+  walk(group);
 }
 
 std::optional<ExactPoint> Laboratory::known(const Start& start, const Mpfr& t) const {
@@ -18,20 +18,20 @@ std::optional<ExactPoint> Laboratory::known(const Start& start, const Mpfr& t) c
   return motion ? std::optional(motion->at(t)) : std::nullopt;
 }
 
-void Laboratory::walk(const Cell& cell) {
+void Laboratory::walk(const ClaimGroup& group) {
   // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion. If
   // g is quadratic HBVM keeps it whatever the step, and RATTLE any other.
   const MethodPtr method = degree(assembled_.problem.constraints) == 2 ? hbvm_of({4, 4}) : rattle_method({});
   const std::unique_ptr<Stepper<Mpfr>> stepper = method->make_stepper(assembled_.problem, SolverKind::automatic);
-  const Mpfr h = ldexp(Mpfr(1), cell.log2_scale - 3);
+  const Mpfr h = ldexp(Mpfr(1), group.log2_scale - 3);
   State<Mpfr> state(assembled_.q0, assembled_.p0);
-  const Starts& wanted = cell.starts;
+  const Starts& wanted = group.starts;
   for (long n = 0;; ++n) {
     if (n >= wanted.lead && (n - wanted.lead) % wanted.stride == 0)
       starts_.push_back({state.q, point_->tangential(state.q, state.p)});
     if (static_cast<int>(starts_.size()) == wanted.count) return;
     stepper->step(state, h);
-    cell.check_time();
+    group.check_time();
   }
 }
 

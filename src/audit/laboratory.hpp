@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "cell.hpp"
-#include "problem/point.hpp"
+#include "claim_group.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "scene/assemble.hpp"
 
@@ -20,22 +20,22 @@ class Laboratory {
     Vector<Mpfr> q, p;
   };
 
-  /// With the starts of a cell.
+  /// With the starts of a group.
   /// \throws InputError, IntegrationError, StageFailure
-  explicit Laboratory(const Cell& cell);
+  explicit Laboratory(const ClaimGroup& group);
 
   const Problem<Mpfr>& problem() const { return assembled_.problem; }
   const std::vector<Start>& starts() const { return starts_; }
-  Point<Mpfr>& point() { return *point_; }
+  StateEvaluator<Mpfr>& point() { return *point_; }
   /// The motion from a start after the time t, if it is known in closed form.
   std::optional<ExactPoint> known(const Start& start, const Mpfr& t) const;
 
  private:
-  void walk(const Cell& cell);
+  void walk(const ClaimGroup& group);
 
   Assembled<Mpfr> assembled_;
   std::vector<Start> starts_;
-  std::optional<Point<Mpfr>> point_;
+  std::optional<StateEvaluator<Mpfr>> point_;
 };
 
 }  // namespace hbvm::core

@@ -7,7 +7,7 @@
 #include "hbvm/error.hpp"
 #include "integrate/coefficient_decay.hpp"
 #include "linear/product.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "reference/reference_motion.hpp"
 #include "step/hbvm_stepper.hpp"
@@ -34,7 +34,7 @@ class VectorField {
     return forces.applied + forces.constraint;
   }
   /// Its two parts, of which an acceleration may be a small difference.
-  const typename Point<Mpfr>::Forces& forces(const PhasePoint& y) { return point_.forces(y.q, y.p); }
+  const typename StateEvaluator<Mpfr>::Forces& forces(const PhasePoint& y) { return point_.forces(y.q, y.p); }
 
   /// (f(y + eta x) - f(y - eta x))/(2 eta): f'(y) x but for eta^2.
   PhasePoint derivative(const PhasePoint& y, const PhasePoint& x, const Mpfr& eta) {
@@ -44,11 +44,11 @@ class VectorField {
 
  private:
   const Problem<Mpfr>& problem_;
-  Point<Mpfr> point_;
+  StateEvaluator<Mpfr> point_;
 };
 
-/// log2 of the spectral radius of f'(y) by the power method, in the norm of the kinetic energy: sixteen iterations,
-/// after eight that leave the fastest part alone. -infinity if no force depends on the state.
+/// log2 of the spectral radius of f'(y) by the power method, in the norm of the kinetic energy. Eight iterations leave
+/// the fastest part alone, and sixteen more are taken. It is -infinity if no force depends on the state.
 double log2_spectral_radius(const Assembled<Mpfr>& scene) {
   constexpr int first = 8, last = 24;
   VectorField field(scene.problem);
@@ -160,8 +160,8 @@ class Products {
   }
 
  private:
-  /// Less than a millionth is nothing: what deviates by so little from an equilibrium shows the orders of the
-  /// deviation at steps too short to be looked at.
+  /// Less than a millionth is nothing. A motion so near to an equilibrium shows the orders of the deviation at steps
+  /// too short to be looked at.
   static constexpr int tolerance = 20;
   static constexpr int balance = 60;
   struct Range {
@@ -201,7 +201,7 @@ Motion motion_of(const std::string& scene_name) {
   HbvmStepper<Mpfr> stepper(problem, method, SolverKind::automatic);
   State<Mpfr> state(assembled.q0, assembled.p0);
   VectorField field(problem);
-  Point<Mpfr> point(problem);
+  StateEvaluator<Mpfr> point(problem);
   Products products(problem, field, scale);
   products.observe({state.q, state.p});
   for (int n = 0; n < steps; ++n) {

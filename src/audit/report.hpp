@@ -21,14 +21,14 @@ std::string to_json(const std::vector<Finding>& findings, const std::string& com
 /// "523 claims: 523 hold, 0 fail, 0 undecidable, 0 of degenerate motions, 0 not run".
 std::string summary(const std::vector<Finding>& findings);
 
-/// What was found, without the claims and the time it took: JSON that says the same whenever it is measured, and reads
+/// What was found, without the claims and the time it took. The JSON says the same whenever it is measured, and reads
 /// back to the last bit.
 std::string to_result(const std::vector<Finding>& findings);
 /// \throws InputError if it is none
 std::vector<Finding> read_result(const std::string& text);
 
-/// The figure that explains the audit, with its data in files of this folder: the same errors in double, quad and 50
-/// digits, and the components of one run, with triangles that show the slopes.
+/// The figure that explains the audit, with its data in files of this folder. It shows the same errors in double, quad
+/// and 50 digits, and the components of one run. Triangles show the slopes.
 /// \throws InputError if the folder cannot be written to
 Figure audit_figure(const std::string& folder);
 

@@ -11,8 +11,8 @@ namespace {
 /// What round-off may do to conserved quantities along a run.
 class Allowance {
  public:
-  Allowance(const Cell& cell, double log2_epsilon)
-      : log2_unit_(log2_epsilon + std::log2(allowed_units(cell.subject()))) {}
+  Allowance(const ClaimGroup& group, double log2_epsilon)
+      : log2_unit_(log2_epsilon + std::log2(allowed_units(group.subject()))) {}
 
   /// One more step, with the change that a unit makes there, as log2. \return log2 of all so far
   double step(double sensitivity) {
@@ -35,18 +35,18 @@ class Allowance {
 double allowed_units(const Claim& claim) { return 4 * claim.method->terms(); }
 
 template <Scalar S>
-std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& run) {
-  const double last_bit = cell.log2_unit<S>();
-  Trial<S> trial(cell.subject());
+std::map<Quantity, RoundOff> round_off(const ClaimGroup& group, const ConservationRun& run) {
+  const double last_bit = group.log2_unit<S>();
+  Trial<S> trial(group.subject());
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
-  Laboratory laboratory(cell);
+  Laboratory laboratory(group);
   const Problem<Mpfr>& problem = laboratory.problem();
-  Point<Mpfr>& point = laboratory.point();
-  const int log2_h = cell.log2_scale + run.log2_step;
+  StateEvaluator<Mpfr>& point = laboratory.point();
+  const int log2_h = group.log2_scale + run.log2_step;
   const Mpfr h = ldexp(Mpfr(1), log2_h);
   std::map<Quantity, RoundOff> result;
   const auto add = [&](Quantity quantity, const Mpfr& error, double floor) {
-    if (!cell.asks_for(quantity)) return;
+    if (!group.asks_for(quantity)) return;
     const double size = log2_of(error);
     // An error of 0 is none, whatever could have been.
     const double ratio = error == 0 ? 0 : std::exp2(size - floor);
@@ -55,20 +55,20 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& 
     if (!is_new && ratio > place->second.ratio) place->second = now;
   };
   std::vector<MomentumComponent<Mpfr>> momenta;
-  if (cell.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem);
+  if (group.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem);
   for (const Laboratory::Start& start : laboratory.starts()) {
     Vector<Mpfr> q = start.q, p = start.p;
     const Mpfr H0 = point.energy(q, p);
     std::vector<MomentumValue<Mpfr>> momentum_0;
     for (const auto& component : momenta) momentum_0.push_back(momentum(problem, component, q, p));
-    Allowance of_H(cell, last_bit), of_g(cell, last_bit), of_hidden(cell, last_bit), of_q(cell, last_bit),
-        of_p(cell, last_bit);
-    std::vector<Allowance> of_momenta(momenta.size(), Allowance(cell, last_bit));
+    Allowance of_H(group, last_bit), of_g(group, last_bit), of_hidden(group, last_bit), of_q(group, last_bit),
+        of_p(group, last_bit);
+    std::vector<Allowance> of_momenta(momenta.size(), Allowance(group, last_bit));
     trial.begin(start, h);
     for (long n = 1; n <= run.steps; ++n) {
-      const Sensitivity here = Sensitivity::at(problem, point, cell.log2_scale, momenta, q, p);
+      const Sensitivity here = Sensitivity::at(problem, point, group.log2_scale, momenta, q, p);
       trial.step();
-      cell.check_time();
+      group.check_time();
       trial.state(q, p);
       add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), of_H.step(here.H));
       if (problem.nu() > 0) add(Quantity::g, max_norm(point.constraints(q)), of_g.step(here.g));
@@ -80,19 +80,19 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& 
       of_q.step(here.q);
       of_p.step(here.p);
     }
-    if (!cell.asks_for(Quantity::reversal)) continue;
-    // What the way back makes of an error at the turn shows what it makes of all that were made before: the same way is
-    // gone once more from a state that is off.
+    if (!group.asks_for(Quantity::reversal)) continue;
+    // What the way back makes of an error at the turn shows what it makes of all that were made before. So the same way
+    // is gone once more from a state that is off.
     const int small = static_cast<int>(last_bit / 2);
     const auto go_back = [&](Vector<Mpfr>& to_q, Vector<Mpfr>& to_p) {
       for (long n = 1; n <= run.steps; ++n) {
         trial.step();
-        cell.check_time();
+        group.check_time();
       }
       trial.reverse();
       trial.state(to_q, to_p);
     };
-    const Kick off = kick(problem, point, cell.log2_scale, q, p, 1);
+    const Kick off = kick(problem, point, group.log2_scale, q, p, 1);
     const Mpfr factor = ldexp(Mpfr(1), small);
     Vector<Mpfr> near_q = q, near_p = p, back_q = q, back_p = p;
     trial.reverse();
@@ -108,7 +108,7 @@ std::map<Quantity, RoundOff> round_off(const Cell& cell, const ConservationRun& 
   return result;
 }
 
-#define HBVM_DEFINE(S) template std::map<Quantity, RoundOff> round_off<S>(const Cell&, const ConservationRun&);
+#define HBVM_DEFINE(S) template std::map<Quantity, RoundOff> round_off<S>(const ClaimGroup&, const ConservationRun&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

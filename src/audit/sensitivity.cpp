@@ -17,7 +17,7 @@ Vector<Mpfr> block_sizes(const Problem<Mpfr>& problem, const Vector<Mpfr>& x) {
 
 }  // namespace
 
-Kick kick(const Problem<Mpfr>& problem, Point<Mpfr>& point, int log2_scale, const Vector<Mpfr>& q,
+Kick kick(const Problem<Mpfr>& problem, StateEvaluator<Mpfr>& point, int log2_scale, const Vector<Mpfr>& q,
           const Vector<Mpfr>& p, unsigned pattern) {
   const auto sizes = [&](const Vector<Mpfr>& x) { return block_sizes(problem, x); };
   const Mpfr scale = ldexp(Mpfr(1), log2_scale);
@@ -36,7 +36,7 @@ Kick kick(const Problem<Mpfr>& problem, Point<Mpfr>& point, int log2_scale, cons
   return kick;
 }
 
-Sensitivity Sensitivity::at(const Problem<Mpfr>& problem, Point<Mpfr>& point, int log2_scale,
+Sensitivity Sensitivity::at(const Problem<Mpfr>& problem, StateEvaluator<Mpfr>& point, int log2_scale,
                             const std::vector<MomentumComponent<Mpfr>>& momenta, const Vector<Mpfr>& q,
                             const Vector<Mpfr>& p) {
   // Small enough for its square not to count, and far above the round-off here.

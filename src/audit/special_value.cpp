@@ -9,8 +9,8 @@
 namespace hbvm::core {
 namespace {
 
-/// The derivative of order `order` of q at the start of a step, from the polynomial u: u' = M^-1 sum_j P_j gamma_j,
-/// where on [0, 1] P_j^(r)(0) = sqrt(2 j + 1) (-1)^(j - r) (j + r)! / ((j - r)! r!).
+/// The derivative of order `order` of q at the start of a step, from the polynomial u with u' = M^-1 sum_j P_j gamma_j.
+/// On [0, 1] P_j^(r)(0) = sqrt(2 j + 1) (-1)^(j - r) (j + r)! / ((j - r)! r!).
 Vector<Mpfr> derivative(const Problem<Mpfr>& problem, const StepPolynomials& step, int order) {
   const int r = order - 1, s = static_cast<int>(step.gamma.rows());
   Vector<Mpfr> momentum = Vector<Mpfr>::Zero(problem.m()), velocity = momentum;
@@ -63,11 +63,11 @@ LeadingTerm leading_term(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, co
 ///
 ///     w = -kappa h^s (psi(t) - psi(0)), s even;   w = -kappa/2 h^(s+1) (psi'(t) - psi'(0)), s odd, t/h even;
 ///     kappa = s! / ((s + 1) (2 s)!)
-double hidden_constant(const Cell& cell) {
+double hidden_constant(const ClaimGroup& group) {
   const PrecisionScope scope(100);
-  const Claim& claim = cell.subject();
+  const Claim& claim = group.subject();
   const int s = claim.method->stages();
-  Laboratory laboratory(cell);
+  Laboratory laboratory(group);
   const Laboratory::Start& start = laboratory.starts().front();
   const Mpfr until = Mpfr(1) / 4, h = ldexp(Mpfr(1), -8);
   Trial<Mpfr> trial(claim);
@@ -98,7 +98,7 @@ double hidden_drift(const Claim& claim) {
   const Assembled<double> scene = assemble<double>(load_scene(claim.problem));
   const auto stepper = claim.method->make_stepper(scene.problem, SolverKind::automatic);
   State<double> state(scene.q0, scene.p0);
-  Point<double> point(scene.problem);
+  StateEvaluator<double> point(scene.problem);
   double early = 0, greatest = 0;
   for (long n = 1; n <= 12'800; ++n) {
     stepper->step(state, 1 / double{10});
@@ -109,11 +109,11 @@ double hidden_drift(const Claim& claim) {
 }
 
 /// Mean sweeps of the paper's iteration over 64 steps of 1/16 in double.
-double mean_sweeps(const Cell& cell) {
+double mean_sweeps(const ClaimGroup& group) {
   constexpr long steps = 64;
   const PrecisionScope scope(static_cast<unsigned>(digits10<double>()) + guard_digits);
-  Laboratory laboratory(cell);
-  Trial<double> trial(cell.subject(), SolverKind::paper);
+  Laboratory laboratory(group);
+  Trial<double> trial(group.subject(), SolverKind::paper);
   trial.begin(laboratory.starts().front(), Mpfr(1) / 16);
   long sweeps = 0;
   for (long n = 0; n < steps; ++n) sweeps += trial.step();
@@ -122,17 +122,17 @@ double mean_sweeps(const Cell& cell) {
 
 }  // namespace
 
-double special_value(const Cell& cell) {
-  const Claim& claim = cell.subject();
+double special_value(const ClaimGroup& group) {
+  const Claim& claim = group.subject();
   switch (claim.quantity) {
     case Quantity::hidden_constant:
-      return hidden_constant(cell);
+      return hidden_constant(group);
     case Quantity::hidden_drift:
       return hidden_drift(claim);
     case Quantity::sweeps: {
-      Cell least = cell;
+      ClaimGroup least = group;
       least.claims.front().method = hbvm_of({claim.method->stages(), claim.method->stages()});
-      return mean_sweeps(cell) - mean_sweeps(least);
+      return mean_sweeps(group) - mean_sweeps(least);
     }
     default:
       throw InputError("quantity '" + std::string(name_of(claim.quantity)) + "' is measured by its rate");

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "error_sizes.hpp"
 #include "measurements.hpp"
 #include "sensitivity.hpp"
-#include "sizes.hpp"
 #include "trial.hpp"
 
 namespace hbvm::core {
@@ -15,27 +15,27 @@ constexpr double step_roundings = 12;
 template <Scalar S>
 class StepMeasurement {
  public:
-  StepMeasurement(Laboratory& laboratory, const Cell& cell, double log2_epsilon)
-      : laboratory_(laboratory), cell_(cell), unit_(log2_epsilon + step_roundings), s_(cell.stages()) {
+  StepMeasurement(Laboratory& laboratory, const ClaimGroup& group, double log2_epsilon)
+      : laboratory_(laboratory), group_(group), unit_(log2_epsilon + step_roundings), s_(group.stages()) {
     for (const Laboratory::Start& start : laboratory.starts())
       sensitivities_.push_back(
-          Sensitivity::at(laboratory.problem(), laboratory.point(), cell.log2_scale, {}, start.q, start.p));
+          Sensitivity::at(laboratory.problem(), laboratory.point(), group.log2_scale, {}, start.q, start.p));
   }
 
   /// From start number i.
-  Margins measure(Trial<S>& trial, std::size_t i, int log2_h, Sizes& sizes) {
+  Margins measure(Trial<S>& trial, std::size_t i, int log2_h, ErrorSizes& sizes) {
     const Problem<Mpfr>& problem = laboratory_.problem();
-    Point<Mpfr>& point = laboratory_.point();
+    StateEvaluator<Mpfr>& point = laboratory_.point();
     const Laboratory::Start& start = laboratory_.starts()[i];
     const Sensitivity& sensitivity = sensitivities_[i];
     const Mpfr h = ldexp(Mpfr(1), log2_h);
     trial.begin(start, h);
     trial.step();
-    cell_.check_time();
+    group_.check_time();
     Vector<Mpfr> q = start.q, p = start.p;
     trial.state(q, p);
     const ReferenceMotion exact(problem, start.q, start.p, h, 1, s_ + 2);
-    cell_.check_time();
+    group_.check_time();
 
     const double q_unit = unit_ + sensitivity.q, p_unit = unit_ + sensitivity.p;
     const Margins margin(exact.errors());
@@ -60,9 +60,9 @@ class StepMeasurement {
     trial.multiplier(lambda);
     // Multipliers come from momenta divided by h.
     const double lambda_unit = unit_ + sensitivity.lambda,
-                 divided = lambda_unit + std::max(cell_.log2_scale - log2_h, 0);
+                 divided = lambda_unit + std::max(group_.log2_scale - log2_h, 0);
     const Mpfr hidden = max_norm(point.hidden_constraints(q, p));
-    if (cell_.asks_for(Quantity::g)) {
+    if (group_.asks_for(Quantity::g)) {
       const Vector<Mpfr> g_0 = point.constraints(start.q);
       add(Quantity::g, distance(point.constraints(q), g_0), unit_ + sensitivity.g);
     }
@@ -77,7 +77,7 @@ class StepMeasurement {
 
  private:
   void add_polynomials(Trial<S>& trial, const Laboratory::Start& start, const Mpfr& h, const Vector<Mpfr>& p1,
-                       const ReferenceMotion& exact, double floor, Sizes& sizes) {
+                       const ReferenceMotion& exact, double floor, ErrorSizes& sizes) {
     constexpr int points = 8;
     const Problem<Mpfr>& problem = laboratory_.problem();
     const StepPolynomials own = polynomials(trial, start.q, p1, h, s_);
@@ -94,7 +94,7 @@ class StepMeasurement {
   }
 
   Laboratory& laboratory_;
-  const Cell& cell_;
+  const ClaimGroup& group_;
   double unit_;
   int s_;
   std::vector<Sensitivity> sensitivities_;
@@ -103,16 +103,16 @@ class StepMeasurement {
 }  // namespace
 
 template <Scalar S>
-Ladders step_ladder(const Cell& cell, const Enough& enough) {
-  const double log2_epsilon = cell.log2_unit<S>();
-  Trial<S> trial(cell.subject());
+Ladders step_ladder(const ClaimGroup& group, const Enough& enough) {
+  const double log2_epsilon = group.log2_unit<S>();
+  Trial<S> trial(group.subject());
   const PrecisionScope scope(static_cast<unsigned>(digits10<S>()) + guard_digits);
-  Laboratory laboratory(cell);
-  StepMeasurement<S> measurement(laboratory, cell, log2_epsilon);
+  Laboratory laboratory(group);
+  StepMeasurement<S> measurement(laboratory, group, log2_epsilon);
   Ladders ladders;
   for (int exponent = 2; exponent <= 128; exponent += exponent < 12 ? 1 : 4) {
-    const int log2_h = cell.log2_scale - exponent;
-    Sizes sizes;
+    const int log2_h = group.log2_scale - exponent;
+    ErrorSizes sizes;
     Margins margins;
     try {
       for (std::size_t i = 0; i < laboratory.starts().size(); ++i)
@@ -128,7 +128,7 @@ Ladders step_ladder(const Cell& cell, const Enough& enough) {
   return ladders;
 }
 
-#define HBVM_DEFINE(S) template Ladders step_ladder<S>(const Cell&, const Enough&);
+#define HBVM_DEFINE(S) template Ladders step_ladder<S>(const ClaimGroup&, const Enough&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

@@ -19,7 +19,7 @@ void copy_exactly(To& to, const From& from) {
 }
 
 /// The method under audit on a problem, in the working precision S. What it hands out is exact in the digits of the
-/// laboratory's scope, which it may be called from; its own work is done in a scope of `digits`.
+/// laboratory's scope, which it may be called from. Its own work is done in a scope of `digits`.
 template <Scalar S>
 class Trial {
  public:
@@ -58,14 +58,5 @@ StepPolynomials polynomials(Trial<S>& trial, const Vector<Mpfr>& q0, const Vecto
 template <Scalar S>
 Mpfr delta_lambda(Laboratory& laboratory, Trial<S>& trial, const Vector<Mpfr>& q0, const Vector<Mpfr>& p1,
                   const Mpfr& h, Index s);
-
-#define HBVM_DECLARE(S)                                                                                               \
-  extern template class Trial<S>;                                                                                     \
-  extern template StepPolynomials polynomials<S>(Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&,    \
-                                                 Index);                                                              \
-  extern template Mpfr delta_lambda<S>(Laboratory&, Trial<S>&, const Vector<Mpfr>&, const Vector<Mpfr>&, const Mpfr&, \
-                                       Index);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

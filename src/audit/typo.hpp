@@ -15,13 +15,13 @@ struct Typo {
   int order = 0;         ///< that the method has then
 };
 
-/// Looks for an entry, of those that are not 0, that meets the conditions of the next order when changed alone, and
-/// with them at least two that it was not changed for. None from order 6 on, where that takes long. \param order that
-/// the conditions show to `digits`
+/// Looks for an entry other than 0 that meets the conditions of the next order when changed alone. It must also meet at
+/// least two that it was not changed for. None from order 6 on, where that takes long. \param order that the conditions
+/// show to `digits`
 std::optional<Typo> typo_of(const Tableau& tableau, int order, int digits);
 
-/// Whether the conditions of the next order are met so much better than a method of this order meets them by itself
-/// (Gauss's, which come nearest, miss one by 1/binom(p, p/2) of it) that they are likely to be meant.
+/// Whether the conditions of the next order are likely to be meant. They are if met much better than a method of this
+/// order meets them by itself. Gauss's methods come nearest: they miss one condition by 1/binom(p, p/2) of it.
 bool is_nearly_of_next_order(const Tableau& tableau, int order);
 
 }  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "hbvm/error.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/program_series.hpp"
 #include "reference/reference_motion.hpp"
 #include "sensitivity.hpp"
@@ -20,12 +20,12 @@ constexpr int more_degrees = 6, most_degree = 60;
 
 }  // namespace
 
-WeakTerms::Sizes::Sizes() : greatest(none), least(-none), least_of_all(-none) {}
+WeakTerms::ErrorSizes::ErrorSizes() : greatest(none), least(-none), least_of_all(-none) {}
 
 WeakTerms::WeakTerms(const Assembled<Mpfr>& scene, int log2_scale, int exact_degree)
     : scene_(scene), exact_degree_(exact_degree) {
   const Problem<Mpfr>& problem = scene.problem;
-  Point<Mpfr> point(problem);
+  StateEvaluator<Mpfr> point(problem);
   constexpr unsigned patterns = 4;
   for (unsigned pattern = 1; pattern <= patterns; ++pattern) {
     const Vector<Mpfr> off = kick(problem, point, log2_scale, scene.q0, scene.p0, pattern).q;
@@ -38,14 +38,14 @@ WeakTerms::WeakTerms(const Assembled<Mpfr>& scene, int log2_scale, int exact_deg
       if (term.symmetry.acts[static_cast<std::size_t>(i)]) expand(term, i, of_U_);
   for (const Constraint<Mpfr>& constraint : problem.constraints)
     if (const auto* formula = std::get_if<FormulaConstraint<Mpfr>>(&constraint.form)) {
-      Sizes of_this;
+      ErrorSizes of_this;
       expand(formula->term, 0, of_this);
       of_g_.told = std::max(of_g_.told, of_this.bits().told);
       of_g_.all = std::max(of_g_.all, of_this.bits().all);
     }
 }
 
-void WeakTerms::expand(const EffectTerm<Mpfr>& term, Index instance, Sizes& sizes) {
+void WeakTerms::expand(const EffectTerm<Mpfr>& term, Index instance, ErrorSizes& sizes) {
   const Index d = scene_.problem.dimension, inputs = term.arguments * d;
   const auto order =
       static_cast<Index>(std::clamp(std::max(term.degree, exact_degree_ + more_degrees), 1, most_degree));

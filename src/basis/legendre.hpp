@@ -30,14 +30,4 @@ Matrix<S> X_matrix(int s);
 template <Scalar S>
 Matrix<S> legendre_shift(int count);
 
-#define HBVM_DECLARE(S)                                                   \
-  extern template Matrix<S> legendre_values<S>(const Vector<S>&, int);    \
-  extern template Matrix<S> legendre_integrals<S>(const Vector<S>&, int); \
-  extern template Matrix<S> legendre_integrals<S>(const Matrix<S>&);      \
-  extern template S xi<S>(int);                                           \
-  extern template Matrix<S> X_matrix<S>(int);                             \
-  extern template Matrix<S> legendre_shift<S>(int);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -3,7 +3,7 @@
 
 #include "commands.hpp"
 #include "scene/scene.hpp"
-#include "words.hpp"
+#include "unexpected_word.hpp"
 
 namespace hbvm::core {
 namespace {

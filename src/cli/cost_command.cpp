@@ -10,15 +10,16 @@
 #include "cost/cost_report.hpp"
 #include "cost/measuring_system.hpp"
 #include "cost/planner.hpp"
+#include "door/door.hpp"
 #include "hbvm/version.hpp"
 #include "interruption.hpp"
 #include "long_work.hpp"
+#include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "processes/in_processes.hpp"
 #include "report/csvw.hpp"
 #include "signals.hpp"
 #include "write_file.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -58,16 +59,8 @@ std::pair<double, double> range_of_digits(const std::string& text) {
   return range;
 }
 
-Expression end_time(const std::string& text) {
-  try {
-    return Expression::parse(text);
-  } catch (const ExpressionError& error) {
-    throw InputError("--until: " + std::string(error.what()));
-  }
-}
-
 CostStudy study_of(const CostArguments& o) {
-  CostStudy study{load_scene(o.scene), end_time(o.until)};
+  CostStudy study{load_scene(o.scene), expression_of(o.until, "--until:")};
   study.quantity = parse_cost_quantity(o.quantity);
   std::tie(study.least_digits, study.most_digits) = range_of_digits(o.range);
   study.methods = cost_methods(o.methods, study.most_digits);
@@ -169,7 +162,8 @@ void grid_command(const CostArguments& o) {
 }
 
 void plan_command(const CostArguments& o) {
-  PlanRequest request{load_scene(o.scene), end_time(o.until), *o.digits, parse_cost_quantity(o.quantity)};
+  PlanRequest request{load_scene(o.scene), expression_of(o.until, "--until:"), *o.digits,
+                      parse_cost_quantity(o.quantity)};
   request.methods = cost_methods(o.methods, request.digits, Choice::dense);
   for (const std::string& name : o.precisions) request.precisions.push_back(Precision::parse(name));
   const std::string command = command_of(o) + fmt::format(" --digits {}", *o.digits);

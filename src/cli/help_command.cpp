@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "words.hpp"
+#include "unexpected_word.hpp"
 
 namespace hbvm::core {
 

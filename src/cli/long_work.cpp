@@ -8,7 +8,7 @@
 
 #include "file_lock.hpp"
 #include "hbvm/error.hpp"
-#include "written.hpp"
+#include "output_files.hpp"
 
 namespace hbvm::core {
 

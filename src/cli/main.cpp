@@ -9,7 +9,7 @@
 #include "interruption.hpp"
 #include "nearest.hpp"
 #include "reference/taylor_method.hpp"
-#include "words.hpp"
+#include "unexpected_word.hpp"
 
 namespace {
 

@@ -9,19 +9,20 @@
 #include <mutex>
 #include <optional>
 
-#include "against_results.hpp"
 #include "commands.hpp"
+#include "compare_results.hpp"
+#include "door/door.hpp"
 #include "hbvm/reference.hpp"
 #include "hbvm/version.hpp"
 #include "interruption.hpp"
 #include "long_work/cells.hpp"
+#include "output_files.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
 #include "reference/compute_reference.hpp"
 #include "reference/store.hpp"
 #include "scene/coordinate_names.hpp"
 #include "signals.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -29,18 +30,12 @@ namespace {
 struct ReferenceArguments {
   std::optional<std::string> scene, until, route, out, verify, show, checkpoint;
   std::vector<std::string> at;
-  AgainstArguments against;
+  ComparisonArguments against;
   int digits = 30;
   bool json = false, list = false, force = false;
 };
 
-Expression time_of(const std::string& text) {
-  try {
-    return Expression::parse(text);
-  } catch (const ExpressionError& error) {
-    throw InputError("a time of the reference: " + std::string(error.what()));
-  }
-}
+Expression time_of(const std::string& text) { return expression_of(text, "a time of the reference:"); }
 
 std::string today() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -243,7 +238,7 @@ void add_reference_command(CLI::App& app) {
   command->add_flag("--list", o->list, "List the references that are shipped");
   command->add_option("--show", o->show, "Print those of a scene, and how to load them elsewhere");
   command->add_option("--verify", o->verify, "Compute the reference of this file again, and compare digit by digit");
-  add_against_options(*command, o->against);
+  add_comparison_options(*command, o->against);
   command->footer("Example: hbvm reference tethered_satellites --until 10 --digits 50");
   command->callback([o] { reference_command(*o); });
 }

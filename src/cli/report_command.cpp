@@ -3,9 +3,9 @@
 
 #include "commands.hpp"
 #include "hbvm/version.hpp"
+#include "output_files.hpp"
 #include "report/folder_report.hpp"
 #include "write_file.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 

@@ -13,20 +13,23 @@
 #include "hbvm/version.hpp"
 #include "integrate/time_grid.hpp"
 #include "interruption.hpp"
+#include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
 #include "resume.hpp"
+#include "run/error_estimate.hpp"
+#include "run/health.hpp"
 #include "run/run_figure.hpp"
 #include "run/run_page.hpp"
 #include "run/scene_run.hpp"
+#include "run/shadow.hpp"
 #include "run/trajectory_metadata.hpp"
 #include "scalar/text.hpp"
 #include "scene/coordinate_names.hpp"
 #include "signals.hpp"
 #include "step/registry.hpp"
 #include "write_file.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -73,7 +76,7 @@ void print_right_digits(const Quantity& quantity, std::vector<std::string> value
 }
 
 /// The state at the end, to the digits that are right if they are known.
-void print_state(const Scene& scene, const RunResult& result) {
+void print_state(const Scene& scene, const Run& result) {
   const Quantity q{"q", coordinate_names(scene)}, p{"p", coordinate_names(scene, "p")}, lambda{"lambda"};
   fmt::print("state at t = {}\n", result.t);
   const char* const of_output =
@@ -104,7 +107,7 @@ std::string nodes_of(const NodesReport::Raise& raise) {
   return raise.r > 0 ? fmt::format("r = {}", raise.r) : fmt::format("{}", raise.k);
 }
 
-void print(const RunRequest& request, const RunResult& result) {
+void print(const RunRequest& request, const Run& result, const Account& account) {
   if (result.nodes) {
     fmt::print("k = {}{}: {}\n", result.nodes->k, result.nodes->r > 0 ? fmt::format(", r = {}", result.nodes->r) : "",
                result.nodes->because);
@@ -123,10 +126,10 @@ void print(const RunRequest& request, const RunResult& result) {
                  halving.steps == 1 ? "1 step was" : fmt::format("{} steps were", halving.steps), 1L << halving.depth,
                  halving.first_t);
   }
-  fmt::print("{}: {}\n", request.scene.name, request.scene.title);
-  fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method->text(), request.precision.name(),
-             name_of(request.solver), result.steps, result.step);
-  if (!result.settled.empty()) fmt::print("the start is {}\n", result.settled);
+  fmt::print("{}: {}\n", result.scene, result.title);
+  fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method, result.precision, result.solver, result.steps,
+             result.step);
+  if (!result.start_settled.empty()) fmt::print("the start is {}\n", result.start_settled);
   print_state(request.scene, result);
   fmt::print("greatest errors at mesh points\n");
   const auto error = [](const char* what, const char* symbol, const std::string& value) {
@@ -144,7 +147,7 @@ void print(const RunRequest& request, const RunResult& result) {
     fmt::print("  {:<14} {}, changed by up to {}\n", o.name, o.initial, o.drift);
   fmt::print("cost\n  {:.2f} iterations per step, {:.3f} s of processor time\n", result.iterations_per_step,
              result.cpu_seconds);
-  if (request.account) fmt::print("\n{}", to_text(result.account));
+  if (request.account) fmt::print("\n{}", to_text(account));
 }
 
 std::unique_ptr<CsvFile> open(const std::string& path, const RunArguments& o) {
@@ -281,9 +284,11 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   const auto say_all_written = [&] { std::for_each(written.begin(), written.end(), say_written); };
   std::optional<Plot> plot;
   if (o.plot) hooks.recording = plot.emplace(*o.plot).recording();
+  Account account;
+  hooks.account = &account;
   end_runs_on_signals();
   try {
-    const RunResult result = [&] {
+    Run result = [&] {
       try {
         return run(request, hooks);
       } catch (const InputError&) {
@@ -297,10 +302,11 @@ void run_command(const RunArguments& o, const CLI::App& command) {
     }();
     say_all_written();
     if (plot) plot->draw(request, made_by);
+    result.command = made_by;
     if (o.json)
-      std::cout << to_json(run_of(request, result, made_by)) << std::endl;
+      std::cout << to_json(result) << std::endl;
     else
-      print(request, result);
+      print(request, result, account);
     constexpr int doubtful = 3;
     if (o.strict && !result.health.warnings.empty()) throw CLI::RuntimeError(doubtful);
   } catch (const Interrupted& end) {

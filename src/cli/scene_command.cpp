@@ -4,13 +4,13 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "run/describe.hpp"
 #include "run/run_figure.hpp"
 #include "scalar/with_scalar.hpp"
 #include "scene/project.hpp"
 #include "scene/with_start.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 namespace {

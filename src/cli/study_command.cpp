@@ -5,9 +5,9 @@
 
 #include "commands.hpp"
 #include "long_work.hpp"
+#include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "study/study.hpp"
-#include "written.hpp"
 
 namespace hbvm::core {
 namespace {

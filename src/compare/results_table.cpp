@@ -83,7 +83,7 @@ ResultsTable::ResultsTable(const ResultsFile& file) {
   if (cells.empty()) throw InputError(file.name + ": no line of numbers below one of names");
 }
 
-ResultsColumns::ResultsColumns(const AgainstRequest& request, const ResultsFile& file, const ResultsTable& rows)
+ResultsColumns::ResultsColumns(const ComparisonRequest& request, const ResultsFile& file, const ResultsTable& rows)
     : file_(file),
       rows_(rows),
       positions_(coordinate_names(request.scene)),
@@ -106,7 +106,7 @@ ResultsColumns::ResultsColumns(const AgainstRequest& request, const ResultsFile&
                      ", ..., " + velocities_.front() + ", ... (map some by --map \"theirs=ours,...\")");
 }
 
-void ResultsColumns::read_map(const AgainstRequest& request) {
+void ResultsColumns::read_map(const ComparisonRequest& request) {
   std::set<std::string> mapped;
   for (const auto& [theirs, ours] : request.map) {
     if (ours != "t" && !is_one_of(ours, positions_) && !is_one_of(ours, momenta_) && !is_one_of(ours, velocities_))

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/against.hpp"
+#include "compare/comparison.hpp"
 #include "scalar/expression.hpp"
 #include "scalar/scalar.hpp"
 
@@ -29,7 +29,7 @@ class ResultsColumns {
   };
 
   /// Both must outlive this. \throws InputError for a map that cannot be read, without a time, or with nothing else
-  ResultsColumns(const AgainstRequest& request, const ResultsFile& file, const ResultsTable& rows);
+  ResultsColumns(const ComparisonRequest& request, const ResultsFile& file, const ResultsTable& rows);
 
   const std::vector<Reading>& readings() const { return readings_; }
   const std::vector<std::string>& positions() const { return positions_; }
@@ -43,7 +43,7 @@ class ResultsColumns {
   std::string text(const Reading& reading, std::size_t row) const;
 
  private:
-  void read_map(const AgainstRequest& request);
+  void read_map(const ComparisonRequest& request);
   Expression number(std::size_t row, std::size_t column) const;
   std::string own_name(const std::string& theirs) const;
 

@@ -33,7 +33,7 @@ Part part_of(const AccountLine& line, bool all_in_double) {
   return corrections;
 }
 
-/// The run that stands for a precision: of those of HBVM that came to their end the one with the most digits; of
+/// The run that stands for a precision, of those of HBVM that came to their end. It is the one with the most digits; of
 /// equally many, within one, the quickest.
 const CostFinding* bar_of(const CostStudy& study, const CostOutcome& outcome, const Precision& precision) {
   const CostFinding* best = nullptr;

@@ -7,9 +7,9 @@
 namespace hbvm::core {
 
 /// A fixed count of steps of HBVM(2,2) on three tethered satellites in the working precision: some milliseconds on an
-/// idle machine. Measured beside a run it shows what else the machine was doing, and as it is the solver's own code,
-/// with as many instructions and as much memory, it is slowed down by what slows down runs. (A loop of products and
-/// sums is not: where a run took 1.6 times as long, it took 1.08.)
+/// idle machine. Measured beside a run it shows what else the machine was doing. It is the solver's own code, with as
+/// many instructions and as much memory, and so is slowed down by what slows down runs. (A loop of products and sums is
+/// not: where a run took 1.6 times as long, it took 1.08.)
 template <Scalar S>
 class Calibration {
  public:
@@ -26,9 +26,5 @@ class Calibration {
 
 /// Typical nanoseconds of an operation, from double to many digits: to plan with, never to measure with.
 double typical_nanoseconds(const Precision& precision);
-
-#define HBVM_DECLARE(S) extern template class Calibration<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

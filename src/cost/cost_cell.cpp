@@ -34,7 +34,7 @@ long bytes_in_use() {
 
 /// f() in a thread with a heap of its own that nothing was taken from before. One that was used has gaps, which differ
 /// from process to process, and pieces that fill them are larger here and there. A new thread goes on with the heap of
-/// one that has ended, if there is any: so such a heap is kept busy by the thread that has it while the next one looks.
+/// one that has ended, if there is any. So such a heap is kept busy by the thread that has it while the next one looks.
 /// (There may be so many threads that heaps are shared: then the last one has to do.)
 template <class F>
 long in_new_heap(const F& f, int most = 16) {
@@ -97,7 +97,7 @@ class CostRun {
       m.seconds = run.cpu_seconds;
       m.sweeps = run.sweeps;
       add_counts_of(m, account_of(assembled_.problem, made->counts()));
-      Point<S> point(assembled_.problem);
+      StateEvaluator<S> point(assembled_.problem);
       const OutputState<S> output = output_state(point, run.end.q, run.end.p);
       m.errors = judge.errors<S>(run.end.q, output.p, output.lambda);
       m.raw = judge.errors<S>(run.end.q, run.end.p, run.end.lambda);
@@ -114,7 +114,7 @@ class CostRun {
     return m;
   }
 
-  /// What the heap holds of coefficients and stepper after the first steps; once a run was made, what is kept for all
+  /// What the heap holds of coefficients and stepper after the first steps. Once a run was made, what is kept for all
   /// runs is there already.
   long held_bytes() {
     const auto held = [&]<Scalar>() {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "hbvm/error.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/reference_motion.hpp"
 #include "scalar/precision.hpp"
 
@@ -46,7 +46,7 @@ CostJudge::CostJudge(const Scene& scene, const ReferenceState& state, int digits
   working_digits_ = std::max(static_cast<unsigned>(digits) + guard, Precision::min_digits);
   const PrecisionScope scope(working_digits_);
   const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
-  Point<Mpfr> point(assembled.problem);
+  StateEvaluator<Mpfr> point(assembled.problem);
   const Index dimension = assembled.problem.dimension;
   q_ = component(state.q, assembled.q0, dimension, resolution_.q);
   p_ = component(state.p, assembled.p0, dimension, resolution_.p);

@@ -22,9 +22,9 @@ struct CostErrors {
   double of(CostQuantity quantity) const;
 };
 
-/// Says how far a state is from the reference, relative to it: the coordinates of a body, or of a director of one, are
-/// compared with the greatest of them, and a multiplier with itself. What is 0 there is compared with the greatest of
-/// its kind, q, p or lambda. So bodies, lengths and units may be as uneven as they like.
+/// Says how far a state is from the reference, relative to it. The coordinates of a body, or of a director of one, are
+/// compared with the greatest of them. A multiplier is compared with itself. What is 0 there is compared with the
+/// greatest of its kind, q, p or lambda. So bodies, lengths and units may be as uneven as they like.
 class CostJudge {
  public:
   /// \param state of the scene at the time; it has `digits` digits after the leading one of each vector
@@ -51,10 +51,5 @@ class CostJudge {
   Component q_, p_, lambda_;
   CostErrors resolution_;
 };
-
-#define HBVM_DECLARE(S) \
-  extern template CostErrors CostJudge::errors<S>(const Vector<S>&, const Vector<S>&, const Vector<S>&) const;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

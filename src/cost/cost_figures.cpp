@@ -63,8 +63,8 @@ Panel work_panel(const std::string& title) {
 /// Of those that divide their steps, whatever digits they are asked for, one curve is the front.
 std::string curve_key(const Method& method) { return method.digits() ? family_of(method) : method.key(); }
 
-/// A curve a method, of its steps that are the best for something: of each family that which is nearest to the front of
-/// all, then others as near as may be.
+/// A curve a method, of its steps that are the best for something. Of each family the method that is nearest to the
+/// front of all is drawn, then others as near as may be.
 void add_methods(Panel& panel, const std::vector<Drawn>& all) {
   constexpr std::size_t most = 9;
   const std::vector<PlotPoint> front = front_of(all);

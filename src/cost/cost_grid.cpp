@@ -52,8 +52,8 @@ CountedStep count_step(const CostStudy& study, const MethodPtr& method, const Pr
     const CostCell cell{made, precision, std::max(1L, static_cast<long>(std::ceil(steps)))};
     const CostSample sample = sample_cost(study.scene, study.until, cell, few, always);
     if (!sample.failure.empty()) continue;
-    // Of methods on the index-reduced equations the forces alone are counted, and neither sums nor what the constraints
-    // cost, which is more; eight times the sums, about.
+    // Of methods on the index-reduced equations the forces alone are counted, and neither sums nor constraints. The
+    // constraints cost more: eight times the sums, about.
     const bool forces_alone = !method->kept().constraints && !as_hbvm(*method);
     const double coordinates = 3 * static_cast<double>(std::max<std::size_t>(1, study.scene.bodies.size()));
     const double sums = forces_alone ? 8 * coordinates * std::pow(method->terms(), 2) : double{0};

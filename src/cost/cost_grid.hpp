@@ -43,9 +43,9 @@ double reachable_digits(const Precision& precision, const MotionNature& nature);
 /// double, quad, and as many digits as it takes: for 15, 30, 50, 100, 200 ... right ones, up to the most.
 std::vector<Precision> default_precisions(double most_digits, const MotionNature& nature);
 
-/// The cells of a study, in a random order that is always the same: to each method and precision steps that halve, or
-/// shrink by the root of 2 where the order is high, so that the errors, as ErrorModel has them, span what the precision
-/// is for; but none that is predicted to take too long.
+/// The cells of a study, in a random order that is always the same. The steps of each method and precision halve, or
+/// shrink by the root of 2 where the order is high. Their errors, as ErrorModel has them, span what the precision is
+/// for. No cell is predicted to take too long.
 std::vector<CostCell> cost_grid(const CostStudy& study, const MotionNature& nature);
 
 }  // namespace hbvm::core

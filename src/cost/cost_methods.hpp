@@ -14,10 +14,10 @@ enum class Choice {
   dense   ///< for the best
 };
 
-/// Methods by what a user lists: a method as parse_method() reads it, or the name of a family, which stands for members
-/// of it that suit so many digits: "gauss" (HBVM(s,s)), "auto" (hbvm:auto,S), "rattle", "compose", "lobatto",
-/// "projected_hbvm", "restored_hbvm", "bulirsch_stoer", and any other family of the registry that needs no arguments.
-/// An empty list is all of these.
+/// Methods by what a user lists: a method as parse_method() reads it, or the name of a family. A family stands for
+/// members of it that suit so many digits. The names are "gauss" (HBVM(s,s)), "auto" (hbvm:auto,S), "rattle",
+/// "compose", "lobatto", "projected_hbvm", "restored_hbvm", "bulirsch_stoer", and any other family of the registry that
+/// needs no arguments. An empty list is all of these.
 /// \throws InputError for what is neither
 std::vector<MethodPtr> cost_methods(const std::vector<std::string>& list, double most_digits,
                                     Choice choice = Choice::plain);
@@ -29,8 +29,8 @@ std::vector<std::string> cost_families();
 /// that keeps the energy whatever the step asks for as many as there are.
 bool suits(const Method& method, const Precision& precision);
 
-/// About what length of step, of the radius of convergence, errors of a method of this order pass 1: hypotheses for
-/// choosing steps, which measurements replace.
+/// About what length of step, of the radius of convergence, errors of a method of this order pass 1. These are
+/// hypotheses for choosing steps, which measurements replace.
 double typical_reach(const Method& method);
 
 }  // namespace hbvm::core

@@ -37,8 +37,8 @@ std::string to_json(const CostStudy& study, const CostOutcome& outcome, const st
 Figure work_precision_figure(const CostStudy& study, const CostOutcome& outcome);
 /// The least time for so many digits, a curve a family of methods.
 Figure digits_figure(const CostStudy& study, const CostOutcome& outcome);
-/// Where the time of a step goes: to each precision a bar, of the run of HBVM on the front with the most digits that
-/// the precision is for.
+/// Where the time of a step goes, a bar for each precision. The bar is of the run of HBVM on the front with the most
+/// digits that the precision is for.
 Figure breakdown_figure(const CostStudy& study, const CostOutcome& outcome);
 
 /// All of these, and those of steps and energies, as far as something was measured for them.

@@ -25,8 +25,8 @@ struct EnergyCost {
 /// allow.
 Expression energy_until(const CostStudy& study, const MotionNature& nature);
 
-/// Runs in double to that time: of each family of the study the member of an order next to 4, each with steps that are
-/// predicted to take from half to twice the time of HBVM(2,2) with a quarter of the radius of convergence.
+/// Runs in double to energy_until(), of the member of each family of the study whose order is next to 4. Their steps
+/// are predicted to take from half to twice the time of HBVM(2,2) with a quarter of the radius of convergence.
 std::vector<CostCell> energy_cells(const CostStudy& study, const MotionNature& nature);
 
 /// Runs of HBVM(k,s), s = 1 to 4, with k from s to 6s, to the time of the study, in double and 40 digits.

@@ -5,7 +5,7 @@
 namespace hbvm::core {
 
 /// Digits that a run with steps h leaves right: order log10(reach / h) - lost. The error of a step of order p is
-/// (h/reach)^p, which for many stages is the geometric convergence of the series of a step; the motion magnifies it by
+/// (h/reach)^p. For many stages this is the geometric convergence of the series of a step. The motion magnifies it by
 /// 10^lost until the end.
 struct ErrorModel {
   double order = 0;

@@ -24,8 +24,8 @@ class MethodErrors {
  public:
   MethodErrors(const PlanRequest& request, const MotionNature& nature, const CostJudge& judge);
 
-  /// A run of few digits for each method, but for those of many stages and those that divide their steps; what has no
-  /// digits in a short time is left out.
+  /// A run of few digits for each method, but for those of many stages and those that divide their steps. A method
+  /// without digits in a short time is left out.
   void learn(const std::function<void(double)>& progress);
   /// What was not run gets the reach of its nearest neighbour among HBVM(s,s).
   void share_reach();

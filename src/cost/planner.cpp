@@ -45,8 +45,8 @@ class Planner {
 
   std::vector<Precision> precisions() const {
     if (!request_.precisions.empty()) return request_.precisions;
-    // How far a motion magnifies errors of its start bounds what it does to rounding, and may be far from it: a
-    // precision that may do is tried, and if it need not, a greater one is at hand.
+    // How far a motion magnifies errors of its start bounds what it does to rounding, and may be far from it. So a
+    // precision that may do is tried; if it does not, a greater one is at hand.
     constexpr double sure = 1;
     const MotionNature harmless{};
     std::vector<Precision> result;
@@ -98,8 +98,8 @@ class Planner {
     }
   }
 
-  /// Whether a method that divides its steps is asked for so many digits that what the motion leaves of them is enough,
-  /// and not much more.
+  /// Whether the digits asked of a method that divides its steps fit the request. What the motion leaves of them is to
+  /// be enough, and not much more.
   bool may_divide_well(const Method& method, const Precision& precision) const {
     constexpr double further = 6;
     const double asked = *method.digits();

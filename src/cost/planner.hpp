@@ -43,11 +43,11 @@ struct Plan {
   int runs = 0;  ///< made to the end to find out
 };
 
-/// The cheapest setting for so many right digits. Each method is run once with few digits over the whole time, which
-/// shows the reach of its steps and what the motion makes of errors, ErrorModel; a few of its steps in the precision
-/// it would need show what a step costs. The cheapest by these models is run to the end; the models learn from it, and
-/// the next is taken, until nothing that was not run is predicted to be cheaper than the best that was, and has the
-/// digits. Methods that divide their steps have no step to be found: they are tried with one.
+/// The cheapest setting for so many right digits. Each method is run once with few digits over the whole time. This
+/// shows the reach of its steps and what the motion makes of errors, ErrorModel. A few of its steps in the precision it
+/// would need show what a step costs. The cheapest by these models is run to the end; the models learn from it, and the
+/// next is taken. This ends when nothing else is predicted to be cheaper than the best run that has the digits. Methods
+/// that divide their steps have no step to be found: they are tried with one.
 /// \throws InputError, IntegrationError if nothing has the digits
 Plan plan_cost(const PlanRequest& request);
 

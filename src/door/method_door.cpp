@@ -32,14 +32,14 @@ MethodFacts method_facts(const std::string& text) {
 Tableau read_tableau(const std::string& path) {
   const core::Tableau read = core::read_tableau(path);
   Tableau tableau{.name = read.name, .A = {}, .b = {}, .c = {}, .order = read.order, .digits = read.digits};
-  const auto texts = [](const std::vector<core::Expression>& row) {
+  const auto to_texts = [](const std::vector<core::Expression>& row) {
     Numbers numbers;
     for (const core::Expression& entry : row) numbers.emplace_back(entry.text());
     return numbers;
   };
-  for (const auto& row : read.A) tableau.A.push_back(texts(row));
-  tableau.b = texts(read.b);
-  tableau.c = texts(read.c);
+  for (const auto& row : read.A) tableau.A.push_back(to_texts(row));
+  tableau.b = to_texts(read.b);
+  tableau.c = to_texts(read.c);
   return tableau;
 }
 

@@ -1,7 +1,7 @@
 #include "basis/gauss_legendre.hpp"
 #include "hbvm/nodes.hpp"
 #include "long_work/json.hpp"
-#include "run/texts.hpp"
+#include "run/vector_text.hpp"
 #include "scalar/with_scalar.hpp"
 
 namespace hbvm {
@@ -11,8 +11,8 @@ Nodes nodes(int n, const std::string& name) {
   Nodes result{precision.name(), {}, {}};
   core::with_scalar(precision, [&]<core::Scalar S>() {
     const core::Quadrature<S> formula = core::gauss_legendre<S>(n);
-    result.c = core::texts<S>(formula.c);
-    result.b = core::texts<S>(formula.b);
+    result.c = core::to_texts<S>(formula.c);
+    result.b = core::to_texts<S>(formula.b);
     return 0;
   });
   return result;

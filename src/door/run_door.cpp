@@ -29,26 +29,6 @@ hbvm::Trajectory trajectory_of(std::istream& lines) {
   return trajectory;
 }
 
-OperationList list_of(const OperationCounts& counts) {
-  OperationList list;
-  for (std::size_t op = 0; op < op_count; ++op)
-    list.emplace_back(name_of(static_cast<Op>(op)), counts[static_cast<Op>(op)]);
-  return list;
-}
-
-AccountEntry entry_of(const AccountLine& line) {
-  AccountEntry entry{.name = line.name,
-                     .effect = line.kind == AccountLine::Kind::effect,
-                     .in_double = line.kind == AccountLine::Kind::in_double,
-                     .calls = line.calls,
-                     .evaluations = line.evaluations,
-                     .operations = list_of(line.operations),
-                     .done_before = {},
-                     .seconds = line.seconds};
-  if (line.done_before.total() > 0) entry.done_before = list_of(line.done_before);
-  return entry;
-}
-
 }  // namespace
 
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start) {
@@ -84,47 +64,6 @@ Figure figure_of(const RunRequest& request, const Recording& recording, const st
   return figure;
 }
 
-Run run_of(const RunRequest& request, const RunResult& result, const std::string& command) {
-  Run run;
-  run.scene = request.scene.name;
-  run.title = request.scene.title;
-  run.scene_toml = write_scene(request.scene);
-  run.method = result.method->text();
-  run.solver = name_of(request.solver);
-  run.precision = request.precision.name();
-  run.step = result.step;
-  run.until = result.until;
-  run.t = result.t;
-  run.reverse = request.direction == Direction::backward;
-  if (request.start) run.start = request.start->file;
-  run.start_settled = result.settled;
-  run.steps = result.steps;
-  run.q = result.q;
-  run.p = result.p;
-  run.lambda = result.lambda;
-  run.q_carry = result.q_carry;
-  run.p_carry = result.p_carry;
-  run.output_p = result.output_p;
-  run.output_lambda = result.output_lambda;
-  run.output_delta_H = result.output_delta_H;
-  run.e_H = result.e_H;
-  run.e_g = result.e_g;
-  run.e_hid = result.e_hid;
-  run.iterations_per_step = result.iterations_per_step;
-  run.cpu_seconds = result.cpu_seconds;
-  run.health = result.health;
-  run.nodes = result.nodes;
-  run.halving = result.halving;
-  run.shadow = result.shadow;
-  run.error = result.error;
-  run.observes = !request.scene.observables.empty();
-  run.observables = result.observables;
-  if (request.account)
-    for (const AccountLine& line : result.account.lines) run.account.push_back(entry_of(line));
-  run.command = command;
-  return run;
-}
-
 }  // namespace core
 
 Run run(const RunRequest& door) {
@@ -142,8 +81,8 @@ Run run(const RunRequest& door) {
     hooks.every = door.every;
   }
   if (door.picture) hooks.recording = &recording;
-  const core::RunResult result = core::run(request, hooks);
-  Run run = core::run_of(request, result, core::command_of(door, request));
+  Run run = core::run(request, hooks);
+  run.command = core::command_of(door, request);
   run.trajectory = core::trajectory_of(lines);
   if (door.picture) {
     run.figure = core::figure_of(request, recording, run.command);

@@ -14,8 +14,4 @@ std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request)
 /// The figure of a run: motion, multipliers and errors, with what made it below.
 Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command);
 
-/// A run as people are told of it. The trajectory and pictures are left out.
-/// \param command of the program, which makes the same motion
-Run run_of(const RunRequest& request, const RunResult& result, const std::string& command);
-
 }  // namespace hbvm::core

@@ -10,6 +10,8 @@ struct HardRun {
   std::string method, solver = "auto", step, until;
 };
 
+inline const std::vector<std::string> all_precisions{"double", "quad", "mpfr:50"};
+
 /// Collects the cases of one family.
 class Family {
  public:
@@ -18,10 +20,7 @@ class Family {
 
   bool full() const { return full_; }
   /// The precisions of each case: all in the full collection, the first alone in the quick one.
-  std::vector<std::string> precisions(std::vector<std::string> all = {"double", "quad", "mpfr:50"}) const {
-    if (!full_) all.resize(1);
-    return all;
-  }
+  std::vector<std::string> precisions() const { return full_ ? all_precisions : std::vector{all_precisions.front()}; }
 
   using Measure = std::function<CaseResult(const std::string& precision)>;
   void add(const std::string& name, const std::string& parameter, const std::vector<std::string>& precisions,
@@ -59,23 +58,23 @@ class Family {
 inline Expected holds() { return {}; }
 inline Expected holds_or(std::vector<std::string> failures) { return {true, std::move(failures), {}, {}}; }
 
-/// The families, in the order of the table.
-void add_coefficients(std::vector<HardCase>& cases, Collection collection);
-void add_constraints(std::vector<HardCase>& cases, Collection collection);
-void add_masses(std::vector<HardCase>& cases, Collection collection);
-void add_scaling(std::vector<HardCase>& cases, Collection collection);
-void add_uncoupled(std::vector<HardCase>& cases, Collection collection);
-void add_units(std::vector<HardCase>& cases, Collection collection);
-void add_encounters(std::vector<HardCase>& cases, Collection collection);
-void add_separatrix(std::vector<HardCase>& cases, Collection collection);
-void add_steps(std::vector<HardCase>& cases, Collection collection);
-void add_stiffness(std::vector<HardCase>& cases, Collection collection);
-void add_long_runs(std::vector<HardCase>& cases, Collection collection);
-void add_hidden(std::vector<HardCase>& cases, Collection collection);
-void add_chain(std::vector<HardCase>& cases, Collection collection);
-void add_digits(std::vector<HardCase>& cases, Collection collection);
-void add_reversal(std::vector<HardCase>& cases, Collection collection);
-void add_beads(std::vector<HardCase>& cases, Collection collection);
-void add_momenta(std::vector<HardCase>& cases, Collection collection);
+/// The families.
+void add_coefficients(const Family& family);
+void add_constraints(const Family& family);
+void add_masses(const Family& family);
+void add_scaling(const Family& family);
+void add_uncoupled(const Family& family);
+void add_units(const Family& family);
+void add_encounters(const Family& family);
+void add_separatrix(const Family& family);
+void add_steps(const Family& family);
+void add_stiffness(const Family& family);
+void add_long_runs(const Family& family);
+void add_hidden(const Family& family);
+void add_chain(const Family& family);
+void add_digits(const Family& family);
+void add_reversal(const Family& family);
+void add_beads(const Family& family);
+void add_momenta(const Family& family);
 
 }  // namespace hbvm::core

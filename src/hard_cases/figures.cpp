@@ -10,12 +10,12 @@
 #include "integrate/integrate.hpp"
 #include "measure.hpp"
 #include "motion.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
+#include "round_off_growth.hpp"
 #include "scalar/with_scalar.hpp"
 #include "scene/assemble.hpp"
 #include "scenes.hpp"
 #include "step/hbvm_stepper.hpp"
-#include "walk.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {
@@ -66,7 +66,8 @@ Figure growth(const std::filesystem::path& folder) {
                           {"double_pendulum", "hbvm:3,3", "1/32", "double pendulum, (3,3)"},
                           {"heavy_top", "hbvm:3,3", "1/32", "heavy top, (3,3)"}};
   for (const Run& run : runs) {
-    const Walk walk = walk_of(request_of(load_scene(run.scene), run.method, "auto", run.step, "2^20/32", "double"));
+    const RoundOffGrowth walk =
+        round_off_growth_of(request_of(load_scene(run.scene), run.method, "auto", run.step, "2^20/32", "double"));
     Points points;
     for (const Straying::Point& p : walk.H)
       points.push_back({std::log10(static_cast<double>(p.steps)), std::log10(p.distance)});
@@ -153,7 +154,7 @@ class HiddenSoFar final : public Observer<S> {
   Points points;
 
  private:
-  Point<S> point_;
+  StateEvaluator<S> point_;
   const TimeGrid<S>& grid_;
   S greatest_ = 0;
 };

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "integrate/integrate.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "run/round_off.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/with_scalar.hpp"
@@ -102,7 +102,7 @@ class TemporaryFile {
 /// The greatest |T| + |U| over the lines of a trajectory.
 double energy_size(const Scene& scene, std::istream& csv) {
   const Assembled<double> assembled = assemble<double>(scene, Consistency::unchecked);
-  Point<double> point(assembled.problem);
+  StateEvaluator<double> point(assembled.problem);
   Vector<double> q(assembled.problem.m()), p(q);
   double size = 0;
   std::string line;
@@ -142,7 +142,7 @@ CaseResult guarded(const std::function<CaseResult()>& body) {
   return result;
 }
 
-std::vector<std::string> warnings_of(const RunResult& run) {
+std::vector<std::string> warnings_of(const Run& run) {
   std::vector<std::string> names;
   for (const Warning& warning : run.health.warnings) names.push_back(warning.name);
   return names;
@@ -194,7 +194,7 @@ CaseResult energy(const RunRequest& request) {
     const TemporaryFile file;
     RunHooks hooks;
     hooks.open_csv = [&] { return std::make_unique<CsvFile>(file.path(), CsvFile::Opening::anew); };
-    const RunResult run = hbvm::core::run(request, hooks);
+    const Run run = hbvm::core::run(request, hooks);
     std::ifstream csv(file.path());
     // e_H over epsilon, where no number leaves its range.
     const double units =
@@ -203,7 +203,7 @@ CaseResult energy(const RunRequest& request) {
     result.criteria = {
         {"e_H, units of round-off", units / energy_size(request.scene, csv), round_off_units(run.steps)}};
     result.warnings = warnings_of(run);
-    result.message = run.method->text();
+    result.message = run.method;
     return result;
   });
 }

@@ -13,7 +13,7 @@ namespace hbvm::core {
 CaseResult guarded(const std::function<CaseResult()>& body);
 
 /// What a run says against itself, by the names of its warnings.
-std::vector<std::string> warnings_of(const RunResult& run);
+std::vector<std::string> warnings_of(const Run& run);
 
 /// A request by its texts.
 RunRequest request_of(Scene scene, std::string_view method, std::string_view solver, std::string_view step,

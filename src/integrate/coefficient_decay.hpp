@@ -59,8 +59,4 @@ class CoefficientDecay {
   S size_, sum_, rest_, norm_, t_;
 };
 
-#define HBVM_DECLARE(S) extern template class CoefficientDecay<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

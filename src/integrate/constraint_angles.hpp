@@ -71,8 +71,4 @@ class ConstraintAngles {
   Change change_;
 };
 
-#define HBVM_DECLARE(S) extern template class ConstraintAngles<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -49,8 +49,4 @@ class ConstraintDrift {
   S change_, along_, size_, t_;
 };
 
-#define HBVM_DECLARE(S) extern template class ConstraintDrift<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

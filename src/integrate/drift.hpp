@@ -1,8 +1,8 @@
 #pragma once
 
 #include "integrate/observer.hpp"
-#include "problem/point.hpp"
 #include "problem/redundant_constraints.hpp"
+#include "problem/state_evaluator.hpp"
 #include "solver/stage_failure.hpp"
 
 namespace hbvm::core {
@@ -53,13 +53,9 @@ class Drift final : public Observer<S> {
  private:
   void watch_redundant(const Snapshot<S>& snapshot);
 
-  Point<S> point_;
+  StateEvaluator<S> point_;
   RedundantConstraints<S> redundant_;
   S H0_ = 0, e_H_ = 0, e_g_ = 0, e_hid_ = 0, redundancy_ = 0;
 };
-
-#define HBVM_DECLARE(S) extern template class Drift<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

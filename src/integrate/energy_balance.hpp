@@ -42,8 +42,4 @@ class EnergyBalance {
   S H0_ = 0, H_ = 0, error_ = 0, size_ = 0, t_ = 0, kinetic_;
 };
 
-#define HBVM_DECLARE(S) extern template class EnergyBalance<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -41,8 +41,4 @@ class EnergyChange {
   S error_ = 0, t_ = 0, part_ = part, scaled_;
 };
 
-#define HBVM_DECLARE(S) extern template class EnergyChange<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -26,8 +26,4 @@ class EnergyScale final : public Observer<S> {
   S size_ = 0, round_off_size_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class EnergyScale<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -79,8 +79,4 @@ class HiddenCosines {
   S hidden_, gradient_square_, speed_square_, speed_, t_;
 };
 
-#define HBVM_DECLARE(S) extern template class HiddenCosines<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

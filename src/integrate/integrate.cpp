@@ -6,7 +6,7 @@
 
 #include "clock.hpp"
 #include "interruption.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/text.hpp"
 
 namespace hbvm::core {
@@ -18,7 +18,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
   const auto show = [&](const Snapshot<S>& snapshot) {
     for (Observer<S>* const observer : observers) observer->observe(snapshot);
   };
-  result.end = {0, S(0), state.q, state.p, Point<S>(stepper.problem()).multiplier(state.q, state.p)};
+  result.end = {0, S(0), state.q, state.p, StateEvaluator<S>(stepper.problem()).multiplier(state.q, state.p)};
   const auto contents = [&](Archive& archive) {
     archive(result.end.n, result.sweeps, result.cpu_seconds, result.elapsed_seconds, result.end.lambda, state, stepper);
     for (Observer<S>* const observer : observers) observer->remember(archive);

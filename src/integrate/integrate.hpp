@@ -28,10 +28,4 @@ template <Scalar S>
 Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
                          const std::vector<Observer<S>*>& observers, Checkpoints* checkpoints = nullptr);
 
-#define HBVM_DECLARE(S)                                                                   \
-  extern template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&, \
-                                              const std::vector<Observer<S>*>&, Checkpoints*);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

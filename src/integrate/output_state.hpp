@@ -1,6 +1,6 @@
 #pragma once
 
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 
 namespace hbvm::core {
 
@@ -14,7 +14,7 @@ struct OutputState {
 };
 
 template <Scalar S>
-OutputState<S> output_state(Point<S>& point, const Vector<S>& q, const Vector<S>& p) {
+OutputState<S> output_state(StateEvaluator<S>& point, const Vector<S>& q, const Vector<S>& p) {
   OutputState<S> output;
   output.p = point.tangential(q, p);
   output.lambda = point.multiplier(q, output.p);

@@ -31,8 +31,4 @@ class TimeGrid {
   long steps_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class TimeGrid<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

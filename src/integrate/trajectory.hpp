@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "integrate/observer.hpp"
-#include "problem/point.hpp"
 #include "problem/redundant_constraints.hpp"
+#include "problem/state_evaluator.hpp"
 
 namespace hbvm::core {
 
@@ -26,16 +26,12 @@ class Trajectory final : public Observer<S> {
 
  private:
   const Problem<S>& problem_;
-  Point<S> point_;
+  StateEvaluator<S> point_;
   RedundantConstraints<S> redundant_;
   std::ostream& out_;
   long every_, steps_;
   std::vector<std::string> columns_;
   S H0_;
 };
-
-#define HBVM_DECLARE(S) extern template class Trajectory<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

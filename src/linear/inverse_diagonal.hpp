@@ -38,8 +38,4 @@ class InverseDiagonal {
   std::vector<S> a_, inverse_;  // column j holds rows j .. j + b
 };
 
-#define HBVM_DECLARE(S) extern template class InverseDiagonal<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -53,8 +53,4 @@ class Lu {
   S one_ = 1;
 };
 
-#define HBVM_DECLARE(S) extern template class Lu<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -75,8 +75,4 @@ class ParityMatrix {
   bool mirrored_ = false;
 };
 
-#define HBVM_DECLARE(S) extern template class ParityMatrix<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

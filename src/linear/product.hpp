@@ -40,12 +40,4 @@ S dot(const Vector<S>& a, const Vector<S>& b);
 template <Scalar S>
 void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index n);
 
-#define HBVM_DECLARE(S)                                                            \
-  extern template void product<S>(Matrix<S>&, const Matrix<S>&, const Matrix<S>&); \
-  extern template void set_times<S>(S*, const Matrix<S>&, const S*, Index);        \
-  extern template S dot<S>(const Vector<S>&, const Vector<S>&);                    \
-  extern template void set_dot<S>(S&, const S*, Index, const S*, Index, Index);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -43,10 +43,4 @@ Hbvm<S> make_hbvm(int k, int s) {
 template <Scalar S>
 Hbvm<double> in_double(const Hbvm<S>& method);
 
-#define HBVM_DECLARE(S)                                \
-  extern template Hbvm<S> make_hbvm<S>(int, int, int); \
-  extern template Hbvm<double> in_double<S>(const Hbvm<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -36,14 +36,4 @@ S condition_D(const RungeKutta<S>& method, int r);
 template <Scalar S>
 int order(const RungeKutta<S>& method, const S& tolerance);
 
-#define HBVM_DECLARE(S)                                                                      \
-  extern template std::vector<S> order_defects<S>(const RungeKutta<S>&, int);                \
-  extern template std::vector<std::vector<S>> order_residuals<S>(const RungeKutta<S>&, int); \
-  extern template S condition_B<S>(const RungeKutta<S>&, int);                               \
-  extern template S condition_C<S>(const RungeKutta<S>&, int);                               \
-  extern template S condition_D<S>(const RungeKutta<S>&, int);                               \
-  extern template int order<S>(const RungeKutta<S>&, const S&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -26,8 +26,4 @@ struct Perturbation {
 template <Scalar S>
 void perturb(Hbvm<S>& method, const Perturbation& perturbation);
 
-#define HBVM_DECLARE(S) extern template void perturb<S>(Hbvm<S>&, const Perturbation&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -35,8 +35,4 @@ struct RungeKutta {
 template <Scalar S>
 RungeKutta<S> make_runge_kutta(const Tableau& tableau);
 
-#define HBVM_DECLARE(S) extern template RungeKutta<S> make_runge_kutta<S>(const Tableau&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

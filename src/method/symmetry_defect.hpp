@@ -15,10 +15,4 @@ S symmetry_defect(const RungeKutta<S>& method);
 template <Scalar S>
 S symplecticity_defect(const RungeKutta<S>& method);
 
-#define HBVM_DECLARE(S)                                       \
-  extern template S symmetry_defect<S>(const RungeKutta<S>&); \
-  extern template S symplecticity_defect<S>(const RungeKutta<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

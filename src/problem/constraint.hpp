@@ -44,16 +44,4 @@ S curvature_size(const Constraint<S>& constraint, Index dimension, const Vector<
 template <Scalar S>
 Constraint<double> in_double(const Constraint<S>& constraint);
 
-#define HBVM_DECLARE(S)                                                                                 \
-  extern template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                       \
-  extern template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);           \
-  extern template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);                    \
-  extern template int degree<S>(const Constraint<S>&);                                                  \
-  extern template int degree<S>(const std::vector<Constraint<S>>&);                                     \
-  extern template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);      \
-  extern template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&); \
-  extern template Constraint<double> in_double<S>(const Constraint<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

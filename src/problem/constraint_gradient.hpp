@@ -284,8 +284,4 @@ template <class Length, class Count>
   }
 }
 
-#define HBVM_DECLARE(S) extern template class ConstraintGradient<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

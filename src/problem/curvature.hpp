@@ -75,8 +75,4 @@ class Curvature {
   S t_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class Curvature<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

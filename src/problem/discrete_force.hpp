@@ -37,8 +37,4 @@ class DiscreteForce {
   S t_ = 0;  // scratch
 };
 
-#define HBVM_DECLARE(S) extern template class DiscreteForce<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

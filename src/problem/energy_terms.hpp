@@ -47,8 +47,4 @@ class EnergyTerms {
   S half_, U_ = 0, H_ = 0, size_ = 0, round_off_size_ = 0, t_ = 0, sum_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class EnergyTerms<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -33,8 +33,4 @@ class GeneralDrift {
   S epsilon_, units_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class GeneralDrift<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -26,8 +26,4 @@ class GramFactor {
   Vector<S> ordered_;
 };
 
-#define HBVM_DECLARE(S) extern template class GramFactor<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

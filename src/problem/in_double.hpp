@@ -15,11 +15,4 @@ bool fits_double(const S& x);
 template <Scalar S>
 bool fits_double(const Problem<S>& problem);
 
-#define HBVM_DECLARE(S)                                            \
-  extern template Problem<double> in_double<S>(const Problem<S>&); \
-  extern template bool fits_double<S>(const S&);                   \
-  extern template bool fits_double<S>(const Problem<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

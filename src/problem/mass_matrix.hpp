@@ -76,8 +76,4 @@ class MassMatrix {
   std::vector<std::size_t> full_;  ///< blocks
 };
 
-#define HBVM_DECLARE(S) extern template class MassMatrix<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

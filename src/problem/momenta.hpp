@@ -42,13 +42,4 @@ MomentumValue<S> momentum(const Problem<S>& problem, const MomentumComponent<S>&
 template <Scalar S>
 std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem);
 
-#define HBVM_DECLARE(S)                                                                                          \
-  extern template struct MomentumComponent<S>;                                                                   \
-  extern template std::vector<MomentumComponent<S>> coordinate_momenta<S>(const Problem<S>&);                    \
-  extern template MomentumValue<S> momentum<S>(const Problem<S>&, const MomentumComponent<S>&, const Vector<S>&, \
-                                               const Vector<S>&);                                                \
-  extern template std::vector<MomentumComponent<S>> conserved_momenta<S>(const Problem<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -107,8 +107,4 @@ class PotentialEvaluator {
   S t_;  // scratch
 };
 
-#define HBVM_DECLARE(S) extern template class PotentialEvaluator<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

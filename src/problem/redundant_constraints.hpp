@@ -43,10 +43,4 @@ class RedundantConstraints {
 template <Scalar S>
 std::vector<std::string> names_of_constraints(const Problem<S>& problem);
 
-#define HBVM_DECLARE(S)                          \
-  extern template class RedundantConstraints<S>; \
-  extern template std::vector<std::string> names_of_constraints<S>(const Problem<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -49,13 +49,4 @@ double gram_condition(const Problem<S>& problem, const Vector<S>& q);
 template <Scalar S>
 double angle_condition(const Problem<S>& problem, const Vector<S>& q);
 
-#define HBVM_DECLARE(S)                                                                                      \
-  extern template Independence<S> find_independent<S>(const Problem<S>&, const Vector<S>&, const Vector<S>&, \
-                                                      const S&);                                             \
-  extern template void set_aside<S>(Problem<S>&, const Independence<S>&);                                    \
-  extern template double gram_condition<S>(const Problem<S>&, const Vector<S>&);                             \
-  extern template double angle_condition<S>(const Problem<S>&, const Vector<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

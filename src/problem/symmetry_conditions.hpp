@@ -12,9 +12,4 @@ namespace hbvm::core {
 template <Scalar S>
 std::vector<UncertainRow> symmetry_conditions(const Problem<S>& problem, const Mpfr& unit);
 
-#define HBVM_DECLARE(S) \
-  extern template std::vector<UncertainRow> symmetry_conditions<S>(const Problem<S>&, const Mpfr&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/text.hpp"
 
 namespace hbvm::core {
@@ -57,7 +57,7 @@ Agreement::Agreement(const Assembled<Mpfr>& scene, const std::vector<Expression>
   for (const Expression& t : times) times_.push_back(t.text());
   const std::vector<MomentumComponent<Mpfr>> momenta = conserved_momenta(scene.problem);
   for (const MomentumComponent<Mpfr>& component : momenta) momentum_names_.push_back(component.name());
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   states_.resize(times.size());
   for (const NamedRun& run : runs) {
     routes_.push_back(run.name);

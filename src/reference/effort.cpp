@@ -75,7 +75,7 @@ Effort effort_of_taylor(const Problem<Mpfr>& problem, const MotionNature& nature
 Effort effort_of_hbvm(const Problem<Mpfr>& problem, const MotionNature& nature, unsigned digits) {
   const int s = stages_of_route(digits);
   const double unknowns = static_cast<double>(problem.m() + problem.nu()), product = seconds_of_product(digits);
-  // A step of a Taylor series is a fifth of its radius of convergence, that of HBVM 16/5 of it by rho, see HbvmWalk.
+  // A step of a Taylor series is a fifth of its radius of convergence, that of HBVM 16/5 of it by rho, see HbvmMotion.
   const double rho = std::pow(double{10}, static_cast<double>(digits) / (2 * s)), steps = nature.steps * rho / 16;
   const double sweeps = 3 + static_cast<double>(digits) / 15,
                products = 4 * s * s * unknowns + s * series_of(problem).products;

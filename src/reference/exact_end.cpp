@@ -1,7 +1,7 @@
 #include "reference/exact_end.hpp"
 
 #include "hbvm/error.hpp"
-#include "hbvm_walk.hpp"
+#include "hbvm_motion.hpp"
 #include "method/hbvm.hpp"
 #include "reference/taylor.hpp"
 
@@ -19,7 +19,7 @@ ExactPoint exact_end(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const 
   const double digits = digits10<Mpfr>() - few;
   const int s = stages_of_route(digits);
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
-  HbvmWalk walk(problem, method, q, p, digits, t);
+  HbvmMotion walk(problem, method, q, p, digits, t);
   walk.advance_to(t, [&](const Mpfr&) { while_working(); });
   return walk.output();
 }

@@ -239,14 +239,17 @@ void ProgramSeries::go_on(const Node& node, Index n) {
       mpfr_div_2ui(raw(t_), raw(t_), 1, MPFR_RNDN);
       set_quotient(z[n], t_, z[0]);
       break;
-    case Op::log: {
-      Mpfr* const weighted = series(node.aux);
-      set_convolution(t_, node.aux, node.a.series, n, 1, n - 1);
+    case Op::log:
+    case Op::atan: {
+      // z' w = a', where w is a of the logarithm, and 1 + a^2 of the arc tangent.
+      const Index w = node.op == Op::log ? node.a.series : node.other;
+      set_convolution(t_, node.aux, w, n, 1, n - 1);
       mpfr_div_ui(raw(t_), raw(t_), whole, MPFR_RNDN);
       set_difference(t_, a_n, t_);
-      set_quotient(z[n], t_, at(node.a, 0));
-      mpfr_mul_ui(raw(weighted[n]), raw(z[n]), whole, MPFR_RNDN);
+      set_quotient(z[n], t_, series(w)[0]);
+      mpfr_mul_ui(raw(series(node.aux)[n]), raw(z[n]), whole, MPFR_RNDN);
       keep(node.aux, n);
+      if (node.op == Op::atan) set_square(series(w)[n], node.a.series, n, 0, t_);
       break;
     }
     case Op::exp: {
@@ -266,18 +269,6 @@ void ProgramSeries::go_on(const Node& node, Index n) {
       set_difference(z[n], a_n, t_);
       keep(node.z, n);
       set_square(square[n], node.z, n, 0, t_);
-      break;
-    }
-    case Op::atan: {
-      Mpfr* const weighted = series(node.aux);
-      Mpfr* const w = series(node.other);
-      set_convolution(t_, node.aux, node.other, n, 1, n - 1);
-      mpfr_div_ui(raw(t_), raw(t_), whole, MPFR_RNDN);
-      set_difference(t_, a_n, t_);
-      set_quotient(z[n], t_, w[0]);
-      mpfr_mul_ui(raw(weighted[n]), raw(z[n]), whole, MPFR_RNDN);
-      keep(node.aux, n);
-      set_square(w[n], node.a.series, n, 0, t_);
       break;
     }
     default: {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/log2_of.hpp"
 #include "solver/solver_kind.hpp"
 
@@ -59,7 +59,7 @@ class ReferenceMotion {
   long steps_;
   int stages_;
   std::function<void()> after_step_;
-  Point<Mpfr> point_;
+  StateEvaluator<Mpfr> point_;
   Vector<Mpfr> q_, p_, lambda_;
   StepPolynomials polynomials_;
   Errors errors_;  ///< infinite before the second run

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json texts(const Vector<Mpfr>& v) {
+Json to_texts(const Vector<Mpfr>& v) {
   Json list = Json::array();
   for (const Mpfr& x : v) list.push_back(to_text(x));
   return list;
@@ -26,9 +26,9 @@ Vector<Mpfr> numbers(const Json& list) {
 std::string to_json(const Leg& leg) {
   Json points = Json::array();
   for (const ExactPoint& point : leg.points)
-    points.push_back({{"q", texts(point.q)}, {"p", texts(point.p)}, {"lambda", texts(point.lambda)}});
-  return Json{{"q", texts(leg.q)},
-              {"p", texts(leg.p)},
+    points.push_back({{"q", to_texts(point.q)}, {"p", to_texts(point.p)}, {"lambda", to_texts(point.lambda)}});
+  return Json{{"q", to_texts(leg.q)},
+              {"p", to_texts(leg.p)},
               {"points", points},
               {"steps", leg.steps},
               {"cpu_seconds", leg.cpu_seconds}}

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "clock.hpp"
-#include "hbvm_walk.hpp"
-#include "problem/point.hpp"
+#include "hbvm_motion.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/reference_motion.hpp"
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
@@ -68,7 +68,7 @@ RouteRun hbvm_route(const RouteWork& work, double digits) {
                            [&](const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times,
                                const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
                              const double before = thread_seconds();
-                             HbvmWalk walk(work.scene.problem, method, q, p, digits, Mpfr(end - begin));
+                             HbvmMotion walk(work.scene.problem, method, q, p, digits, Mpfr(end - begin));
                              const auto advance_to = [&](const Mpfr& t) {
                                walk.advance_to(t - begin, [&](const Mpfr& now) {
                                  work.progress(approximately(Mpfr((begin + now) / work.times.back())));
@@ -117,8 +117,8 @@ StartScales change_start(const Assembled<Mpfr>& scene, const Mpfr& parts, const 
                          Vector<Mpfr>& p) {
   StartScales greatest;
   const Index d = scene.problem.dimension;
-  Point<Mpfr> point(scene.problem);
-  const Point<Mpfr>::Forces forces = point.forces(scene.q0, scene.p0);
+  StateEvaluator<Mpfr> point(scene.problem);
+  const StateEvaluator<Mpfr>::Forces forces = point.forces(scene.q0, scene.p0);
   Vector<Mpfr> v(q.size());
   scene.problem.mass.velocity(lanes(scene.p0), lanes(v));
   for (const SpaceBlock& block : scene.problem.blocks) {

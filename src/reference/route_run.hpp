@@ -50,7 +50,7 @@ int stages_of_route(double digits);
 /// The most digits for which HBVM has the stages that it needs.
 inline constexpr int most_digits_of_hbvm = 20 * max_s / 9;
 
-/// The states by HBVM(s,s) with so many digits right, by steps that it chooses itself: see HbvmWalk.
+/// The states by HBVM(s,s) with so many digits right, by steps that it chooses itself: see HbvmMotion.
 /// \throws IntegrationError
 RouteRun hbvm_route(const RouteWork& work, double digits);
 

@@ -20,6 +20,14 @@ namespace {
 /// Polynomial motions are exact over any time; steps are no longer than 2^this.
 constexpr double longest = 40;
 
+/// sum + sign x, of a sign 1 or -1.
+void add_signed(Mpfr& sum, const Mpfr& x, int sign) {
+  if (sign > 0)
+    set_sum(sum, sum, x);
+  else
+    set_difference(sum, sum, x);
+}
+
 }  // namespace
 
 /// Jorba and Zou have half of the bits, in units of e, from the work of the convolutions alone. What is linear in the
@@ -79,12 +87,7 @@ std::vector<TaylorMotion::Form> TaylorMotion::formula_forms(Index a) {
   const Index d = problem_.dimension, inputs = term.arguments * d;
   std::vector<Form> own;
   for (const Index j : coordinates(constraint, d)) {
-    Form form{.constant = Mpfr(0),
-              .terms = {},
-              .constraint = a,
-              .columns = {{j, 1}},
-              .series = AlignedSeries(order_ + 2),
-              .velocity = AlignedSeries(order_ + 2)};
+    Form form(a, j, order_ + 2);
     for (Index i = 0; i < inputs; ++i)
       for (const auto& block : term.displacement(0, i / d).blocks)
         if (block.offset + i % d == j)
@@ -111,13 +114,9 @@ std::vector<TaylorMotion::Form> TaylorMotion::affine_forms(Index a) const {
       constraint.form);
   std::vector<Form> own;
   for (const Index j : coordinates(constraint, d)) {
-    Form form{.constant = Mpfr(0),
-              .terms = {second[j].begin(), second[j].end()},
-              .constraint = a,
-              .columns = {{j, 1}},
-              .series = AlignedSeries(order_ + 2),
-              .velocity = AlignedSeries(order_ + 2)};
-    std::erase_if(form.terms, [](const auto& term) { return term.second == 0; });
+    Form form(a, j, order_ + 2);
+    std::copy_if(second[j].begin(), second[j].end(), std::back_inserter(form.terms),
+                 [](const auto& term) { return term.second != 0; });
     {
       // What q_j takes g to, less its square: exact with twice the digits and some.
       const PrecisionScope more(2 * digits + 20);
@@ -191,12 +190,7 @@ void TaylorMotion::set_velocity(Index n) {
   for (std::size_t l = 0; l < forms_.size(); ++l) {
     Mpfr& sum = form_velocity(l)[n];
     set_zero(sum);
-    for (const auto& [j, sign] : forms_[l].columns) {
-      if (sign > 0)
-        set_sum(sum, sum, v_series(j)[n]);
-      else
-        set_difference(sum, sum, v_series(j)[n]);
-    }
+    for (const auto& [j, sign] : forms_[l].columns) add_signed(sum, v_series(j)[n], sign);
     if (forms_[l].factor == 0 || n == 0) forms_[l].velocity.set(n, sum);
   }
 }
@@ -267,10 +261,7 @@ void TaylorMotion::project() {
   for (std::size_t l = 0; l < forms_.size(); ++l)
     for (const auto& [j, sign] : forms_[l].columns) {
       set_product(t_, form_series(l)[0], rhs_[forms_[l].constraint]);
-      if (sign > 0)
-        set_difference(p_series(j)[0], p_series(j)[0], t_);
-      else
-        set_sum(p_series(j)[0], p_series(j)[0], t_);
+      add_signed(p_series(j)[0], t_, -sign);
     }
   set_velocity(0);
 }
@@ -310,12 +301,7 @@ void TaylorMotion::set_multipliers(Index n) {
     set_sum(rhs_[form.constraint], rhs_[form.constraint], t_);
     if (n == 0) continue;
     set_convolution(t_, form.series, aligned_lambda_[static_cast<std::size_t>(form.constraint)], n, 1, n);
-    for (const auto& [j, sign] : form.columns) {
-      if (sign > 0)
-        set_difference(F_[j], F_[j], t_);
-      else
-        set_sum(F_[j], F_[j], t_);
-    }
+    for (const auto& [j, sign] : form.columns) add_signed(F_[j], t_, -sign);
   }
   problem_.mass.velocity(lanes(std::as_const(F_)), lanes(weighted_));
   for (Index a = 0; a < nu; ++a) {
@@ -325,12 +311,7 @@ void TaylorMotion::set_multipliers(Index n) {
   for (std::size_t l = 0; l < forms_.size(); ++l) {
     const Form& form = forms_[l];
     set_zero(t_);
-    for (const auto& [j, sign] : form.columns) {
-      if (sign > 0)
-        set_sum(t_, t_, weighted_[j]);
-      else
-        set_difference(t_, t_, weighted_[j]);
-    }
+    for (const auto& [j, sign] : form.columns) add_signed(t_, weighted_[j], sign);
     add_product(rhs_[form.constraint], form_series(l)[0], t_, x_);
   }
   gram_.solve(rhs_);
@@ -341,12 +322,7 @@ void TaylorMotion::set_multipliers(Index n) {
   for (std::size_t l = 0; l < forms_.size(); ++l) {
     const Form& form = forms_[l];
     set_product(t_, form_series(l)[0], rhs_[form.constraint]);
-    for (const auto& [j, sign] : form.columns) {
-      if (sign > 0)
-        set_difference(F_[j], F_[j], t_);
-      else
-        set_sum(F_[j], F_[j], t_);
-    }
+    for (const auto& [j, sign] : form.columns) add_signed(F_[j], t_, -sign);
   }
 }
 

@@ -62,7 +62,10 @@ class TaylorMotion {
   /// A component of grad g, which several coordinates have but for the sign. It is an affine form of q, or a sum of
   /// outputs of a formula's gradient.
   struct Form {
-    Mpfr constant;
+    Form(Index of, Index coordinate, Index terms_of_series)
+        : constraint(of), columns{{coordinate, 1}}, series(terms_of_series), velocity(terms_of_series) {}
+
+    Mpfr constant = 0;
     std::vector<std::pair<Index, Mpfr>> terms;
     Index constraint;
     std::vector<std::pair<Index, int>> columns;  ///< coordinates, with the sign
@@ -73,7 +76,7 @@ class TaylorMotion {
       std::size_t slope, output;
       Mpfr weight;
     };
-    std::vector<Part> parts = {};
+    std::vector<Part> parts;
   };
   /// The gradient of one instance of an effect, or of a constraint by a formula.
   struct Slope {

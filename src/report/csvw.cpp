@@ -3,30 +3,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "html.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool is_word(unsigned char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-/// Other characters than letters, digits, "_" and those of `further` as %XX.
-std::string percent_encoded(const std::string& text, const std::string& further) {
-  const char* const digits = "0123456789ABCDEF";
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (is_word(byte) || further.find(c) != std::string::npos)
-      result += c;
-    else
-      result += {'%', digits[byte / 16], digits[byte % 16]};
-  }
-  return result;
-}
 
 /// A variable of URI templates, which a name of CSVW has to be: no "_" first, dots between words only.
 std::string variable(const std::string& name) {

@@ -10,12 +10,12 @@
 #include "csv_table.hpp"
 #include "hbvm/error.hpp"
 #include "html.hpp"
-#include "inline_svg.hpp"
 #include "json_facts.hpp"
 #include "markdown.hpp"
 #include "read_file.hpp"
 #include "report/csvw.hpp"
 #include "report_parts.hpp"
+#include "svg_picture.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -77,7 +77,6 @@ class FolderReport {
     has_heading_ = false;
     longest_ = 0;
     sections_.clear();
-    drawings_ = 0;
     // Texts first, which show drawings where they speak of them.
     for (const ReportFile& file : files_)
       if (has_ending(file, ".md")) text(file);
@@ -147,16 +146,19 @@ class FolderReport {
   }
 
   std::string figure(const ReportFile& file) {
-    const std::string caption = "<figcaption>" + html(file.name) + "</figcaption>";
+    const std::string name = html(file.name);
     if (limits_.no_svg.contains(file.name))
-      return "<p class=\"note\">" + html(file.name) + " is left out: the page would be too large with it.</p>\n";
-    const InlineSvg drawing = inline_svg(file.text, fmt::format("d{}-", ++drawings_), file.path.string());
+      return "<p class=\"note\">" + name + " is left out: the page would be too large with it.</p>\n";
+    const SvgPicture picture = svg_picture(file.text, file.path.string());
     std::string data;
-    if (!drawing.data.empty()) {
-      check_json(drawing.data, file.path.string());
-      data = "<script type=\"application/json\">" + within_script(drawing.data) + "</script>";
+    if (!picture.data.empty()) {
+      check_json(picture.data, file.path.string());
+      data = "<script type=\"application/json\">" + within_script(picture.data) + "</script>";
     }
-    return "<figure class=\"drawing\"><div class=\"sheet\">" + drawing.svg + "</div>" + data + caption + "</figure>\n";
+    return fmt::format(
+        "<figure class=\"drawing\"><div class=\"sheet\"><img alt=\"{}\" src=\"{}\"></div>{}"
+        "<figcaption>{}</figcaption></figure>\n",
+        name, picture.address, data, name);
   }
 
   void table(const ReportFile& file) {
@@ -237,7 +239,6 @@ class FolderReport {
   std::vector<Fact> facts_;  ///< what all was made by
   std::set<std::string> shown_;
   std::vector<std::pair<std::string, std::string>> sections_;  ///< headings, and what is below them
-  int drawings_ = 0;
 };
 
 }  // namespace

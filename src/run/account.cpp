@@ -5,6 +5,30 @@
 #include <algorithm>
 
 namespace hbvm::core {
+namespace {
+
+OperationList list_of(const OperationCounts& counts) {
+  OperationList list;
+  for (std::size_t op = 0; op < op_count; ++op)
+    list.emplace_back(name_of(static_cast<Op>(op)), counts[static_cast<Op>(op)]);
+  return list;
+}
+
+}  // namespace
+
+std::vector<AccountEntry> entries_of(const Account& account) {
+  std::vector<AccountEntry> entries;
+  for (const AccountLine& line : account.lines)
+    entries.push_back({.name = line.name,
+                       .effect = line.kind == AccountLine::Kind::effect,
+                       .in_double = line.kind == AccountLine::Kind::in_double,
+                       .calls = line.calls,
+                       .evaluations = line.evaluations,
+                       .operations = list_of(line.operations),
+                       .done_before = line.done_before.total() > 0 ? list_of(line.done_before) : OperationList(),
+                       .seconds = line.seconds});
+  return entries;
+}
 
 void add_parts(Account& account, const std::vector<PartCount>& parts) {
   for (const PartCount& part : parts) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/run.hpp"
 #include "solver/stage_solver.hpp"
 
 namespace hbvm::core {
@@ -50,6 +51,9 @@ Account account_of(const Problem<S>& problem, const SolverCounts& counts) {
 /// measured of the lines is never more than the whole, whatever a busy machine did to either clock.
 /// \param cpu_seconds, elapsed_seconds of all steps
 void balance(Account& account, double cpu_seconds, double elapsed_seconds);
+
+/// The lines as those who read a run are told of them.
+std::vector<AccountEntry> entries_of(const Account& account);
 
 /// A table of the lines, with the share of the time and the sums; operations in double have a sum of their own.
 std::string to_text(const Account& account);

@@ -112,8 +112,8 @@ ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step,
     trial.k = n;
     return trial;
   };
-  // Doubling finds an upper bound, bisection the least: more nodes never do worse. A k whose steps fail is not enough;
-  // if those of `patience` k in a row do and none came farther than the one before, all will. Where a defect that may
+  // Doubling finds an upper bound, bisection the least: more nodes never do worse. A k whose steps fail is not enough.
+  // If those of `patience` k in a row do and none came farther than the one before, all will. Where a defect that may
   // be round-off does not fall, it is: twice as much is then tolerated.
   constexpr int patience = 3;
   const int most = max_k - s;

@@ -22,10 +22,10 @@ template <Scalar S>
 std::optional<int> degree_of_U(const Problem<S>& problem);
 
 /// For a polynomial U of degree mu the least k >= s that integrates it exactly, k >= mu s/2, (51). Otherwise the least
-/// k for which, at the solutions of the first 16 steps, psi_hat agrees with that of k + s to round-off; or, if with no
-/// k that many steps can be made, the one that comes farthest. Likewise r: r >= d s/2 for polynomial g of degree d, or
-/// as many nodes as k for which these steps move g by round-off, unless the name says it. \throws InputError if no k up
-/// to max_k will do, StepError if no k makes the first step
+/// k for which psi_hat agrees with that of k + s to round-off, at the solutions of the first 16 steps. If no k makes
+/// that many steps, the one that comes farthest. Likewise r, unless the name says it: r >= d s/2 for polynomial g of
+/// degree d. For other g these steps must move g by round-off: r is as many nodes as k, or the least if U is a
+/// polynomial. \throws InputError if no k up to max_k will do, StepError if no k makes the first step
 template <Scalar S>
 ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step, SolverKind solver);
 
@@ -33,13 +33,5 @@ ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step,
 template <Scalar S>
 S quadrature_defect(const Problem<S>& problem, int k, int s, const S& step, SolverKind solver, const Vector<S>& q,
                     const Vector<S>& p);
-
-#define HBVM_DECLARE(S)                                                                                       \
-  extern template std::optional<int> degree_of_U<S>(const Problem<S>&);                                       \
-  extern template ChosenK choose_k<S>(const Assembled<S>&, const HbvmName&, const S&, SolverKind);            \
-  extern template S quadrature_defect<S>(const Problem<S>&, int, int, const S&, SolverKind, const Vector<S>&, \
-                                         const Vector<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

@@ -8,8 +8,8 @@
 #include "problem/effect/execution.hpp"
 #include "problem/effect/trace.hpp"
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
 #include "problem/regularity.hpp"
+#include "problem/state_evaluator.hpp"
 #include "run/choose_k.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
@@ -131,7 +131,7 @@ std::string describe_in(const Scene& scene) {
                   : fmt::format("polynomial of degree {}: k >= {}/2 s conserves energy exactly", *degree, *degree));
   else
     line("U", "not a polynomial: energy is conserved to O(h^(2k)); hbvm:auto,S takes the k that reaches round-off");
-  Point<S> point(problem);
+  StateEvaluator<S> point(problem);
   const S H = point.energy(q, p), U = point.energy(q, Vector<S>::Zero(problem.m()));
   line("energy H", to_text(H));
   line("  kinetic, potential", to_text(S(H - U)) + ", " + to_text(U));

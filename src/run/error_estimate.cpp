@@ -26,8 +26,8 @@ MethodPtr method_beside(const Method& method) {
   return hbvm_of({2 * s, s});
 }
 
-/// Errors of one vector, entry by entry. An entry that happens to be met is not trusted with more than two digits
-/// beyond what its group of entries, those of a vector in space, has: what it is compared with has an error, too.
+/// Errors of one vector, entry by entry. What an entry is compared with has an error, too. So one that happens to be
+/// met is trusted with at most two digits more than its group, the entries of a vector in space.
 class Errors {
  public:
   /// \param unsure by which the exact values may be off
@@ -88,8 +88,8 @@ struct Stored {
   }
 };
 
-/// Against a reference that was stored. \return nothing if there is none of the motion from the scene's own start, or
-/// if it has too few digits to tell what is right
+/// Comparison with a reference that was stored. \return nothing if there is none from the scene's own start, or if it
+/// has too few digits to tell what is right
 template <Scalar S>
 std::optional<ErrorEstimate> estimate_by_store(const RunRequest& request, const Vector<S>& q, const Vector<S>& output_p,
                                                const Vector<S>& output_lambda) {
@@ -126,8 +126,8 @@ std::optional<ErrorEstimate> estimate_by_store(const RunRequest& request, const 
 /// Beyond so many coordinates the series take more memory than a run.
 constexpr Index most_coordinates = 20'000;
 
-/// Against the exact motion, found with the digits of the scope by a route that chooses its own steps. \return nothing
-/// where there is none: from a start that leaves the hidden constraints, or where forces are not smooth
+/// Comparison the exact motion, found with the digits of the scope by a route that chooses its own steps. \return
+/// nothing where there is none: from a start that leaves the hidden constraints, or where forces are not smooth
 template <Scalar S>
 std::optional<ErrorEstimate> estimate_by_motion(const RunRequest& request, Route route,
                                                 const std::optional<State<S>>& start, const Vector<S>& q,
@@ -136,7 +136,7 @@ std::optional<ErrorEstimate> estimate_by_motion(const RunRequest& request, Route
   if (scene.problem.m() > most_coordinates) return std::nullopt;
   State<Mpfr> from(scene.q0, scene.p0);
   if (start) from = exact_state(*start);
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Vector<Mpfr> tangential = point.tangential(from.q, from.p);
   constexpr int units = 64;
   if (start && distance(tangential, from.p) > units * Mpfr(epsilon<S>()) * max_norm(from.p)) return std::nullopt;
@@ -193,7 +193,7 @@ ErrorEstimate estimate_error(const RunRequest& request, const Method& method, co
     const Simulated<Mpfr> run = run_beside(other, *beside, start);
     const Snapshot<Mpfr>& end = run.integration.end;
     const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
-    Point<Mpfr> point(scene.problem);
+    StateEvaluator<Mpfr> point(scene.problem);
     RedundantConstraints<Mpfr> redundant(scene.problem);
     const OutputState<Mpfr> output = output_state(point, end.q, end.p);
     const Index d = scene.problem.dimension;

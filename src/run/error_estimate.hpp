@@ -21,10 +21,4 @@ std::string to_right_digits(const std::string& number, double right);
 /// Lines for people: the greatest errors, or the failure.
 std::string to_text(const ErrorEstimate& estimate);
 
-#define HBVM_DECLARE(S)                                                                                             \
-  extern template ErrorEstimate estimate_error<S>(const RunRequest&, const Method&, const std::optional<State<S>>&, \
-                                                  const Vector<S>&, const Vector<S>&, const Vector<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

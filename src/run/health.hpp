@@ -25,28 +25,28 @@ namespace hbvm::core {
 /// constraint_drift: a constraint is off by more than 1/100, as ConstraintDrift has it; a rod by more than that of its
 /// length.
 ///
-/// steps_divided: of the steps that were made more than half were parts of steps that failed, or some were less than a
-/// thousandth of the step. A part is as long as the stage equations can just be solved: of its error that says nothing.
+/// steps_divided: of the steps made more than half were parts of steps that failed, or some were less than a thousandth
+/// of the step. A part is as long as the stage equations can just be solved: of its error that says nothing.
 ///
 /// hidden_constraint_large: worst_hidden exceeds 1/100, and the output state is no small correction of the propagated
 /// one.
 ///
 /// near_singular_constraints: ConstraintAngles saw a passage that the steps do not resolve, or the condition exceeds
-/// 1/sqrt(epsilon), which leaves fewer than half of the digits of lambda.
+/// 1/sqrt(epsilon). The latter leaves fewer than half of the digits of lambda.
 ///
 /// step_too_large: CoefficientDecay exceeds its limit.
 ///
 /// Of methods that conserve H or constraints:
 ///
-/// energy_lost: the error of H exceeds 64 sqrt(N) epsilon R for N steps and terms of H, where R is the greatest term of
-/// H, or what rounding q changes H by, plus what the constraint forces could do in a step. A few roundings a step, of
-/// either sign, add up by the square root (Brouwer's law); 64 leaves room for the sums within a step.
+/// energy_lost: the error of H exceeds 64 sqrt(N) epsilon R for N steps and terms of H. R is the greatest term of H, or
+/// what rounding q changes H by, plus what the constraint forces could do in a step. A few roundings a step, of either
+/// sign, add up by the square root (Brouwer's law); 64 leaves room for the sums within a step.
 ///
-/// constraints_lost: a constraint that is not quadratic moved by more than 64 sqrt(N) units of its round-off: with that
+/// constraints_lost: a constraint that is not quadratic moved by more than 64 sqrt(N) units of its round-off. With that
 /// many nodes the method does not keep it.
 ///
-/// even_s_drift: s is even, and some hidden constraint grew over the quarters of the run, twofold from the first to the
-/// last or more, above 64 sqrt(N) epsilon times the condition.
+/// even_s_drift: s is even, and some hidden constraint grew from quarter to quarter of the run. It grew twofold or more
+/// from the first to the last, above 64 sqrt(N) epsilon times the condition.
 template <Scalar S>
 class HealthWatch final : public Observer<S> {
  public:
@@ -60,12 +60,12 @@ class HealthWatch final : public Observer<S> {
   }
   CoefficientDecay<S>& decay() { return decay_; }
 
-  /// Of a run by the method that was asked for, and by that which became of it: its k decides what is said of a lost
-  /// energy. `halving` is what was done to steps that failed, if they might be divided.
+  /// The health of a run by the method that was asked for, and by that which became of it. The k of the latter decides
+  /// what is said of a lost energy. `halving` is what was done to steps that failed, if they might be divided.
   Health report(const Method& asked, const Method& method, const HalvingLog* halving);
 
-  /// Of what was seen until now, "H had changed by more than 1/20 of the kinetic energy from t = 3 on: ..." and what to
-  /// do; empty if H and the constraints were kept.
+  /// What was seen until now, and what to do: "H had changed by more than 1/20 of the kinetic energy from t = 3 on:
+  /// ...". It is empty if H and the constraints were kept.
   std::string lost();
 
  private:
@@ -104,9 +104,5 @@ class HealthWatch final : public Observer<S> {
 
 /// One line each: the figures, then the warnings.
 std::string to_text(const Health& health);
-
-#define HBVM_DECLARE(S) extern template class HealthWatch<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

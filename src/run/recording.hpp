@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "integrate/observer.hpp"
-#include "problem/point.hpp"
 #include "problem/redundant_constraints.hpp"
+#include "problem/state_evaluator.hpp"
 
 namespace hbvm::core {
 
@@ -47,15 +47,11 @@ class MotionRecorder final : public Observer<S> {
   void remember(Archive& archive) override;
 
  private:
-  Point<S> point_;
+  StateEvaluator<S> point_;
   RedundantConstraints<S> redundant_;
   long steps_;
   Recording& recording_;
   S H0_ = 0, energy_ = 0, constraints_ = 0, hidden_ = 0;
 };
-
-#define HBVM_DECLARE(S) extern template class MotionRecorder<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

@@ -15,8 +15,8 @@ struct Projection {
 /// Paths of what has mass, with the scene as it was at the start, dashed, and is at the end.
 Panel motion_panel(const Sketch& sketch, const Recording& recording, const Projection& projection);
 
-/// What there is to see of a run: its motion (in the plane, or along two axes), its multipliers, and its errors on a
-/// logarithmic axis.
+/// What there is to see of a run: its motion (in the plane, or along two axes), its multipliers and its errors. The
+/// axis of the errors is logarithmic.
 Figure run_figure(const Sketch& sketch, const Recording& recording);
 
 /// The scene where its coordinates are these.

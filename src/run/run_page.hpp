@@ -14,8 +14,8 @@ constexpr std::size_t run_page_bytes = 1'000'000;
 bool is_page(const std::string& file);
 
 /// The run as a page of HTML that needs nothing besides itself: its scene moves, beside the curves of run_figure(). Its
-/// numbers are the doubles of the recording, in decimals that read back exactly; of its samples every k-th and the last
-/// where all would be too many for run_page_bytes, and of errors the greatest since the sample before.
+/// numbers are the doubles of the recording, in decimals that read back exactly. Where all samples would be too many
+/// for run_page_bytes, it has every k-th and the last. Their errors are then the greatest since the sample before.
 /// \param command what makes the run again
 /// \throws Error if not even its first and last state have room
 /// \throws InputError if the library was built without dygraphs

@@ -18,8 +18,8 @@ enum class OnFailure {
 OnFailure parse_on_failure(std::string_view name);
 std::string_view name_of(OnFailure on_failure);
 
-/// Makes the steps of a run: by the method named, with its k chosen, and raised where it must be, if that is hbvm:auto,
-/// and with steps that fail divided, if that is asked for.
+/// Makes the steps of a run by the method named. The k of hbvm:auto is chosen, and raised where it must be. Steps that
+/// fail are divided, if that is asked for.
 template <Scalar S>
 class RunStepper final : public Stepper<S> {
  public:
@@ -52,9 +52,5 @@ class RunStepper final : public Stepper<S> {
   std::unique_ptr<Stepper<S>> outer_;
   HalvingStepper<S>* halving_ = nullptr;
 };
-
-#define HBVM_DECLARE(S) extern template class RunStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

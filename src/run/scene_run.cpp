@@ -4,8 +4,11 @@
 #include "integrate/momentum_drift.hpp"
 #include "integrate/output_state.hpp"
 #include "integrate/trajectory.hpp"
+#include "run/error_estimate.hpp"
+#include "run/health.hpp"
+#include "run/shadow.hpp"
 #include "run/simulate.hpp"
-#include "run/texts.hpp"
+#include "run/vector_text.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
 
@@ -108,8 +111,22 @@ Simulated<S> explained(HealthWatch<S>& health, Integrate&& integrate) {
   }
 }
 
+/// What is told of a run as it was asked for.
+Run told_of(const RunRequest& request) {
+  Run run;
+  run.scene = request.scene.name;
+  run.title = request.scene.title;
+  run.scene_toml = write_scene(request.scene);
+  run.solver = name_of(request.solver);
+  run.precision = request.precision.name();
+  run.reverse = request.direction == Direction::backward;
+  if (request.start) run.start = request.start->file;
+  run.observes = !request.scene.observables.empty();
+  return run;
+}
+
 template <Scalar S>
-RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
+Run run_in(const RunRequest& request, const RunHooks& hooks) {
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants, request.direction);
   Assembled<S> scene = assemble<S>(request.scene);
   Course<S> course{{}, hooks.checkpoints};
@@ -119,10 +136,11 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
     scene.p0 = course.start->p;
   }
   std::unique_ptr<CsvFile> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
-  RunResult result;
+  Run result = told_of(request);
   const Assembled<S> seen = seen_by_stepper(scene, request.direction);
   RunStepper<S> stepper(seen, request.method, grid.step(), request.solver, request.on_failure);
-  result.method = stepper.method();
+  const Method& method = *stepper.method();
+  result.method = method.text();
 
   Progress<S> progress(hooks.progress, grid.steps());
   std::vector<Observer<S>*> observers{&progress};
@@ -140,15 +158,15 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   if (hooks.recording) observers.push_back(&recorder.emplace(scene.problem, grid.steps(), *hooks.recording));
   MomentumDrift<S> momenta(scene.problem, observed_momenta(request.scene, scene));
   if (!momenta.components().empty()) observers.push_back(&momenta);
-  HealthWatch<S> health(scene.problem, *result.method, grid);
+  HealthWatch<S> health(scene.problem, method, grid);
   observers.push_back(&health);
   std::optional<ShadowedRun<S>> shadowed;
   if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.m(), grid.steps()));
   std::optional<EnergyScale<S>> scale;
   if (stepper.chosen()) observers.push_back(&scale.emplace(scene.problem));
+  Account account;
   const Simulated<S> simulated = explained(health, [&] {
-    return simulate<S>(scene, stepper, grid, observers, request.account ? &result.account : nullptr, &health.decay(),
-                       course);
+    return simulate<S>(scene, stepper, grid, observers, request.account ? &account : nullptr, &health.decay(), course);
   });
 
   if (csv) csv->flush();
@@ -156,37 +174,38 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
   const Snapshot<S>& end = simulated.integration.end;
   if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_H);
   if (stepper.halving()) result.halving = report_halving(*stepper.halving(), grid);
-  result.settled = scene.settled;
+  result.start_settled = scene.settled;
   result.step = to_text(grid.step());
   result.until = to_text(grid.until());
   result.t = to_text(end.t);
   result.steps = grid.steps();
-  result.q = texts(end.q);
-  result.p = texts(end.p);
+  result.q = to_texts(end.q);
+  result.p = to_texts(end.p);
   RedundantConstraints<S> redundant(scene.problem);
-  result.lambda = texts(redundant.multipliers(end.q, end.lambda));
-  result.q_carry = texts(simulated.state.q_carry);
-  result.p_carry = texts(simulated.state.p_carry);
-  Point<S> point(scene.problem);
+  result.lambda = to_texts(redundant.multipliers(end.q, end.lambda));
+  result.q_carry = to_texts(simulated.state.q_carry);
+  result.p_carry = to_texts(simulated.state.p_carry);
+  StateEvaluator<S> point(scene.problem);
   const OutputState<S> output = output_state(point, end.q, end.p);
-  result.output_p = texts(output.p);
+  result.output_p = to_texts(output.p);
   const Vector<S> output_lambda = redundant.multipliers(end.q, output.lambda);
-  result.output_lambda = texts(output_lambda);
+  result.output_lambda = to_texts(output_lambda);
   result.output_delta_H = to_text(S(point.energy(end.q, output.p) - simulated.H0));
   result.e_H = to_text(simulated.e_H);
   result.e_g = to_text(simulated.e_g);
   result.e_hid = to_text(simulated.e_hid);
   result.iterations_per_step =
       static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
-  result.health = health.report(*request.method, *result.method, stepper.halving());
+  result.health = health.report(*request.method, method, stepper.halving());
   for (const Redundancy& redundancy : scene.redundant)
     result.health.warnings.push_back(
         {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +
                                       to_scientific(simulated.redundancy, 3) + " of their terms"});
-  if (shadowed) result.shadow = shadowed->compare(request, *result.method, course.start);
-  if (request.error)
-    result.error = estimate_error(request, *result.method, course.start, end.q, output.p, output_lambda);
+  if (shadowed) result.shadow = shadowed->compare(request, method, course.start);
+  if (request.error) result.error = estimate_error(request, method, course.start, end.q, output.p, output_lambda);
   result.cpu_seconds = simulated.integration.cpu_seconds;
+  result.account = entries_of(account);
+  if (hooks.account) *hooks.account = std::move(account);
   if (request.scene.observes("energy"))
     result.observables.push_back({"energy", to_text(simulated.H0), to_text(simulated.e_H)});
   for (std::size_t i = 0; i < momenta.components().size(); ++i)
@@ -197,7 +216,7 @@ RunResult run_in(const RunRequest& request, const RunHooks& hooks) {
 
 }  // namespace
 
-RunResult run(const RunRequest& request, const RunHooks& hooks) {
+Run run(const RunRequest& request, const RunHooks& hooks) {
   return with_scalar(request.precision, [&]<Scalar S>() { return run_in<S>(request, hooks); });
 }
 

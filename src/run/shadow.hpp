@@ -9,8 +9,8 @@
 
 namespace hbvm::core {
 
-/// Keeps the states that a shadow is compared with: those of all mesh points if they are few enough, else of every
-/// `every`-th, and the last.
+/// Keeps the states that a shadow is compared with. Those of all mesh points are kept if they are few enough, else
+/// those of every `every`-th, and the last.
 template <Scalar S>
 class ShadowedRun final : public Observer<S> {
  public:
@@ -32,9 +32,5 @@ class ShadowedRun final : public Observer<S> {
 
 /// Lines for people: the worst component, or the failure.
 std::string to_text(const Shadow& shadow);
-
-#define HBVM_DECLARE(S) extern template class ShadowedRun<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

@@ -21,13 +21,9 @@ struct StartState {
 StartState read_start_state(const std::string& json, const std::string& file);
 
 /// The state in the working precision. Its positions must lie on the constraints, to the round-off that a long run
-/// gathers; p may leave the hidden constraints by any amount, as the propagated p does.
+/// gathers. Its momenta may leave the hidden constraints by any amount, as the propagated p does.
 /// \throws InputError with file and key if not; for a wrong number of entries; if it names another scene
 template <Scalar S>
 State<S> evaluate(const StartState& start, const Scene& text, const Assembled<S>& scene);
-
-#define HBVM_DECLARE(S) extern template State<S> evaluate<S>(const StartState&, const Scene&, const Assembled<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

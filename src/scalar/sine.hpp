@@ -4,10 +4,9 @@
 
 namespace hbvm::core {
 
-/// r = sin a and r = cos a, rounded to nearest. The bits are those that mpfr_sin and mpfr_cos give, in a quarter to a
-/// half of their time. They are called themselves where the table does not decide the last bit, or does not reach. It
-/// reaches for 2^-20 < |a| < 2^20 and to 200 digits. r may be a; the direction, which is there as MPFR has it, must be
-/// MPFR_RNDN. NaN if a has no sine in reach.
+/// r = sin a and r = cos a, rounded to nearest. The bits are those that mpfr_sin and mpfr_cos give, in a quarter
+/// to a half of their time. They are called themselves where the ball of the value does not decide the last bit. NaN if
+/// a has no sine in reach. r may be a; the direction, which is there as MPFR has it, must be MPFR_RNDN.
 void set_sin(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t = MPFR_RNDN);
 void set_cos(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t = MPFR_RNDN);
 

@@ -10,11 +10,11 @@
 #include <set>
 
 #include "problem/constraint_gradient.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 #include "problem/formula/quadratic.hpp"
 #include "problem/formula/symmetry.hpp"
-#include "problem/point.hpp"
 #include "problem/regularity.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scalar/working_digits.hpp"
@@ -277,12 +277,12 @@ class Assembler : private FormulaPlaces<S> {
 
   Displacement<S> position(const std::string& name) const override { return place(name).x; }
   S mass(const std::string& name) const override {
-    typename EffectUse<S>::Instance i;
+    typename EffectInput<S>::Instance i;
     give(name, true, false, i, 0);
     return i.masses[0];
   }
   S charge(const std::string& name) const override {
-    typename EffectUse<S>::Instance i;
+    typename EffectInput<S>::Instance i;
     give(name, false, true, i, 0);
     return i.charges[0];
   }
@@ -306,12 +306,12 @@ class Assembler : private FormulaPlaces<S> {
     for (const std::string& of : formula.of) name += (name == "formula" ? " of '" : ", '") + of + "'";
     in_formula(formula, "g", [&] {
       const FormulaBinding<S> binding(formula, d_, scene_.constants);
-      FormulaUse<S> use = binding.use();
-      use.instances.push_back(binding.instance(formula.of, *this));
-      if (auto form = quadratic_form(use)) return add(name, std::move(*form));
-      EffectTerm<S> term = make_term(use);
-      check_formula(use, term, start());
-      term.symmetry = formula_symmetry(use, problem().blocks, start());
+      FormulaInput<S> input = binding.input();
+      input.instances.push_back(binding.instance(formula.of, *this));
+      if (auto form = quadratic_form(input)) return add(name, std::move(*form));
+      EffectTerm<S> term = make_term(input);
+      check_formula(input, term, start());
+      term.symmetry = formula_symmetry(input, problem().blocks, start());
       add(name, FormulaConstraint<S>{std::move(term)});
     });
   }
@@ -319,15 +319,15 @@ class Assembler : private FormulaPlaces<S> {
   void add_effect(const SceneEffect& effect, const SceneFormula& formula) {
     in_formula(formula, "U", [&] {
       const FormulaBinding<S> binding(formula, d_, scene_.constants);
-      FormulaUse<S> use = binding.use();
+      FormulaInput<S> input = binding.input();
       EffectReach reach{acted_on(effect, formula.acts, false)};
       for (const Names& of : reach.on) {
-        use.instances.push_back(binding.instance(of, *this));
-        if (formula.acts == Acts::about_a_center) use.instances.back().x = {difference(of[0], effect.center)};
+        input.instances.push_back(binding.instance(of, *this));
+        if (formula.acts == Acts::about_a_center) input.instances.back().x = {difference(of[0], effect.center)};
       }
-      EffectTerm<S> term = make_term(use);
-      check_formula(use, term, start());
-      term.symmetry = formula_symmetry(use, problem().blocks, start());
+      EffectTerm<S> term = make_term(input);
+      check_formula(input, term, start());
+      term.symmetry = formula_symmetry(input, problem().blocks, start());
       add(std::move(term), std::move(reach));
     });
   }
@@ -338,13 +338,13 @@ class Assembler : private FormulaPlaces<S> {
 
   void add(const SceneConstraint& c) {
     if (c.formula) return add_constraint(*c.formula);
-    ConstraintUse<S> use;
-    use.dimension = d_;
+    ConstraintInput<S> input;
+    input.dimension = d_;
     std::string name = c.kind;
     with_constraint_kind<S>(c.kind, [&]<class Kind>() {
       for (const ConstraintKey& key : Kind::keys)
-        if (!key.optional || c.has(key.name)) give(c, key, use, name);
-      auto made = Kind::from(use);
+        if (!key.optional || c.has(key.name)) give(c, key, input, name);
+      auto made = Kind::from(input);
       if constexpr (requires { made.front().second; }) {
         whole_ = name;
         for (auto& [part, form] : made) add(name + " (" + part + ")", form_of(std::move(form)));
@@ -361,30 +361,30 @@ class Assembler : private FormulaPlaces<S> {
   }
 
   /// The value of a key; whom it names is added to the name of the constraint: "rod 'a'-'b'", "plane of 'a'".
-  void give(const SceneConstraint& c, const ConstraintKey& key, ConstraintUse<S>& use, std::string& name) const {
+  void give(const SceneConstraint& c, const ConstraintKey& key, ConstraintInput<S>& input, std::string& name) const {
     using Takes = ConstraintKey::Takes;
     switch (key.takes) {
       case Takes::pair: {
         const auto& [a, b] = c.pairs.find(key.name)->second;
-        use.pairs.emplace(key.name, difference(a, b));
-        use.frames.emplace(key.name, std::array{place(a).frame, place(b).frame});
+        input.pairs.emplace(key.name, difference(a, b));
+        input.frames.emplace(key.name, std::array{place(a).frame, place(b).frame});
         name += (name == c.kind ? " '" : ", '") + a + "'-'" + b + "'";
         break;
       }
       case Takes::body: {
         const std::string& body = c.bodies.find(key.name)->second;
-        use.bodies.emplace(key.name, place(body).x);
+        input.bodies.emplace(key.name, place(body).x);
         name += (name == c.kind ? " of '" : ", '") + body + "'";
         break;
       }
       case Takes::number:
-        use.numbers.emplace(key.name, number(c.numbers.find(key.name)->second));
+        input.numbers.emplace(key.name, number(c.numbers.find(key.name)->second));
         break;
       case Takes::vector:
-        use.vectors.emplace(key.name, vector(c.vectors.find(key.name)->second));
+        input.vectors.emplace(key.name, vector(c.vectors.find(key.name)->second));
         break;
       case Takes::symmetric_matrix:
-        use.matrices.emplace(key.name, symmetric(matrix(c.matrices.find(key.name)->second), std::string(key.name)));
+        input.matrices.emplace(key.name, symmetric(matrix(c.matrices.find(key.name)->second), std::string(key.name)));
         break;
     }
   }
@@ -401,18 +401,18 @@ class Assembler : private FormulaPlaces<S> {
 
   void add(const SceneEffect& effect) {
     if (effect.formula) return add_effect(effect, *effect.formula);
-    EffectUse<S> use;
-    use.kind = effect.kind;
-    use.dimension = d_;
-    for (const auto& [key, e] : effect.numbers) use.numbers.emplace(key, number(e));
+    EffectInput<S> input;
+    input.kind = effect.kind;
+    input.dimension = d_;
+    for (const auto& [key, e] : effect.numbers) input.numbers.emplace(key, number(e));
     for (const auto& [key, e] : effect.vectors) {
       const Vector<S> v = vector(e);
-      use.vectors.emplace(key, std::vector<S>(v.begin(), v.end()));
+      input.vectors.emplace(key, std::vector<S>(v.begin(), v.end()));
     }
     with_effect(effect.kind, [&]<class Effect>() {
       EffectReach reach{acted_on(effect, Effect::acts, Effect::needs_charge)};
-      for (const Names& names : reach.on) use.instances.push_back(instance<Effect>(effect, names));
-      add(make_term(use), std::move(reach));
+      for (const Names& names : reach.on) input.instances.push_back(instance<Effect>(effect, names));
+      add(make_term(input), std::move(reach));
     });
   }
 
@@ -422,8 +422,8 @@ class Assembler : private FormulaPlaces<S> {
   }
 
   template <class Effect>
-  typename EffectUse<S>::Instance instance(const SceneEffect& effect, const Names& names) const {
-    typename EffectUse<S>::Instance i;
+  typename EffectInput<S>::Instance instance(const SceneEffect& effect, const Names& names) const {
+    typename EffectInput<S>::Instance i;
     i.mass_matrix = Matrix<S>::Zero(d_, d_);
     const Place& first = place(names[0]);
     if constexpr (Effect::acts == Acts::between_pairs) {
@@ -470,7 +470,7 @@ class Assembler : private FormulaPlaces<S> {
     return rigid_bodies_.contains(name) ? ", by its centre of mass" : "";
   }
 
-  void give(const std::string& name, bool mass, bool charge, typename EffectUse<S>::Instance& i, int end) const {
+  void give(const std::string& name, bool mass, bool charge, typename EffectInput<S>::Instance& i, int end) const {
     const Place& p = place(name);
     if (mass && !p.mass)
       throw InputError("'" + name + "' has " + (p.mass_matrix.size() > 0 ? "a mass matrix" : "no mass") +
@@ -607,7 +607,7 @@ class Assembler : private FormulaPlaces<S> {
       const Vector<S> q = nearest_position(independent, result_.q0);
       const S moved = max_norm(Vector<S>(q - result_.q0));
       if (!(moved <= sqrt(own) * max_norm(q))) return false;
-      result_.p0 = Point<S>(independent).tangential(q, result_.p0);
+      result_.p0 = StateEvaluator<S>(independent).tangential(q, result_.p0);
       result_.q0 = q;
       result_.settled = fmt::format("consistent to its own {} digits; moved by up to {} to where the constraints hold",
                                     own_digits(scene_), to_scientific(moved, 3));

@@ -41,8 +41,4 @@ enum class Consistency { checked, unchecked };
 template <Scalar S>
 Assembled<S> assemble(const Scene& scene, Consistency consistency = Consistency::checked);
 
-#define HBVM_DECLARE(S) extern template Assembled<S> assemble<S>(const Scene&, Consistency);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

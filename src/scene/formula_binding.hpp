@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "problem/formula/use.hpp"
+#include "problem/formula/input.hpp"
 #include "scene/formula_names.hpp"
 
 namespace hbvm::core {
@@ -44,16 +44,16 @@ class FormulaBinding {
   }
 
   /// Without instances.
-  FormulaUse<S> use() const {
-    FormulaUse<S> result{formula_.expression, constants_, dimension_};
+  FormulaInput<S> input() const {
+    FormulaInput<S> result{formula_.expression, constants_, dimension_};
     result.arguments = places_.empty() ? 1 : static_cast<Index>(places_.size());
     for (const auto& [name, is] : names_) result.variables[name] = variable(is, result.parameters);
     return result;
   }
 
   /// For these bodies and points, one for each that the formula is about.
-  typename FormulaUse<S>::Instance instance(const std::vector<std::string>& of, const FormulaPlaces<S>& scene) const {
-    typename FormulaUse<S>::Instance result;
+  typename FormulaInput<S>::Instance instance(const std::vector<std::string>& of, const FormulaPlaces<S>& scene) const {
+    typename FormulaInput<S>::Instance result;
     if (places_.empty()) result.x.push_back(scene.difference(of[0], of[1]));
     for (const std::size_t place : places_) result.x.push_back(scene.position(of[place]));
     for (const auto& [name, is] : names_) {

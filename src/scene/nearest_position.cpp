@@ -4,7 +4,7 @@
 #include "linear/lu.hpp"
 #include "problem/constraint_gradient.hpp"
 #include "problem/gram_factor.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 
 namespace hbvm::core {
 
@@ -13,7 +13,7 @@ namespace hbvm::core {
 template <Scalar S>
 Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target) {
   const Index nu = problem.nu();
-  Point<S> point(problem);
+  StateEvaluator<S> point(problem);
   ConstraintGradient<S> gradient(problem, 1);
   Lu<S> gram;
   GramFactor<S> band;

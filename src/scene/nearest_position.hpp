@@ -9,8 +9,4 @@ namespace hbvm::core {
 template <Scalar S>
 Vector<S> nearest_position(const Problem<S>& problem, const Vector<S>& target);
 
-#define HBVM_DECLARE(S) extern template Vector<S> nearest_position<S>(const Problem<S>&, const Vector<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

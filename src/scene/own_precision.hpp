@@ -14,8 +14,4 @@ int own_digits(const Scene& scene);
 template <Scalar S>
 S own_precision(const Scene& scene);
 
-#define HBVM_DECLARE(S) extern template S own_precision<S>(const Scene&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "problem/point.hpp"
 #include "problem/regularity.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scene/nearest_position.hpp"
@@ -51,7 +51,7 @@ Scene project(const Scene& scene) {
                                                    Vector<S>::Zero(assembled.problem.m()), own_precision<S>(scene)));
   const Problem<S>& problem = assembled.problem;
   const Vector<S> q = nearest_of(scene, problem, assembled.q0);
-  Point<S> point(problem);
+  StateEvaluator<S> point(problem);
   const Vector<S> p = point.tangential(q, assembled.p0);
   Vector<S> v(problem.m());
   problem.mass.velocity(lanes(p), lanes(v));

@@ -11,8 +11,4 @@ namespace hbvm::core {
 template <Scalar S>
 Scene project(const Scene& scene);
 
-#define HBVM_DECLARE(S) extern template Scene project<S>(const Scene&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

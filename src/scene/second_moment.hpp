@@ -27,8 +27,4 @@ Matrix<S> usable_second_moment(const MassDistribution<S>& of, bool fixed);
 /// The principal moments of inertia about the centre of mass, ascending; in the plane the one about it.
 std::vector<double> moments_of_inertia(const MassDistribution<double>& of);
 
-#define HBVM_DECLARE(S) extern template Matrix<S> usable_second_moment<S>(const MassDistribution<S>&, bool);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

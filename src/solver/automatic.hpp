@@ -35,8 +35,4 @@ class Automatic final : public StageSolver<S> {
   bool timed_ = false;
 };
 
-#define HBVM_DECLARE(S) extern template class Automatic<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

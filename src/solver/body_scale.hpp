@@ -28,8 +28,4 @@ class BodyScale {
   S scale_now_ = 0, greatest_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class BodyScale<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -29,8 +29,4 @@ class BranchGuard {
   Vector<S> size_;  ///< for each coordinate that of its body at the start
 };
 
-#define HBVM_DECLARE(S) extern template class BranchGuard<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

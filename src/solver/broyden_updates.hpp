@@ -37,8 +37,4 @@ class BroydenUpdates {
   S t_ = 0, u_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class BroydenUpdates<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

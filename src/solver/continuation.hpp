@@ -60,8 +60,4 @@ class Continuation {
   PartCount part_{"continuation of the last step"};
 };
 
-#define HBVM_DECLARE(S) extern template class Continuation<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -60,8 +60,4 @@ class FixedPoint final : public StageSolver<S> {
   S h_ = 0;  ///< of the last step
 };
 
-#define HBVM_DECLARE(S) extern template class FixedPoint<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -98,8 +98,4 @@ class Jacobian {
   bool timed_ = false;
 };
 
-#define HBVM_DECLARE(S) extern template class Jacobian<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

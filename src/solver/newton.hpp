@@ -97,8 +97,4 @@ class Newton final : public StageSolver<S> {
   S rate_ = 1, t_ = 0;  ///< rate_: at which corrections fell in the last step
 };
 
-#define HBVM_DECLARE(S) extern template class Newton<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

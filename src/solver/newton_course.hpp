@@ -64,8 +64,4 @@ class NewtonCourse {
   S change_ = 0, last_ = 0, first_ = 0;  ///< of this sweep, of the one before, and of the first with this Jacobian
 };
 
-#define HBVM_DECLARE(S) extern template class NewtonCourse<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -96,8 +96,4 @@ class NewtonIteration {
   S t_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class NewtonIteration<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -43,8 +43,4 @@ class NewtonStarts {
   bool timed_ = false;
 };
 
-#define HBVM_DECLARE(S) extern template class NewtonStarts<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

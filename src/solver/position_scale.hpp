@@ -26,8 +26,4 @@ class PositionScale {
   S space_ = 0, directors_ = 0, t_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class PositionScale<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

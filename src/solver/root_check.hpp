@@ -39,8 +39,4 @@ class RootCheck {
   long sweeps_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class RootCheck<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -64,8 +64,4 @@ class SimplifiedNewton {
   S h_ = 0;  ///< of the last step
 };
 
-#define HBVM_DECLARE(S) extern template class SimplifiedNewton<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

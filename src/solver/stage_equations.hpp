@@ -197,8 +197,4 @@ class StageEquations {
   bool timed_ = false;
 };
 
-#define HBVM_DECLARE(S) extern template class StageEquations<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

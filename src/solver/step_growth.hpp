@@ -12,8 +12,4 @@ namespace hbvm::core {
 template <Scalar S>
 long grow(NewtonIteration<S>& iteration, BranchGuard<S>& guard, const StepStart<S>& from, int halvings);
 
-#define HBVM_DECLARE(S) extern template long grow(NewtonIteration<S>&, BranchGuard<S>&, const StepStart<S>&, int);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -159,8 +159,4 @@ class StoppingRule {
   std::vector<Coordinate> coordinates_;
 };
 
-#define HBVM_DECLARE(S) extern template class StoppingRule<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

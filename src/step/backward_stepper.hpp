@@ -5,7 +5,7 @@
 
 namespace hbvm::core {
 
-/// Steps back in time: H is even in p, so that this is a step of another stepper forward from (q, -p), with p reversed
+/// Steps back in time. H is even in p, so a step back is one of another stepper forward from (q, -p), with p reversed
 /// again. The multiplier is the same.
 template <Scalar S>
 class BackwardStepper final : public Stepper<S> {

@@ -24,8 +24,8 @@ S tenth_to(int digits) {
   return 1 / power;
 }
 
-/// Time runs from 0 to 1 in a step, and x are the changes of q and p over scales that are powers of 2: those of a
-/// length, mass and time do not matter.
+/// Time runs from 0 to 1 in a step. The variables x are the changes of q and p over scales that are powers of 2. So
+/// powers of 2 in the units of length, mass and time do not matter.
 template <Scalar S>
 class BulirschStoer final : public ReducedStepper<S> {
  public:
@@ -87,7 +87,7 @@ class BulirschStoer final : public ReducedStepper<S> {
 
   Index m() const { return this->problem().m(); }
 
-  /// The greatest of |x| and h |x'| in each body's coordinates, up to a factor of 2; of a body without any, the
+  /// The greatest of |x| and h |x'| in each body's coordinates, up to a factor of 2. A body without any has the
   /// greatest of all.
   void take_scales(const S& h) {
     take_scales(this->start_q(), this->start_velocity(), h, 0);

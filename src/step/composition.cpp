@@ -60,8 +60,8 @@ class Composition final : public MethodByTemplate<Composition> {
 template <Scalar S>
 Vector<S> composition_steps(int order) {
   check_order(order);
-  // Products of order/2 - 1 factors: g in (1/3, 0.42), and 1 - 4 g in (-0.66, -1/3), whose error is 4/(1/3) times that
-  // of g at most. A level loses two digits, and there are at most max_composition_order/2 - 1 of them.
+  // Products of order/2 - 1 factors: g in (1/3, 0.42), and 1 - 4 g in (-0.66, -1/3). The error of 1 - 4 g is 4/(1/3)
+  // times that of g at most. A level loses two digits, and there are at most max_composition_order/2 - 1 of them.
   constexpr unsigned guard = 10;
   std::vector<Mpfr> steps;
   const auto digits = static_cast<unsigned>(digits10<S>());

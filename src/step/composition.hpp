@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// The step sizes, over that of the whole, of the symmetric composition of order P = 2, 4, 6, ... of a symmetric method
-/// of order 2: five steps of the composition of order P - 2, the third one backwards,
+/// The step sizes, relative to the whole, of the symmetric composition of order P = 2, 4, 6, ... of a symmetric method
+/// of order 2. They are five steps of the composition of order P - 2, the third one backwards,
 ///
 ///     g, g, 1 - 4 g, g, g,   g = 1 / (4 - 4^(1/(P - 1))),
 ///
@@ -41,11 +41,5 @@ class CompositionStepper final : public Stepper<S> {
 
 /// compose:INNER,P from "INNER,P", INNER being symmetric and of order 2: "rattle,6". \throws InputError
 MethodPtr composition_method(std::string_view arguments);
-
-#define HBVM_DECLARE(S)                                      \
-  extern template Vector<S> composition_steps<S>(int order); \
-  extern template class CompositionStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

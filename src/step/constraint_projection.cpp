@@ -75,8 +75,8 @@ bool ConstraintProjection<S>::solve(ConstraintGradient<S>& left, const Constrain
 
 template <Scalar S>
 bool ConstraintProjection<S>::is_round_off(const Vector<S>& q) {
-  // A displacement, its square (its error twice, and one), two sums and the difference from l^2 are 7 halves of an
-  // epsilon of the terms of g, and q as it is stored is one half of |grad g| |q|: 4, doubled for a quadric's more
+  // The terms of g are off by 7/2 epsilon: a displacement, its square (its error twice, and one), two sums and the
+  // difference from l^2. The stored q adds epsilon/2 of |grad g| |q|. The sum of 4 is doubled for a quadric's more
   // terms.
   constexpr int roundings = 8;
   for (Index a = 0; a < problem_.nu(); ++a) {

@@ -55,8 +55,4 @@ class ConstraintProjection {
   bool timed_ = false;
 };
 
-#define HBVM_DECLARE(S) extern template class ConstraintProjection<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

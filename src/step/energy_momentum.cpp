@@ -88,10 +88,10 @@ void EnergyMomentum<S>::move(const Vector<S>& q0) {
 
 template <Scalar S>
 bool EnergyMomentum<S>::correct_multipliers() {
-  // h G^T v with G = grad g in the middle, which is g(q_1) - g(q_0), changes by h times the gradient at q_1 with v, and
-  // v by -h/2 M^-1 G with lambda. The matrix near the solution serves all sweeps: it multiplies a residual that goes to
-  // 0. The first start has no multipliers: one sweep finds them, a second the positions they lead to, a third has its
-  // matrix there.
+  // Let G = grad g in the middle: then h G^T v is g(q_1) - g(q_0). It changes by h times the gradient at q_1 with v,
+  // and v by -h/2 M^-1 G with lambda. The matrix near the solution serves all sweeps: it multiplies a residual that
+  // goes to 0. The first start has no multipliers: one sweep finds them, a second the positions they lead to, a third
+  // has its matrix there.
   constexpr long near = 3;
   if (rule_.sweeps() < near) {
     {

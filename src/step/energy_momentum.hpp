@@ -17,14 +17,14 @@ namespace hbvm::core {
 ///     q_1 = q_0 + h M^-1 (p_0 + p_1)/2,                                            g(q_1) = 0,
 ///     p_1 = p_0 + h (DU(q_0, q_1) - grad g((q_0 + q_1)/2) lambda),
 ///
-/// DU the discrete gradient of U, a DiscreteForce. That of g, which is quadratic, is its gradient in the middle: so the
-/// step keeps H whatever U is, and the linear and angular momenta that effects and constraints keep. g(q_1) = g(q_0) is
-/// the hidden constraint of (p_0 + p_1)/2 in the middle, which is solved for: of g(q_1) = 0 itself the round-off over h
-/// would be in the momenta. p_1 alone leaves the hidden constraints by O(h^2).
+/// DU is the discrete gradient of U, a DiscreteForce. That of g, which is quadratic, is its gradient in the middle. So
+/// the step keeps H whatever U is, and the linear and angular momenta that effects and constraints keep. The equation
+/// solved is g(q_1) = g(q_0), the hidden constraint of (p_0 + p_1)/2 in the middle. Of g(q_1) = 0 itself the round-off
+/// over h would be in the momenta. p_1 alone leaves the hidden constraints by O(h^2).
 ///
 /// A sweep of the iteration computes q_1 from P = (p_0 + p_1)/2, one step of Newton's method for the multipliers there,
-/// and P anew; it starts from the extrapolation of the last steps, and if that leads nowhere, once more from P = p_0.
-/// StoppingRule says when it ends, from the change of P.
+/// and P anew. The iteration starts from the extrapolation of the last steps, and if that leads nowhere, once more from
+/// P = p_0. StoppingRule says when it ends, from the change of P.
 template <Scalar S>
 class EnergyMomentum final : public Stepper<S> {
  public:
@@ -79,9 +79,5 @@ class EnergyMomentum final : public Stepper<S> {
 
 /// From no arguments. \throws InputError
 MethodPtr energy_momentum_method(std::string_view arguments);
-
-#define HBVM_DECLARE(S) extern template class EnergyMomentum<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

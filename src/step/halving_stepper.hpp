@@ -19,8 +19,8 @@ struct HalvingLog {
 };
 
 /// Steps that are divided where they fail: a step of size h is made as two of h/2, and so on down to 2^-20 h. The mesh
-/// stays that of the grid. The next (sub)step is tried at the size that succeeded last; after a success, where the grid
-/// allows, at twice that size, and after attempts in vain only after 2, 4, … 1024 successes.
+/// stays that of the grid. The next (sub)step is tried at the size that succeeded last. After a success it is tried at
+/// twice that size, where the grid allows. After attempts in vain this is done only after 2, 4, … 1024 successes.
 ///
 /// Energy and constraints are conserved by each substep. But a sequence of sizes that depends on failures is not
 /// symmetric: where the motion is reversed, other steps may be divided.
@@ -60,9 +60,5 @@ class HalvingStepper final : public Stepper<S> {
   int depth_ = 0, last_ = 0;           ///< to be tried next; the one that succeeded last
   long successes_ = 0, patience_ = 1;  ///< successes since the last failure or change of size, and those to wait for
 };
-
-#define HBVM_DECLARE(S) extern template class HalvingStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

@@ -15,8 +15,8 @@ class HbvmMethod final : public MethodByTemplate<HbvmMethod> {
 
   const HbvmName& name() const { return name_; }
   const std::optional<Perturbation>& perturbation() const { return perturbation_; }
-  /// The number of nodes for the constraints of a problem: as named; or s, if g is at most quadratic; or, for g of
-  /// degree d, r >= d s/2, which keeps it exactly; or k.
+  /// The number of nodes for the constraints of a problem: as named, or s if g is at most quadratic. For g of degree d
+  /// it is r >= d s/2, which keeps g exactly; for other g it is k.
   template <Scalar S>
   int constraint_nodes(const Problem<S>& problem) const;
   /// With so many nodes for the constraints. \throws InputError if k is not chosen
@@ -55,12 +55,5 @@ MethodPtr hbvm_method(std::string_view arguments);
 
 /// The method as one of these, or null.
 const HbvmMethod* as_hbvm(const Method& method);
-
-#define HBVM_DECLARE(S)                                                         \
-  extern template int HbvmMethod::constraint_nodes<S>(const Problem<S>&) const; \
-  extern template Hbvm<S> HbvmMethod::coefficients<S>(int) const;               \
-  extern template StepperMaker<S> HbvmMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

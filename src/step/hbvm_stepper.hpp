@@ -46,8 +46,4 @@ class HbvmStepper final : public Stepper<S> {
   S s_, t_;
 };
 
-#define HBVM_DECLARE(S) extern template class HbvmStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -12,7 +12,7 @@
 namespace hbvm::core {
 namespace {
 
-/// The roots of (1 - x^2) P_N', x = 2c - 1, by Newton's method: the derivative is -N (N + 1) P_N, and the function
+/// The roots of (1 - x^2) P_N', x = 2c - 1, by Newton's method. The derivative is -N (N + 1) P_N, and the function
 /// itself N (P_{N-1} - x P_N).
 Vector<Mpfr> lobatto_nodes(int s) {
   const int N = s - 1;

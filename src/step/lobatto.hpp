@@ -9,7 +9,7 @@
 namespace hbvm::core {
 
 /// The coefficients of the Lobatto IIIA-IIIB pair of s >= 2 stages on [0, 1] with c_1 = 0 and c_s = 1. A is the
-/// collocation method IIIA, whose first row is 0 and whose last row is b; A_hat is IIIB, b_i a_hat_ij + b_j a_ji =
+/// collocation method IIIA, whose first row is 0 and whose last row is b. A_hat is IIIB, b_i a_hat_ij + b_j a_ji =
 /// b_i b_j, whose last column is 0.
 template <Scalar S>
 struct Lobatto {
@@ -25,7 +25,7 @@ template <Scalar S>
 Lobatto<S> make_lobatto(int s);
 
 /// Steps of the Lobatto IIIA-IIIB pair for constrained Hamiltonian systems (Jay 1996; Hairer, Lubich, Wanner: Geometric
-/// Numerical Integration, VII.1.4), symplectic, symmetric and of order 2s - 2:
+/// Numerical Integration, VII.1.4). They are symplectic, symmetric and of order 2s - 2:
 ///
 ///     Q_i = q_0 + h sum_j a_ij M^-1 P_j,                                           g(Q_i) = 0,   i = 2 .. s,
 ///     P_i = p_0 + h sum_j a_hat_ij (grad U(Q_j) - grad g(Q_j) lambda_j),           q_1 = Q_s,
@@ -33,9 +33,9 @@ Lobatto<S> make_lobatto(int s);
 ///
 /// lambda_1 .. lambda_{s-1} are found from g(Q_i) = 0, lambda_s from the last condition. s = 2 is RATTLE.
 ///
-/// A sweep of the iteration computes Q from P, one step of Newton's method for the multipliers there, and P anew; it
-/// starts from the extrapolation of the last steps, and if that leads nowhere, once more from P = p_0. StoppingRule
-/// says when it ends, from the change of P.
+/// A sweep of the iteration computes Q from P, one step of Newton's method for the multipliers there, and P anew. The
+/// iteration starts from the extrapolation of the last steps, and if that leads nowhere, once more from P = p_0.
+/// StoppingRule says when it ends, from the change of P.
 template <Scalar S>
 class LobattoStepper final : public Stepper<S> {
  public:
@@ -91,11 +91,5 @@ class LobattoStepper final : public Stepper<S> {
 
 /// From "S". \throws InputError
 MethodPtr lobatto_method(std::string_view arguments);
-
-#define HBVM_DECLARE(S)                            \
-  extern template Lobatto<S> make_lobatto<S>(int); \
-  extern template class LobattoStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

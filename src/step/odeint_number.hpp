@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// A number of the working precision for code that mixes it with double, as the step size control of Boost.odeint does,
-/// whose constants are factors of safety and whole numbers. A template: double itself needs none.
+/// A number of the working precision for code that mixes it with double. The step size control of Boost.odeint does so:
+/// its constants are factors of safety and whole numbers. A template: double itself needs none.
 template <Scalar S>
 struct OdeintNumber {
   S value = 0;

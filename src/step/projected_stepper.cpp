@@ -142,7 +142,7 @@ class ProjectedHbvm final : public MethodByTemplate<ProjectedHbvm> {
             .hidden = true,
             .reversal = false};
   }
-  /// A step leaves the tangent space by O(h^(s+1)), whose kinetic energy is O(h^(2s+2)): the energy that is lost or
+  /// A step leaves the tangent space by O(h^(s+1)), whose kinetic energy is O(h^(2s+2)). So the energy that is lost or
   /// made up for is O(h^(2s+1)) over an interval, beside that of the nodes.
   Orders orders() const override {
     const int k = inner_.name().k, s = inner_.name().s;

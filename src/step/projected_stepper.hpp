@@ -27,8 +27,8 @@ class ProjectedStepper final : public Stepper<S> {
   ProjectedStepper(std::unique_ptr<Stepper<S>> inner, OnEnergy on_energy);
 
   const Problem<S>& problem() const override { return inner_->problem(); }
-  /// \throws StageFailure as the other does, and if the gradients of the constraints are linearly dependent or no
-  /// scaling of p restores H; the state is then as it was
+  /// \throws StageFailure as the other does, if the gradients of the constraints are linearly dependent, or if no
+  /// scaling of p restores H. The state is then as it was
   long step(State<S>& state, const S& h) override;
   /// Of the step that was projected.
   const Vector<S>& multiplier() const override { return inner_->multiplier(); }
@@ -60,9 +60,5 @@ class ProjectedStepper final : public Stepper<S> {
 /// projected_hbvm:K,S and restored_hbvm:K,S from "K,S": HBVM(k,s) whose state goes on projected. \throws InputError
 MethodPtr projected_hbvm_method(std::string_view arguments);
 MethodPtr restored_hbvm_method(std::string_view arguments);
-
-#define HBVM_DECLARE(S) extern template class ProjectedStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

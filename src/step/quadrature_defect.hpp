@@ -4,16 +4,16 @@
 
 namespace hbvm::core {
 
-/// How far psi_hat of k nodes is from that of k + s, along the polynomial of a step that was made: whether more nodes
-/// would change it. Body by body, so that what a light one feels counts beside a heavy one.
+/// How far psi_hat of k nodes is from that of k + s, along the polynomial of a step that was made. It says whether more
+/// nodes would change the step. It goes body by body, so that what a light one feels counts beside a heavy one.
 template <Scalar S>
 class QuadratureDefect {
  public:
   QuadratureDefect(const Problem<S>& problem, int k, int s);
   QuadratureDefect(const QuadratureDefect&) = delete;
 
-  /// The greatest change of a body's psi_hat, over 16 (k + s) epsilon of the size of its psi_hat or zeta: at most 1 if
-  /// it is round-off. psi_0 is the mean force, and the sums of k products behind it carry k roundings each; the
+  /// The greatest change of a body's psi_hat, over 16 (k + s) epsilon of the size of its psi_hat or zeta. Round-off
+  /// makes it at most 1. psi_0 is the mean force, and the sums of k products behind it carry k roundings each. The
   /// positions' round-off relative to the step's displacement comes on top.
   /// \param x the solution of the step that starts there
   const S& measure(const StepStart<S>& start, const StageUnknowns<S>& x);
@@ -39,9 +39,5 @@ class QuadratureDefect {
   Nodes few_, more_;
   S unit_, least_, defect_ = 0, relative_ = 0, difference_ = 0, size_ = 0, t_ = 0;
 };
-
-#define HBVM_DECLARE(S) extern template class QuadratureDefect<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

@@ -41,20 +41,20 @@ enum class Raises { k, k_and_r };
 /// Steps of HBVM(k, s) whose k is raised where it no longer suffices, and never falls. As long as it suffices the
 /// digits are those of HbvmStepper.
 ///
-/// A step is examined if its energy, or that since the first step, changed by more than round-off, if a body's force or
-/// momentum is greater by 1/8 than in any step examined before, and every `interval` steps: by the QuadratureDefect,
-/// which sees each body with its own scale, where the energy is blind to a light one. If more nodes would change the
-/// step, their number is raised by quarters until they do not, along the polynomial of the step as made, and the step
-/// is repeated from its start; and so on until a repeated step passes. A defect that more nodes do not make smaller is
-/// round-off, and tolerated from then on.
+/// A step is examined if its energy, or that since the first step, changed by more than round-off. It is examined, too,
+/// if a body's force or momentum is greater by 1/8 than in any step examined before, and every `interval` steps. The
+/// QuadratureDefect examines it: it sees each body with its own scale, where the energy is blind to a light one. If
+/// more nodes would change the step, their number is raised by quarters until they do not, along the polynomial of the
+/// step as made. The step is then repeated from its start, and so on until a repeated step passes. A defect that more
+/// nodes do not make smaller is round-off, and tolerated from then on.
 ///
-/// Likewise the number r of nodes for constraints that are not quadratic, which is enough where a step moves g by
-/// round-off: the defect of theirs is what g moves by.
+/// The number r of nodes for constraints that are not quadratic is raised likewise. It is enough where a step moves g
+/// by round-off: its defect is what g moves by.
 ///
 /// If no number of nodes is enough, or steps with more nodes fail, the step is too large for the motion. Where such
-/// steps fail, eight times as many nodes as at first are the most. Where they are kept, that is logged, the step is
-/// as it was (unless more nodes reduce the change of its energy by 2^10), and none is examined for a while, each time
-/// twice as long.
+/// steps fail, eight times as many nodes as at first are the most. Where they are kept, that is logged, and no step is
+/// examined for a while, each time twice as long. Such a step is as it was, unless more nodes reduce the change of its
+/// energy by 2^10.
 template <Scalar S>
 class RaisingStepper final : public Stepper<S> {
  public:
@@ -85,8 +85,8 @@ class RaisingStepper final : public Stepper<S> {
     Nodes(const Problem<S>& problem, HbvmName name, SolverKind solver);
   };
 
-  /// How closely a step is looked at: by QuadratureDefect's own measure, or, where the energy shows an error, by what
-  /// rounding makes of a mean of k + s terms.
+  /// How closely a step is looked at. The usual look takes QuadratureDefect's own measure. The strict one, where the
+  /// energy shows an error, takes what rounding makes of a mean of k + s terms.
   enum class Look { usual, strict };
 
   std::unique_ptr<Nodes> make_nodes(int k, int r) const;
@@ -105,7 +105,7 @@ class RaisingStepper final : public Stepper<S> {
   /// Examines the step just made, and repeats it with more nodes where that helps. \return the sweeps of that
   long examine(State<S>& state, Look look);
   /// The least k, by quarters, above that of `nodes` that is enough along the polynomial it has made, or the greatest
-  /// allowed; 0 if more nodes do not make the defect smaller, which is then round-off.
+  /// allowed. It is 0 if more nodes do not make the defect smaller, which is then round-off.
   int enough_nodes(Nodes& nodes, Look look) const;
   /// Whether the defect with the greatest number of nodes is round-off: half of them have no greater one.
   bool is_round_off(Nodes& nodes) const;
@@ -135,9 +135,5 @@ class RaisingStepper final : public Stepper<S> {
   GeneralDrift<S> step_drift_, drift_;  ///< of g in a step, and since the first
   S g_noise_ = 0, g_alarm_ = 0;         ///< what counts as round-off in a step, and what is looked at since the first
 };
-
-#define HBVM_DECLARE(S) extern template class RaisingStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

@@ -53,8 +53,4 @@ class Rattle final : public Stepper<S> {
 /// From no arguments. \throws InputError
 MethodPtr rattle_method(std::string_view arguments);
 
-#define HBVM_DECLARE(S) extern template class Rattle<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "step/stepper.hpp"
 
 namespace hbvm::core {
@@ -29,7 +29,7 @@ class ReducedEquations {
 
   const Problem<S>& problem_;
   PotentialEvaluator<S> potential_;
-  Point<S> point_;
+  StateEvaluator<S> point_;
   Matrix<S> force_;  // 1 x m
   Vector<S> velocity_, total_;
   std::vector<PartCount> parts_;
@@ -37,7 +37,7 @@ class ReducedEquations {
 };
 
 /// Steps of a method for the index-reduced equations, as an ordinary differential equation in the changes of q and p
-/// since the step began, which carry no round-off of q and p themselves; they are added with compensation. What is
+/// since the step began. The changes carry no round-off of q and p themselves, and are added with compensation. What is
 /// evaluated at the end of a step, its multiplier among it, begins the next one.
 template <Scalar S>
 class ReducedStepper : public Stepper<S> {
@@ -82,11 +82,5 @@ class ReducedStepper : public Stepper<S> {
   S s_ = 0, t_ = 0;
   SolverCounts earlier_;  ///< those of a run that this one continues
 };
-
-#define HBVM_DECLARE(S)                      \
-  extern template class ReducedEquations<S>; \
-  extern template class ReducedStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

@@ -15,7 +15,7 @@ struct MethodFamily {
 
 /// All there are.
 const std::vector<MethodFamily>& method_families();
-/// One more, unless one of its name is there: of a method that needs what this folder must not know, as `taylor`, or of
+/// One more, unless one of its name is there. Its method may need what this folder must not know, as `taylor`, or be of
 /// a program of one's own. Before threads are started.
 void add_method_family(const MethodFamily& family);
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "method/runge_kutta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "solver/extrapolation.hpp"
 #include "solver/position_scale.hpp"
 #include "step/constraint_projection.hpp"
@@ -23,13 +23,13 @@ enum class OnConstraints {
 ///     Q_i = q_0 + h sum_j A_ij V_j,   V_i = M^-1 P_i,                              q_1 = q_0 + h sum_i b_i V_i,
 ///     P_i = p_0 + h sum_j A_ij F_j,   F_i = grad U(Q_i) - grad g(Q_i) lambda_i,    p_1 = p_0 + h sum_i b_i F_i.
 ///
-/// With constraints, lambda_i = lambda(Q_i, P_i) of Theorem 1: the index-reduced equations, whose solutions keep
-/// g and the hidden constraints, but the method's do not, and drift away. Projected, each step ends on the constraints
-/// and in their tangent space, along grad g at its end.
+/// With constraints, lambda_i = lambda(Q_i, P_i) of Theorem 1. The solutions of these index-reduced equations keep g
+/// and the hidden constraints, but those of the method do not, and drift away. Projected, each step ends on the
+/// constraints and in their tangent space, along grad g at its end.
 ///
 /// If A is strictly lower triangular, the stages are computed one after the other. Else the P_i are found by
-/// fixed-point iteration, a sweep being V from P, Q, F, and P anew; it starts from the extrapolation of the last
-/// steps' P, and if that leads nowhere, once more from P = p0.
+/// fixed-point iteration, a sweep being V from P, Q, F, and P anew. It starts from the extrapolation of the last steps'
+/// P, and if that leads nowhere, once more from P = p0.
 ///
 /// StoppingRule says when the iteration ends, from the change of P; it fails as FixedPoint does.
 template <Scalar S>
@@ -72,7 +72,7 @@ class RungeKuttaStepper final : public Stepper<S> {
   Matrix<S> A_;
   bool explicit_;
   PotentialEvaluator<S> potential_;
-  std::optional<Point<S>> point_;  ///< if there are constraints
+  std::optional<StateEvaluator<S>> point_;  ///< if there are constraints
   std::optional<ConstraintProjection<S>> projection_;
   Matrix<S> P_, P_before_, Q_, V_, F_;  ///< s x m
   // One stage of an explicit method.
@@ -91,9 +91,5 @@ class RungeKuttaStepper final : public Stepper<S> {
   bool timed_ = false;
   SolverCounts earlier_;  ///< those of a run that this one continues
 };
-
-#define HBVM_DECLARE(S) extern template class RungeKuttaStepper<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
 
 }  // namespace hbvm::core

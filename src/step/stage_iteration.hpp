@@ -21,8 +21,8 @@ void scale_and_shift(Matrix<S>& x, const S& h, const Vector<S>& base) {
     }
 }
 
-/// Sweeps that make P anew, from what was P and is P_before then, with forces F on the way, until the rule sees that P
-/// is found. \return their number \throws StageFailure
+/// Sweeps until the rule sees that P is found. A sweep makes P anew from what was P, which is P_before then, with
+/// forces F on the way. \return their number \throws StageFailure
 template <Scalar S, class Sweep>
 long iterate_stages(StoppingRule<S>& rule, const Vector<S>& p0, const Vector<S>& positions, const S& h,
                     const Matrix<S>& P, const Matrix<S>& P_before, const Matrix<S>& F, Sweep&& sweep) {

@@ -5,8 +5,8 @@
 
 namespace hbvm::core {
 
-/// The propagated state. q_carry and p_carry are what rounding took from q and p in the last update and the next one
-/// gives back (compensated summation), so that the sums lose no digits over many steps.
+/// The propagated state. q_carry and p_carry are what rounding took from q and p in the last update. The next one gives
+/// it back (compensated summation), so that the sums lose no digits over many steps.
 template <Scalar S>
 struct State {
   Vector<S> q, p, q_carry, p_carry;

@@ -50,9 +50,4 @@ MethodPtr tableau_method(std::string_view arguments);
 /// The method as one of these, or null.
 const TableauMethod* as_tableau(const Method& method);
 
-#define HBVM_DECLARE(S) \
-  extern template StepperMaker<S> TableauMethod::prepare_in<S>(const Problem<S>&, SolverKind) const;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -35,7 +35,7 @@ Conservation conservation_in(const ConservationRequest& request) {
     result.quantities.push_back({kind, name, to_text(drift), ulps});
   };
   const Snapshot<S>& end = run.integration.end;
-  Point<S> point(problem);
+  StateEvaluator<S> point(problem);
   add(Kind::energy, "H", run.e_H, std::max(point.energy_size(scene.q0, scene.p0), point.energy_size(end.q, end.p)));
   if (problem.nu() > 0) add(Kind::constraints, "g", run.e_g, point.constraint_size(end.q));
   for (std::size_t i = 0; i < momenta.components().size(); ++i) {

@@ -53,6 +53,11 @@ Part<Findings> halving_study(const Experiment& experiment, TomlTable& top);
 Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top);
 Part<Findings> conservation_study(const Experiment& experiment, TomlTable& top);
 
+/// A [[figure]] of study.toml: its runs, whose results are trajectories as the text of CSV files, and the picture. What
+/// comes out are the files written. These are the trajectories (CSV, and what describes them) and the picture (SVG). It
+/// is a warning where it cannot be drawn.
+Part<Drawn> study_figure(const Experiment& experiment, TomlTable reader);
+
 /// The method that a table of study.toml names.
 inline MethodPtr stated_method(TomlTable& reader) {
   MethodPtr method = parse_method(reader.string("method"));

@@ -18,7 +18,7 @@ struct LongRun {
   double iterations_per_step;
 };
 
-std::string to_result(const RunResult& run) {
+std::string to_result(const Run& run) {
   return dumped({{"e_H", run.e_H},
                  {"e_g", run.e_g},
                  {"e_hid", run.e_hid},
@@ -105,7 +105,7 @@ Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top) {
     part.cells.push_back(
         {experiment.key("long run", experiment.scene, requests[n].method->key(), step, requests[n].until, ""),
          [request = requests[n], seconds, n] {
-           const RunResult result = hbvm::core::run(request, {});
+           const Run result = hbvm::core::run(request, {});
            (*seconds)[n] = result.cpu_seconds;
            return to_result(result);
          }});

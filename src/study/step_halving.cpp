@@ -6,7 +6,7 @@
 
 #include "long_work/json.hpp"
 #include "run/simulate.hpp"
-#include "run/texts.hpp"
+#include "run/vector_text.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
@@ -36,7 +36,7 @@ HalvingRun halving_run_in(const HalvingRequest& request, int i) {
   const std::unique_ptr<Stepper<S>> stepper = request.method->make_stepper(scene.problem, request.solver);
   const Simulated<S> run = simulate<S>(scene, *stepper, grid);
   const Snapshot<S>& end = run.integration.end;
-  return {grid.steps(),    texts(end.q),     texts(end.p),     texts(end.lambda),
+  return {grid.steps(),    to_texts(end.q),  to_texts(end.p),  to_texts(end.lambda),
           to_text(run.H0), to_text(run.e_H), to_text(run.e_g), to_text(run.e_hid)};
 }
 

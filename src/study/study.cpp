@@ -11,7 +11,6 @@
 #include "hbvm/version.hpp"
 #include "read_file.hpp"
 #include "report/csvw.hpp"
-#include "study_figure.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {

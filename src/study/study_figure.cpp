@@ -1,18 +1,16 @@
-#include "study_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <sstream>
 
-#include "csv_line.hpp"
+#include "experiment.hpp"
 #include "hbvm/figure.hpp"
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 #include "read_file.hpp"
+#include "report/csv_table.hpp"
 #include "run/run_figure.hpp"
 #include "run/scene_run.hpp"
 #include "run/trajectory_metadata.hpp"
@@ -52,22 +50,18 @@ std::pair<std::string, std::string> read_trajectory(const std::string& text) {
 /// A trajectory, column by column.
 class Columns {
  public:
-  explicit Columns(const std::string& csv) {
-    std::istringstream lines(csv);
-    std::string line;
-    std::getline(lines, line);
-    names_ = split_csv_line(line);
-    while (std::getline(lines, line)) rows_.push_back(split_csv_line(line));
-  }
+  /// \param file its name, for messages
+  Columns(const std::string& csv, const std::string& file) : table_(read_csv_table(csv, file)) {}
 
   /// \throws InputError by way of the reader
   std::vector<double> column(const TomlTable& reader, const std::string& name, AxisScale scale) const {
-    const auto place = std::find(names_.begin(), names_.end(), name);
-    if (place == names_.end())
-      reader.fail("there is no column '" + name + "': there are " + fmt::format("{}", fmt::join(names_, ", ")));
-    const auto i = static_cast<std::size_t>(place - names_.begin());
+    const std::vector<std::string>& names = table_.columns;
+    const auto place = std::find(names.begin(), names.end(), name);
+    if (place == names.end())
+      reader.fail("there is no column '" + name + "': there are " + fmt::format("{}", fmt::join(names, ", ")));
+    const auto i = static_cast<std::size_t>(place - names.begin());
     std::vector<double> values;
-    for (const auto& row : rows_)
+    for (const auto& row : table_.rows)
       values.push_back(scale == AxisScale::decimal ? log10_of(row.at(i)) : number(row.at(i)));
     return values;
   }
@@ -75,7 +69,7 @@ class Columns {
   /// Its states: t stands first, then the m coordinates of q.
   Recording recording(std::size_t m) const {
     Recording recording;
-    for (const auto& row : rows_) {
+    for (const auto& row : table_.rows) {
       Recording::Sample& sample = recording.samples.emplace_back();
       sample.t = number(row.at(0));
       for (std::size_t i = 1; i <= m; ++i) sample.q.push_back(number(row.at(i)));
@@ -96,8 +90,7 @@ class Columns {
     return mpfr_get_d(raw(x), MPFR_RNDN);
   }
 
-  std::vector<std::string> names_;
-  std::vector<std::vector<std::string>> rows_;
+  CsvTable table_;
 };
 
 /// The trajectory of the run that a table names by its number; the first if it does not.
@@ -195,7 +188,7 @@ Part<Drawn> study_figure(const Experiment& experiment, TomlTable reader) {
       write_file(csvs[n], csv);
       write_file(csvw_file(csvs[n]), metadata);
       made.files.insert(made.files.end(), {csvs[n], csvw_file(csvs[n])});
-      runs.emplace_back(csv);
+      runs.emplace_back(csv, csvs[n]);
     }
     Figure drawn = figure;
     drawn.footnote = experiment.provenance[0] + ", " + experiment.provenance[1];

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "chain.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "raw_cost.hpp"
 #include "write_file.hpp"
 
@@ -74,7 +74,7 @@ std::pair<Vector<S>, Vector<S>> output_at(const Scene& text, int k, int s, const
   HbvmStepper<S> stepper(scene.problem, method, SolverKind::automatic);
   State<S> state(scene.q0, scene.p0);
   for (long i = 0; i < steps; ++i) stepper.step(state, h);
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   return {state.q, point.tangential(state.q, state.p)};
 }
 

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
+#include "folder.hpp"
 #include "step/hbvm_method.hpp"
 
 namespace hbvm::core {
@@ -36,13 +34,14 @@ Claim with_wrong_weight(Claim claim, const char* relative) {
 
 /// A constant beyond the range of double is no reason to refuse what is decided with more.
 TEST(Auditor, BeginsWhereTheNumbersOfTheSceneAreInRange) {
-  const std::string file = (std::filesystem::temp_directory_path() / "hbvm_auditor_test.toml").string();
-  std::ofstream(file) << "dimension = 2\n[constants]\ne = \"1e-420\"\n[[body]]\nname = \"a\"\nmass = 1\nposition = [1, "
-                         "0]\nvelocity = [0, \"1/2\"]\n[[effect]]\nkind = \"formula\"\nU = \"-x^2/2 - y^2 - e*x\"\n";
+  const Folder folder;
+  const std::string file =
+      folder.write("scene.toml",
+                   "dimension = 2\n[constants]\ne = \"1e-420\"\n[[body]]\nname = \"a\"\nmass = 1\nposition = [1, "
+                   "0]\nvelocity = [0, \"1/2\"]\n[[effect]]\nkind = \"formula\"\nU = \"-x^2/2 - y^2 - e*x\"\n");
   const Finding energy = found(conserved(Quantity::H, file, {2, 2}));
   EXPECT_EQ(energy.verdict, Verdict::holds) << energy.reason;
   EXPECT_EQ(energy.evidence.front().precision, "quad");
-  std::filesystem::remove(file);
 }
 
 /// A weight wrong by 1e-93 shows with 100 digits alone, though nobody looks at the coefficients. It is an energy error

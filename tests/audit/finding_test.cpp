@@ -16,28 +16,29 @@ Verdict judged(Form form, double predicted, double measured, double uncertainty)
   return judge(claim, Rate{measured, uncertainty, 4});
 }
 
-TEST(Judge, IntervalsThatHoldTheWholeRateHold) {
-  for (const Form form : {Form::at_least, Form::exactly}) {
-    EXPECT_EQ(judged(form, 4, 4, 0), Verdict::holds);
-    EXPECT_EQ(judged(form, 4, 3.9, 0.11), Verdict::holds);
-    EXPECT_EQ(judged(form, 4, 4.1, 0.11), Verdict::holds);
-  }
-}
-
-TEST(Judge, IntervalsBelowFail) {
-  for (const Form form : {Form::at_least, Form::exactly}) {
-    EXPECT_EQ(judged(form, 4, 3, 0), Verdict::fails);
-    EXPECT_EQ(judged(form, 4, 3, 0.99), Verdict::fails);
-    EXPECT_EQ(judged(form, 4, 3.9, 0.09), Verdict::fails);
-    EXPECT_EQ(judged(form, 4, -1, 2), Verdict::fails);
-  }
-}
-
-TEST(Judge, IntervalsAboveFailOnlyIfClaimedExactly) {
-  EXPECT_EQ(judged(Form::at_least, 4, 5, 0), Verdict::holds);
-  EXPECT_EQ(judged(Form::at_least, 4, 40, 10), Verdict::holds);
-  EXPECT_EQ(judged(Form::exactly, 4, 5, 0), Verdict::fails);
-  EXPECT_EQ(judged(Form::exactly, 4, 4.1, 0.09), Verdict::fails);
+/// Alike for `at_least` and `exactly`, but where the interval lies above the rate.
+TEST(Judge, ByWhereTheIntervalLies) {
+  const auto at_least_and_exactly = [](double measured, double uncertainty) {
+    return std::pair(judged(Form::at_least, 4, measured, uncertainty), judged(Form::exactly, 4, measured, uncertainty));
+  };
+  const double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const Verdict holds = Verdict::holds, fails = Verdict::fails, open = Verdict::undecidable;
+  struct Case {
+    const char* where;
+    double measured, uncertainty;
+    Verdict at_least, exactly;
+  };
+  for (const Case& c : {Case{"on it", 4, 0, holds, holds}, Case{"around it", 3.9, 0.11, holds, holds},
+                        Case{"around it", 4.1, 0.11, holds, holds}, Case{"below it", 3, 0, fails, fails},
+                        Case{"below it", 3, 0.99, fails, fails}, Case{"below it", 3.9, 0.09, fails, fails},
+                        Case{"below it", -1, 2, fails, fails}, Case{"above it", 5, 0, holds, fails},
+                        Case{"above it", 4.1, 0.09, holds, fails}, Case{"above it", 40, 10, holds, fails},
+                        Case{"from it on, wide enough", 5, 0.99, holds, fails}, Case{"too wide", 4, 1, open, open},
+                        Case{"too wide", 3, 1.1, open, open}, Case{"too wide", 4, quarter, open, open},
+                        Case{"too wide", 4 - half, 1, open, open}, Case{"too wide", 4, infinite, open, open},
+                        Case{"no number", nan, 0, open, open}, Case{"no number", 4, nan, open, open}})
+    EXPECT_EQ(at_least_and_exactly(c.measured, c.uncertainty), std::pair(c.at_least, c.exactly))
+        << c.where << ": " << c.measured << " +- " << c.uncertainty;
 }
 
 /// No rate that is not whole is that of an error, and no half is allowed it.
@@ -54,30 +55,11 @@ TEST(Judge, RatesThatAreNotWholeNeverHoldBeyondTheInterval) {
   }
 }
 
-TEST(Judge, WideIntervalsAreUndecidable) {
-  for (const Form form : {Form::at_least, Form::exactly}) {
-    EXPECT_EQ(judged(form, 4, 4, 1), Verdict::undecidable);
-    EXPECT_EQ(judged(form, 4, 3, 1.1), Verdict::undecidable);
-    EXPECT_EQ(judged(form, 4, 4, quarter), Verdict::undecidable);
-    EXPECT_EQ(judged(form, 4, 4 - half, 1), Verdict::undecidable);
-    EXPECT_EQ(judged(form, 4, 4, std::numeric_limits<double>::infinity()), Verdict::undecidable);
-  }
-  EXPECT_EQ(judged(Form::at_least, 4, 5, 0.99), Verdict::holds) << "from the bound on it is wide enough";
-}
-
 TEST(Judge, WithoutARateNothingIsDecided) {
   for (const Form form : {Form::at_least, Form::exactly}) {
     Claim claim;
     claim.form = form;
     EXPECT_EQ(judge(claim, std::nullopt), Verdict::undecidable);
-  }
-}
-
-TEST(Judge, WhatIsNotANumberDecidesNothing) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Form form : {Form::at_least, Form::exactly}) {
-    EXPECT_EQ(judged(form, 4, nan, 0), Verdict::undecidable);
-    EXPECT_EQ(judged(form, 4, 4, nan), Verdict::undecidable);
   }
 }
 

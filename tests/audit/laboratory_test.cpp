@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "audit/cells.hpp"
+#include "audit/claim_groups.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -15,10 +15,10 @@ class LaboratoryTest : public ::testing::Test {
 
 /// From each start on, one way there and back; no motion is known that has no closed form.
 TEST_F(LaboratoryTest, KnowsMotionsInClosedForm) {
-  Cell cell = cell_of("simple_pendulum", {2, 2}, {Quantity::q});
-  cell.log2_scale = -1;
-  cell.starts.count = 3;
-  const Laboratory laboratory(cell);
+  ClaimGroup group = group_of("simple_pendulum", {2, 2}, {Quantity::q});
+  group.log2_scale = -1;
+  group.starts.count = 3;
+  const Laboratory laboratory(group);
   ASSERT_EQ(laboratory.starts().size(), 3u);
   for (const Laboratory::Start& start : laboratory.starts()) {
     const auto known = laboratory.known(start, Mpfr(2));
@@ -29,19 +29,19 @@ TEST_F(LaboratoryTest, KnowsMotionsInClosedForm) {
     EXPECT_LE(distance(back->q, start.q), small);
     EXPECT_LE(distance(back->p, start.p), small);
   }
-  cell = cell_of("double_pendulum", {2, 2}, {Quantity::q});
-  const Laboratory other(cell);
+  group = group_of("double_pendulum", {2, 2}, {Quantity::q});
+  const Laboratory other(group);
   EXPECT_FALSE(other.known(other.starts()[0], Mpfr(1)));
 }
 
 /// On the motion one after the other: consistent, of the scene's energy, and where the stride says.
 TEST_F(LaboratoryTest, StartsAreConsistentStatesOfTheMotion) {
-  Cell cell = cell_of("double_pendulum", {2, 2}, {Quantity::q});
-  cell.log2_scale = -2;
-  cell.starts = {3, 2, 1};
-  Laboratory laboratory(cell);
+  ClaimGroup group = group_of("double_pendulum", {2, 2}, {Quantity::q});
+  group.log2_scale = -2;
+  group.starts = {3, 2, 1};
+  Laboratory laboratory(group);
   const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("double_pendulum"));
-  Point<Mpfr>& point = laboratory.point();
+  StateEvaluator<Mpfr>& point = laboratory.point();
   const Mpfr energy = point.energy(scene.q0, scene.p0);
   ASSERT_EQ(laboratory.starts().size(), 3u);
   for (const Laboratory::Start& start : laboratory.starts()) {
@@ -49,17 +49,17 @@ TEST_F(LaboratoryTest, StartsAreConsistentStatesOfTheMotion) {
     EXPECT_LE(max_norm(point.hidden_constraints(start.q, start.p)), small);
     EXPECT_LE(magnitude(Mpfr(point.energy(start.q, start.p) - energy)), ldexp(Mpfr(1), -20));
   }
-  cell.starts = {1, 4, 1};
-  EXPECT_EQ(Laboratory(cell).starts()[0].q, laboratory.starts()[2].q);
-  cell.starts = {2, 2, 2};
-  EXPECT_EQ(Laboratory(cell).starts()[1].p, laboratory.starts()[2].p);
+  group.starts = {1, 4, 1};
+  EXPECT_EQ(Laboratory(group).starts()[0].q, laboratory.starts()[2].q);
+  group.starts = {2, 2, 2};
+  EXPECT_EQ(Laboratory(group).starts()[1].p, laboratory.starts()[2].p);
   EXPECT_NE(laboratory.starts()[0].q, laboratory.starts()[1].q);
 }
 
 TEST_F(LaboratoryTest, KeepsToTheTimeThereIs) {
-  Cell cell = cell_of("double_pendulum", {2, 2}, {Quantity::q});
-  cell.stop_at = 1 / double{1'000'000'000};
-  EXPECT_THROW(Laboratory{cell}, LimitReached);
+  ClaimGroup group = group_of("double_pendulum", {2, 2}, {Quantity::q});
+  group.stop_at = 1 / double{1'000'000'000};
+  EXPECT_THROW(Laboratory{group}, LimitReached);
 }
 
 }  // namespace

@@ -2,25 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include "folder.hpp"
 
 namespace hbvm::core {
 namespace {
 
-namespace fs = std::filesystem;
-
 class MotionTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = fs::temp_directory_path() / (std::string("hbvm_motion_") + test->name() + ".toml");
-  }
-  void TearDown() override { fs::remove(path_); }
-
   Motion of(const std::string& text) const {
-    std::ofstream(path_) << "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\n" << text;
-    return motion_of(path_.string());
+    return motion_of(
+        folder_.write("scene.toml", "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\n" + text));
   }
   static std::string body(const std::string& position, const std::string& velocity) {
     return "[[body]]\nname = \"a\"\nmass = 1\nposition = " + position + "\nvelocity = " + velocity + "\n";
@@ -30,7 +21,7 @@ class MotionTest : public ::testing::Test {
   }
 
  private:
-  fs::path path_;
+  Folder folder_;
 };
 
 /// 4/omega, or the power of two below that resolves it.

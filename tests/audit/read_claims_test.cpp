@@ -1,19 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 #include "audit/claims.hpp"
-#include "hbvm/error.hpp"
+#include "folder.hpp"
 #include "scalar/literal.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/tableau_method.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Every key, a scene and a tableau beside the file, and a claim of round-off.
 const std::string good_claims = R"([[claim]]
@@ -49,21 +46,13 @@ b = [1]
 
 class ReadClaims : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("hbvm_claims_") + test->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    std::ofstream(folder_ / "own.toml") << own_scene;
-    std::ofstream(folder_ / "midpoint.toml") << midpoint;
+  ReadClaims() {
+    folder_.write("own.toml", own_scene);
+    folder_.write("midpoint.toml", midpoint);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  std::string path() const { return (folder_ / "claims.toml").string(); }
-  std::vector<Claim> read(const std::string& text) const {
-    std::ofstream(path(), std::ios::binary) << text;
-    return read_claims(path());
-  }
+  std::string path() const { return folder_ / "claims.toml"; }
+  std::vector<Claim> read(const std::string& text) const { return read_claims(folder_.write("claims.toml", text)); }
   static std::string changed(const std::string& from, const std::string& to) {
     std::string text = good_claims;
     const std::size_t at = text.find(from);
@@ -71,20 +60,14 @@ class ReadClaims : public ::testing::Test {
     return text.replace(at, from.size(), to);
   }
   void expect_refusal(const std::string& text, int line, const std::vector<std::string>& words) const {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      const std::string message = error.what();
-      EXPECT_TRUE(message.starts_with(path() + ":" + std::to_string(line) + ": ")) << line << " is not in " << message;
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-      EXPECT_EQ(message.rfind(path()), 0u) << "the place stands twice in " << message;
-      for (const std::string& word : words) EXPECT_NE(message.find(word), std::string::npos) << word << ": " << message;
-      return;
-    }
-    ADD_FAILURE() << "not refused:\n" << text;
+    const std::string message = message_of([&] { read(text); });
+    EXPECT_TRUE(message.starts_with(path() + ":" + std::to_string(line) + ": ")) << line << " is not in " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_EQ(message.rfind(path()), 0u) << "the place stands twice in " << message;
+    for (const std::string& word : words) EXPECT_NE(message.find(word), std::string::npos) << word << ": " << message;
   }
 
-  fs::path folder_;
+  Folder folder_;
 };
 
 TEST_F(ReadClaims, TakesAllKeys) {
@@ -119,14 +102,14 @@ TEST_F(ReadClaims, MayLeaveOutKeys) {
 
 TEST_F(ReadClaims, FilesStandBesideTheClaims) {
   const Claim c = read(good_claims)[1];
-  EXPECT_EQ(c.problem, (folder_ / "own.toml").string());
+  EXPECT_EQ(c.problem, folder_ / "own.toml");
   ASSERT_TRUE(as_tableau(*c.method));
   EXPECT_EQ(c.method_text(), "midpoint");
   EXPECT_EQ(c.predicted, 2) << "s is the number of stages";
 }
 
 TEST_F(ReadClaims, FilesMayStandElsewhere) {
-  const std::string elsewhere = (folder_ / "midpoint.toml").string();
+  const std::string elsewhere = folder_ / "midpoint.toml";
   EXPECT_TRUE(as_tableau(*read(changed("midpoint.toml", elsewhere))[1].method));
 }
 
@@ -190,13 +173,13 @@ TEST_F(ReadClaims, RefusesMethods) {
   expect_refusal(changed("hbvm:3,2", "hbvm:1,2"), 1, {"claim 1", "hbvm:1,2"});
   expect_refusal(changed("hbvm:3,2", "hbvm:3"), 1, {"claim 1", "hbvm:3"});
   expect_refusal(changed("midpoint.toml", "endpoint.toml"), 11, {"claim 2", "endpoint.toml"});
-  std::ofstream(folder_ / "broken.toml") << "b = [1]\n";
+  folder_.write("broken.toml", "b = [1]\n");
   expect_refusal(changed("midpoint.toml", "broken.toml"), 11, {"claim 2", "broken.toml", "'A' is missing"});
 }
 
 TEST_F(ReadClaims, RefusesScenes) {
   expect_refusal(changed("double_pendulum", "square_pendulum"), 1, {"claim 1", "square_pendulum"});
-  std::ofstream(folder_ / "broken.toml") << "dimension = 4\n";
+  folder_.write("broken.toml", "dimension = 4\n");
   expect_refusal(changed("own.toml", "broken.toml"), 11, {"claim 2", "broken.toml", "'dimension'"});
 }
 
@@ -256,8 +239,8 @@ TEST_F(ReadClaims, TakesRatesOfGOfAnyConstraint) {
   expect_refusal(of_g("own.toml", "hbvm:3,2,5"), 1, {"claim 1", "'g'", "round-off"});
   expect_refusal(of_g("bead_on_torus", "hbvm:3,2"), 6, {"claim 1", "r"});
   // In a file beside the claims, too.
-  std::ofstream(folder_ / "own.toml")
-      << own_scene << "constraint = [{ kind = \"formula\", on = \"a\", g = \"cosh(x) - cosh(1)\" }]\n";
+  folder_.write("own.toml",
+                own_scene + "constraint = [{ kind = \"formula\", on = \"a\", g = \"cosh(x) - cosh(1)\" }]\n");
   EXPECT_NO_THROW(read(of_g("own.toml", "hbvm:3,2,5")));
 }
 
@@ -328,8 +311,8 @@ TEST_F(ReadClaims, RefusesWrongTypes) {
 }
 
 TEST_F(ReadClaims, RefusesWhatIsNoFile) {
-  EXPECT_THROW(read_claims((folder_ / "none.toml").string()), InputError);
-  EXPECT_THROW(read_claims(folder_.string()), InputError);
+  EXPECT_THROW(read_claims(folder_ / "none.toml"), InputError);
+  EXPECT_THROW(read_claims(folder_.path().string()), InputError);
   EXPECT_THROW(read_claims(""), InputError);
 }
 

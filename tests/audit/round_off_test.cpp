@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "audit/cells.hpp"
+#include "audit/claim_groups.hpp"
 #include "audit/measurements.hpp"
 
 namespace hbvm::core {
@@ -11,12 +11,12 @@ namespace {
 constexpr ConservationRun short_run{-4, 24};
 
 TEST(RoundOffAllowed, IsFourUnitsForEachNumberSummed) {
-  EXPECT_EQ(allowed_units(cell_of("kepler", {5, 3}, {Quantity::H}).subject()), 32);
+  EXPECT_EQ(allowed_units(group_of("kepler", {5, 3}, {Quantity::H}).subject()), 32);
 }
 
 TEST(RoundOffAllowed, ExplainsWhatGaussConserves) {
   const auto found = round_off<double>(
-      cell_of("kepler", {3, 3}, {Quantity::angular_momentum, Quantity::reversal, Quantity::H}), short_run);
+      group_of("kepler", {3, 3}, {Quantity::angular_momentum, Quantity::reversal, Quantity::H}), short_run);
   for (const Quantity quantity : {Quantity::angular_momentum, Quantity::reversal}) {
     EXPECT_LE(found.at(quantity).ratio, 1) << name_of(quantity);
     EXPECT_EQ(found.at(quantity).rung.step, -4);
@@ -27,8 +27,8 @@ TEST(RoundOffAllowed, ExplainsWhatGaussConserves) {
 
 /// The same error is more and more beyond round-off as the digits grow.
 TEST(RoundOffAllowed, IsThatOfThePrecision) {
-  const Cell cell = cell_of("double_pendulum", {2, 2}, {Quantity::hidden, Quantity::g});
-  const auto in_double = round_off<double>(cell, short_run), in_quad = round_off<Quad>(cell, short_run);
+  const ClaimGroup group = group_of("double_pendulum", {2, 2}, {Quantity::hidden, Quantity::g});
+  const auto in_double = round_off<double>(group, short_run), in_quad = round_off<Quad>(group, short_run);
   EXPECT_LE(in_double.at(Quantity::g).ratio, 1);
   EXPECT_LE(in_quad.at(Quantity::g).ratio, 1);
   EXPECT_GT(in_double.at(Quantity::hidden).ratio, 1000);

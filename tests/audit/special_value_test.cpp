@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "audit/cells.hpp"
+#include "audit/claim_groups.hpp"
 #include "audit/measurements.hpp"
 #include "hbvm/error.hpp"
 
@@ -8,7 +8,7 @@ namespace hbvm::core {
 namespace {
 
 double value_of_one(Quantity quantity, const char* problem, HbvmName method) {
-  return special_value(cell_of(problem, method, {quantity}));
+  return special_value(group_of(problem, method, {quantity}));
 }
 
 TEST(SpecialValues, AreNotThoseThatHaveARate) {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "audit/cells.hpp"
+#include "audit/claim_groups.hpp"
 #include "audit/measurements.hpp"
 #include "reference/known_motion.hpp"
 #include "reference/reference_motion.hpp"
@@ -10,23 +10,23 @@
 namespace hbvm::core {
 namespace {
 
-Ladders step_errors(const Cell& cell, std::size_t rungs) {
-  return step_ladder<Quad>(cell, [&](const Ladders& ladders) { return ladders.begin()->second.size() == rungs; });
+Ladders step_errors(const ClaimGroup& group, std::size_t rungs) {
+  return step_ladder<Quad>(group, [&](const Ladders& ladders) { return ladders.begin()->second.size() == rungs; });
 }
 
 /// One step is of one order more than a run.
 TEST(StepLadder, HasTheRateOfOneStep) {
-  const Ladders ladders = step_errors(cell_of("kepler", {2, 2}, {Quantity::q}, Span::step), 9);
+  const Ladders ladders = step_errors(group_of("kepler", {2, 2}, {Quantity::q}, Span::step), 9);
   EXPECT_TRUE(is_rate(ladders.at(Quantity::q), 5));
   EXPECT_TRUE(is_rate(ladders.at(Quantity::p), 5));
   EXPECT_TRUE(is_rate(ladders.at(Quantity::H), 5));
 }
 
 TEST(StepLadder, StepsArePartsOfTheScaleAndItsErrorsThoseOfTheStep) {
-  Cell cell = cell_of("simple_pendulum", {2, 2}, {Quantity::q}, Span::step);
-  cell.log2_scale = -1;
-  cell.starts.lead = 0;
-  const auto rungs = step_errors(cell, 3).at(Quantity::q);
+  ClaimGroup group = group_of("simple_pendulum", {2, 2}, {Quantity::q}, Span::step);
+  group.log2_scale = -1;
+  group.starts.lead = 0;
+  const auto rungs = step_errors(group, 3).at(Quantity::q);
   const PrecisionScope digits(40);
   const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("simple_pendulum"));
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(2, 2);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "audit/cells.hpp"
+#include "audit/claim_groups.hpp"
 #include "step/hbvm_stepper.hpp"
 
 namespace hbvm::core {
@@ -11,8 +11,8 @@ namespace {
 class TrialTest : public ::testing::Test {
  protected:
   PrecisionScope digits{40};
-  Cell cell = cell_of("double_pendulum", {4, 2}, {Quantity::q});
-  Laboratory laboratory{cell};
+  ClaimGroup group = group_of("double_pendulum", {4, 2}, {Quantity::q});
+  Laboratory laboratory{group};
   const Laboratory::Start& start = laboratory.starts().front();
   const Mpfr h = Mpfr(1) / 32;
 };
@@ -28,7 +28,7 @@ TEST_F(TrialTest, StepsInItsOwnPrecision) {
     return result;
   };
   State<double> state(rounded(start.q), rounded(start.p));
-  Trial<double> trial(cell.subject());
+  Trial<double> trial(group.subject());
   trial.begin(start, h);
   Vector<Mpfr> q = start.q, p = start.p, lambda(laboratory.problem().nu());
   for (int n = 0; n < 3; ++n) {
@@ -44,7 +44,7 @@ TEST_F(TrialTest, StepsInItsOwnPrecision) {
 }
 
 TEST_F(TrialTest, GoesBackToItsStart) {
-  Trial<Quad> trial(cell.subject());
+  Trial<Quad> trial(group.subject());
   trial.begin(start, h);
   for (int n = 0; n < 4; ++n) trial.step();
   trial.reverse();
@@ -57,7 +57,7 @@ TEST_F(TrialTest, GoesBackToItsStart) {
 
 /// u goes from q0 to q1 and v from p0 to p1, and the multipliers at the nodes are nearly those of the states there.
 TEST_F(TrialTest, HasThePolynomialsOfItsStep) {
-  Trial<Quad> trial(cell.subject());
+  Trial<Quad> trial(group.subject());
   trial.begin(start, h);
   trial.step();
   ASSERT_TRUE(trial.has_polynomials());

@@ -12,38 +12,26 @@
 namespace hbvm::core {
 namespace {
 
-class RealBall {
- public:
-  RealBall() { arb_init(x_); }
-  ~RealBall() { arb_clear(x_); }
-  RealBall(const RealBall&) = delete;
-  RealBall& operator=(const RealBall&) = delete;
-  operator arb_ptr() { return x_; }
-
- private:
-  arb_t x_;
-};
-
 /// What the guard digits leave of an ulp beside the one rounding: a trifle, as log2.
 constexpr slong trifle = -16;
 
 /// Certainly |value - truth| <= quarters/4 ulps of `value` and a trifle, however wide the enclosure of the truth.
 template <Scalar S>
-bool within_ulps(const S& value, arb_ptr truth, int quarters) {
+bool within_ulps(const S& value, const RealBall& truth, int quarters) {
   const BigFloat exact = exactly(value);
   const slong precision = 2 * mpfr_get_prec(raw(exact)) + 200;
   RealBall distance, bound;
-  arf_set_mpfr(arb_midref(static_cast<arb_ptr>(distance)), raw(exact));
-  arb_sub(distance, distance, truth, precision);
-  arb_abs(distance, distance);
+  arf_set_mpfr(arb_midref(raw(distance)), raw(exact));
+  arb_sub(raw(distance), raw(distance), raw(truth), precision);
+  arb_abs(raw(distance), raw(distance));
   RealBall rest;
-  arb_set_si(bound, quarters);
-  arb_mul_2exp_si(bound, bound, -2);
-  arb_one(rest);
-  arb_mul_2exp_si(rest, rest, trifle);
-  arb_add(bound, bound, rest, precision);
-  arb_mul_2exp_si(bound, bound, mpfr_get_exp(raw(exact)) - mpfr_get_prec(raw(exact)));
-  return arb_le(distance, bound) != 0;
+  arb_set_si(raw(bound), quarters);
+  arb_mul_2exp_si(raw(bound), raw(bound), -2);
+  arb_one(raw(rest));
+  arb_mul_2exp_si(raw(rest), raw(rest), trifle);
+  arb_add(raw(bound), raw(bound), raw(rest), precision);
+  arb_mul_2exp_si(raw(bound), raw(bound), mpfr_get_exp(raw(exact)) - mpfr_get_prec(raw(exact)));
+  return arb_le(raw(distance), raw(bound)) != 0;
 }
 
 template <Scalar S>
@@ -56,15 +44,15 @@ void expect_certified(int n) {
   constexpr int half = 2, three_quarters = 3;
   RealBall root, weight, c;
   for (int k = 0; 2 * k < n; ++k) {
-    arb_hypgeom_legendre_p_ui_root(root, weight, static_cast<ulong>(n), static_cast<ulong>(k), precision);
-    arb_mul_2exp_si(weight, weight, -1);
-    arb_sub_ui(c, root, 1, precision);
-    arb_neg(c, c);
-    arb_mul_2exp_si(c, c, -1);
+    arb_hypgeom_legendre_p_ui_root(raw(root), raw(weight), static_cast<ulong>(n), static_cast<ulong>(k), precision);
+    arb_mul_2exp_si(raw(weight), raw(weight), -1);
+    arb_sub_ui(raw(c), raw(root), 1, precision);
+    arb_neg(raw(c), raw(c));
+    arb_mul_2exp_si(raw(c), raw(c), -1);
     EXPECT_TRUE(within_ulps(formula.c[k], c, half)) << "c_" << k << " = " << formula.c[k];
     EXPECT_TRUE(within_ulps(formula.b[k], weight, half)) << "b_" << k << " = " << formula.b[k];
-    arb_add_ui(c, root, 1, precision);
-    arb_mul_2exp_si(c, c, -1);
+    arb_add_ui(raw(c), raw(root), 1, precision);
+    arb_mul_2exp_si(raw(c), raw(c), -1);
     EXPECT_TRUE(within_ulps(formula.c[n - 1 - k], c, 2 * k + 1 == n ? half : three_quarters))
         << "c_" << n - 1 - k << " = " << formula.c[n - 1 - k];
     EXPECT_TRUE(within_ulps(formula.b[n - 1 - k], weight, half)) << "b_" << n - 1 - k << " = " << formula.b[n - 1 - k];
@@ -148,10 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, GaussLegendre,
                          name_of);
 
 template <class S>
-class GaussLegendreFormula : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class GaussLegendreFormula : public InDigits<50> {};
 TYPED_TEST_SUITE(GaussLegendreFormula, AllScalars, ScalarNames);
 
 TYPED_TEST(GaussLegendreFormula, RefusesANumberOfNodesOutOfRange) {

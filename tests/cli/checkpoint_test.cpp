@@ -6,6 +6,7 @@
 #include "checksum.hpp"
 #include "cli/json.hpp"
 #include "cli/program.hpp"
+#include "csv_line.hpp"
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/with_scalar.hpp"
@@ -146,9 +147,8 @@ TEST(Signals, EndARunWithCompleteLines) {
         EXPECT_EQ(outcome.out, "");
         EXPECT_TRUE(outcome.err.starts_with(written(with_metadata(csv)) + "hbvm: ")) << outcome.err;
         EXPECT_EQ(lines_of(outcome.err).size(), 3u) << outcome.err;
-        EXPECT_NE(outcome.err.find(signal == SIGINT ? "SIGINT" : "SIGTERM"), std::string::npos) << outcome.err;
-        EXPECT_NE(outcome.err.find(keep ? "hbvm run --resume " + file : std::string("--checkpoint")), std::string::npos)
-            << outcome.err;
+        expect_words(outcome.err, {signal == SIGINT ? "SIGINT" : "SIGTERM",
+                                   keep ? "hbvm run --resume " + file : std::string("--checkpoint")});
         expect_complete_lines(text_of(csv));
         EXPECT_EQ(std::filesystem::exists(file), keep);
         if (!keep) continue;
@@ -293,19 +293,12 @@ TEST(FullDisk, EndsTheTrajectoryWithACompleteLine) {
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_NE(outcome.err.find(csv), std::string::npos) << outcome.err;
+  expect_words(outcome.err, {csv});
   expect_complete_lines(text_of(csv));
   EXPECT_GT(text_of(csv).size(), 99'000u);
 }
 
 ordered_json result_of(const Arguments& arguments) { return result_of(hbvm(arguments + Arguments{"--json"})); }
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> parts;
-  std::istringstream stream(line);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  return parts;
-}
 
 TEST(Start, AndReverseComeBackToRoundOff) {
   const Folder folder;
@@ -322,10 +315,11 @@ TEST(Start, AndReverseComeBackToRoundOff) {
       EXPECT_EQ(j["t"], "-2");
       EXPECT_EQ(j["until"], "2");
       EXPECT_EQ(j["reverse"], true);
-      const auto start = split(lines_of(text_of(csv)).at(1)), first = split(lines_of(text_of(back)).at(1));
+      const auto start = split_csv_line(lines_of(text_of(csv)).at(1)),
+                 first = split_csv_line(lines_of(text_of(back)).at(1));
       EXPECT_EQ(first.at(0), "0");
-      EXPECT_EQ(split(lines_of(text_of(back)).at(2)).at(0), "-0.03125");
-      EXPECT_EQ(split(lines_of(text_of(back)).back()).at(0), "-2");
+      EXPECT_EQ(split_csv_line(lines_of(text_of(back)).at(2)).at(0), "-0.03125");
+      EXPECT_EQ(split_csv_line(lines_of(text_of(back)).back()).at(0), "-2");
       with_scalar(Precision::parse(precision), [&]<Scalar S>() {
         for (std::size_t i = 0; i < 4; ++i) {
           EXPECT_EQ(forth["q"][i], first[1 + i]);

@@ -30,7 +30,7 @@ TEST(CostCommand, WritesTablesAndFiguresAndGoesOn) {
   const Arguments arguments = small + Arguments{"--out", folder / "out"};
   const Outcome first = hbvm(arguments);
   ASSERT_EQ(first.code, 0) << first.err;
-  EXPECT_NE(first.out.find("the least time for so many right digits"), std::string::npos) << first.out;
+  expect_words(first.out, {"the least time for so many right digits"});
   for (const char* const file : {"cost.csv", "cost.csv-metadata.json", "cost.json", "cells.jsonl"})
     EXPECT_FALSE(text_of(folder / ("out/" + std::string(file))).empty()) << file;
   const std::string store = folder / "out/cells.jsonl", all = text_of(store);

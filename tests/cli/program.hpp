@@ -11,12 +11,14 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "folder.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 
@@ -26,37 +28,6 @@ using Arguments = std::vector<std::string>;
 struct Outcome {
   int code = -1;  ///< exit code; -signal if a signal ended it
   std::string out, err;
-};
-
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// A folder of one's own, removed in the end.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "hbvm_cli_test_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return *this / name;
-  }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// Runs `hbvm` with these arguments, without a terminal and with an empty standard input. `limit` is called in the new
@@ -155,8 +126,7 @@ inline void expect_refused(const Arguments& arguments, const std::vector<std::st
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
   EXPECT_TRUE(outcome.err.ends_with('\n'));
-  for (const std::string& word : words)
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' is not in: " << outcome.err;
+  for (const std::string& word : words) expect_words(outcome.err, {word});
 }
 
 /// A pendulum of this velocity at its lowest point.

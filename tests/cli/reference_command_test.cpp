@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "cli/json.hpp"
 #include "cli/program.hpp"
 
@@ -43,56 +40,44 @@ TEST(ReferenceCommand, GivesTheClosedFormAloneIfThereIsOne) {
   const Outcome known =
       hbvm({"reference", "spherical_pendulum", "--until", "3", "--digits", "20", "--route", "closed_form"});
   EXPECT_EQ(known.code, 0) << known.err;
-  EXPECT_NE(known.out.find("by one route"), std::string::npos) << known.out;
-  EXPECT_NE(known.out.find("closed form: spherical pendulum (elliptic integrals)"), std::string::npos) << known.out;
-  const Outcome unknown = hbvm({"reference", "heavy_top", "--until", "1", "--digits", "20", "--route", "closed_form"});
-  EXPECT_EQ(unknown.code, 2);
-  EXPECT_NE(unknown.err.find("no closed form of the motion of 'heavy_top' is known"), std::string::npos) << unknown.err;
+  expect_words(known.out, {"by one route", "closed form: spherical pendulum (elliptic integrals)"});
+  expect_refused({"reference", "heavy_top", "--until", "1", "--digits", "20", "--route", "closed_form"},
+                 {"no closed form of the motion of 'heavy_top' is known"});
 }
 
-/// A digit of a number of the second time, in the middle or the last, of whatever is stored. It is found, and named
-/// with its time, its component and both values. What is kept is found again, and a file that cannot be one is refused
-/// before any work.
+/// What is kept is found again, and a file that cannot be one is refused before any work.
 TEST(ReferenceCommand, GoesOnFromACheckpoint) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "hbvm_reference_checkpoint";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  const std::string file = (folder / "way.jsonl").string();
+  const Folder folder;
+  const std::string file = folder / "way.jsonl";
   const std::vector<std::string> command{"reference", "double_pendulum", "--until",      "3", "--digits",
                                          "20",        "--json",          "--checkpoint", file};
   const Outcome first = hbvm(command);
   ASSERT_EQ(first.code, 0) << first.err;
   const auto legs = [&file] {
-    std::ifstream kept(file);
-    std::string line;
-    long count = 0;
-    while (std::getline(kept, line)) count += line.empty() ? 0 : 1;
-    return count;
+    std::vector<std::string> lines = lines_of(text_of(file));
+    std::erase(lines, "");
+    return lines.size();
   };
-  EXPECT_EQ(legs(), 2) << "one of either route";
+  EXPECT_EQ(legs(), 2u) << "one of either route";
   const Outcome second = hbvm(command);
   EXPECT_EQ(second.out, first.out) << "to the processor times, which are those of the first";
-  EXPECT_EQ(legs(), 2);
-  const Outcome refused = hbvm({"reference", "double_pendulum", "--until", "3", "--checkpoint", folder.string()});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find(folder.string()), std::string::npos) << refused.err;
+  EXPECT_EQ(legs(), 2u);
+  expect_refused({"reference", "double_pendulum", "--until", "3", "--checkpoint", folder / "."}, {folder / "."});
 }
 
+/// A digit of a number of the second time, in the middle or the last, of whatever is stored. It is found, and named
+/// with its time, its component and both values.
 TEST(ReferenceCommand, WritesAFileAndFindsAWrongDigitInIt) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("reference_command_" + std::to_string(getpid()) + ".toml");
-  const Outcome made = hbvm(
-      {"reference", "conical_pendulum", "--until", "1", "--at", "1/2,1", "--digits", "25", "--out", file.string()});
+  const Folder folder;
+  const std::string file = folder / "reference.toml";
+  const Outcome made =
+      hbvm({"reference", "conical_pendulum", "--until", "1", "--at", "1/2,1", "--digits", "25", "--out", file});
   ASSERT_EQ(made.code, 0) << made.err;
-  EXPECT_NE(made.out.find("the routes agree in"), std::string::npos);
-  const Outcome verified = hbvm({"reference", "--verify", file.string()});
+  expect_words(made.out, {"the routes agree in"});
+  const Outcome verified = hbvm({"reference", "--verify", file});
   EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
-  EXPECT_NE(verified.out.find("all digits of 2 times"), std::string::npos);
-  std::string right;
-  {
-    std::ifstream in(file);
-    right.assign(std::istreambuf_iterator<char>(in), {});
-  }
+  expect_words(verified.out, {"all digits of 2 times"});
+  const std::string right = text_of(file);
   const std::size_t second = right.find("t = \"1\"");
   ASSERT_NE(second, std::string::npos);
   struct Place {
@@ -110,27 +95,21 @@ TEST(ReferenceCommand, WritesAFileAndFindsAWrongDigitInIt) {
       std::string text = right;
       ASSERT_NE(text[at], '.');
       text[at] = text[at] == '7' ? '8' : '7';
-      std::ofstream(file) << text;
-      const Outcome wrong = hbvm({"reference", "--verify", file.string(), "--route", last ? "taylor" : "hbvm"});
+      folder.write("reference.toml", text);
+      const Outcome wrong = hbvm({"reference", "--verify", file, "--route", last ? "taylor" : "hbvm"});
       EXPECT_EQ(wrong.code, 1) << place.name;
-      EXPECT_NE(wrong.out.find(std::string("t = 1: ") + place.name + " is " + right.substr(begin, end - begin)),
-                std::string::npos)
-          << wrong.out;
-      EXPECT_NE(wrong.out.find(", not " + text.substr(begin, end - begin)), std::string::npos) << wrong.out;
-      EXPECT_NE(wrong.out.find(": 1 numbers differ"), std::string::npos) << wrong.out;
+      expect_words(wrong.out, {std::string("t = 1: ") + place.name + " is " + right.substr(begin, end - begin),
+                               ", not " + text.substr(begin, end - begin), ": 1 numbers differ"});
     }
-  std::filesystem::remove(file);
 }
 
 /// Trajectories as hbvm run writes them, of RATTLE with four steps: order 2. Of HBVM, whose p is not tangential, the
 /// momenta of the output state are compared.
 TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("reference_against_" + std::to_string(getpid()));
-  std::filesystem::create_directory(folder);
+  const Folder folder;
   std::string files;
   for (const char* steps : {"16", "32", "64", "128"}) {
-    const std::string file = (folder / (std::string(steps) + ".csv")).string();
+    const std::string file = folder / (std::string(steps) + ".csv");
     ASSERT_EQ(hbvm({"run", "simple_pendulum", "--method", "rattle", "--step", std::string("1/") + steps, "--until", "4",
                     "--every", "8", "--out", file})
                   .code,
@@ -139,10 +118,8 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   }
   const Outcome text = hbvm({"reference", "simple_pendulum", "--against", files});
   EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_NE(text.out.find("right digits beside a reference of "), std::string::npos);
-  EXPECT_NE(text.out.find(", computed now\n"), std::string::npos);
-  EXPECT_NE(text.out.find("1 times at the start"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("most is lost between t = "), std::string::npos);
+  expect_words(text.out, {"right digits beside a reference of ", ", computed now\n", "1 times at the start",
+                          "most is lost between t = "});
   const Outcome json = hbvm({"reference", "--scene", "simple_pendulum", "--against", files, "--json"});
   ASSERT_EQ(json.code, 0) << json.err;
   const ordered_json j = ordered_json::parse(json.out);
@@ -150,21 +127,20 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   ASSERT_EQ(j["orders"].size(), 3u);
   for (const auto& order : j["orders"]) EXPECT_NEAR(order.get<double>(), 2, 0.05);
   // A step is stored beside each file, and the order of their names says nothing.
-  const Outcome shuffled =
-      hbvm({"reference", "simple_pendulum", "--against",
-            (folder / "32.csv").string() + "," + (folder / "128.csv").string() + "," + (folder / "64.csv").string(),
-            "--expect-order", "2", "--require", "2.5"});
+  const Outcome shuffled = hbvm({"reference", "simple_pendulum", "--against",
+                                 (folder / "32.csv") + "," + (folder / "128.csv") + "," + (folder / "64.csv"),
+                                 "--expect-order", "2", "--require", "2.5"});
   EXPECT_EQ(shuffled.code, 0) << shuffled.err;
-  EXPECT_NE(shuffled.out.find("32.csv to "), std::string::npos) << shuffled.out;
+  expect_words(shuffled.out, {"32.csv to "});
   const Outcome fourth = hbvm({"reference", "simple_pendulum", "--against", files, "--expect-order", "4"});
   EXPECT_EQ(fourth.code, 1);
-  EXPECT_NE(fourth.err.find("the order is 2.0"), std::string::npos) << fourth.err;
+  expect_words(fourth.err, {"the order is 2.0"});
   const Outcome more = hbvm({"reference", "simple_pendulum", "--against", files, "--require", "12"});
   EXPECT_EQ(more.code, 1);
-  EXPECT_NE(more.err.find("digits are right, and not 12"), std::string::npos) << more.err;
+  expect_words(more.err, {"digits are right, and not 12"});
   EXPECT_EQ(hbvm({"reference", "simple_pendulum", "--against", files, "--steps", "1,2"}).code, 2);
   EXPECT_EQ(hbvm({"reference", "simple_pendulum", "--steps", "1"}).code, 2);
-  const std::string file = (folder / "hbvm.csv").string();
+  const std::string file = folder / "hbvm.csv";
   ASSERT_EQ(hbvm({"run", "simple_pendulum", "--method", "hbvm:8,8", "--step", "1/8", "--until", "4", "--precision",
                   "mpfr:40", "--out", file})
                 .code,
@@ -173,22 +149,19 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
       ordered_json::parse(hbvm({"reference", "simple_pendulum", "--against", file, "--json"}).out);
   for (const auto& [name, digits] : many["files"][0]["right_digits"].items())
     for (const auto& right : digits) EXPECT_GT(right.get<double>(), 12) << name;
-  std::filesystem::remove_all(folder);
 }
 
 /// That the start is another is said before any digits; times are as short as they can be.
 TEST(ReferenceCommand, SaysFirstThatAStartIsAnother) {
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("another_start_" + std::to_string(getpid()) + ".csv")).string();
-  std::ofstream(file) << "t,bob.x,bob.y,bob.px,bob.py\n0,0,1,1.001,0\n0.30000000000000004,0.29,-0.95,0.9,0.3\n";
+  const Folder folder;
+  const std::string file = folder.write(
+      "theirs.csv", "t,bob.x,bob.y,bob.px,bob.py\n0,0,1,1.001,0\n0.30000000000000004,0.29,-0.95,0.9,0.3\n");
   const Outcome outcome = hbvm({"reference", "simple_pendulum", "--against", file});
   const std::size_t start = outcome.out.find("ITS START IS ANOTHER"), table = outcome.out.find("least right");
   ASSERT_NE(start, std::string::npos) << outcome.out;
   EXPECT_LT(start, table);
-  EXPECT_NE(outcome.out.find("bob.y is 1, and -1 in the scene: of the other sign"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("bob.px is 1.001, and 1 in the scene: 3.0 digits are right"), std::string::npos);
-  EXPECT_NE(outcome.out.find("\n  0.3  "), std::string::npos) << outcome.out;
-  std::filesystem::remove(file);
+  expect_words(outcome.out, {"bob.y is 1, and -1 in the scene: of the other sign",
+                             "bob.px is 1.001, and 1 in the scene: 3.0 digits are right", "\n  0.3  "});
 }
 
 TEST(ReferenceCommand, RefusesWhatItCannotDo) {
@@ -201,24 +174,17 @@ TEST(ReferenceCommand, RefusesWhatItCannotDo) {
         {"reference", "simple_pendulum", "--until", "1", "--route", "euler"},
         {"reference", "nonsense", "--until", "1"},
         {"reference", "--verify", "/nonexistent"},
-        {"reference", "--show", "nonsense"}}) {
-    const Outcome outcome = hbvm(arguments);
-    EXPECT_EQ(outcome.code, 2) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  }
+        {"reference", "--show", "nonsense"}})
+    expect_refused(arguments, {});
 }
 
 /// The fall into a centre has no state after 1.11.
 TEST(ReferenceCommand, SaysWhereTheMotionEnds) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("reference_fall_" + std::to_string(getpid()) + ".toml");
-  std::ofstream(file) << "dimension = 2\npoint = [{ name = \"sun\", position = [0, 0] }]\nbody = [{ name = \"stone\", "
-                         "mass = 1, position = [1, 0], velocity = [0, 0] }]\neffect = [{ kind = \"central_gravity\", "
-                         "center = \"sun\", strength = 1 }]\n";
-  const Outcome outcome = hbvm({"reference", file.string(), "--until", "2", "--digits", "20"});
+  const Folder folder;
+  const std::string file = folder.write("fall.toml", fall());
+  const Outcome outcome = hbvm({"reference", file, "--until", "2", "--digits", "20"});
   EXPECT_EQ(outcome.code, 3);
-  EXPECT_NE(outcome.err.find("singularity at about t = 1.11"), std::string::npos) << outcome.err;
-  std::filesystem::remove(file);
+  expect_words(outcome.err, {"singularity at about t = 1.11"});
 }
 
 }  // namespace

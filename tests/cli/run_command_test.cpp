@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <tuple>
 
@@ -30,7 +29,7 @@ ordered_json json_of(const Arguments& arguments, const Arguments& files = {}) {
 }
 
 template <Scalar S>
-Texts texts(const Vector<S>& v) {
+Texts to_texts(const Vector<S>& v) {
   Texts result;
   for (Index i = 0; i < v.size(); ++i) result.push_back(to_text(v[i]));
   return result;
@@ -39,30 +38,9 @@ Texts texts(const Vector<S>& v) {
 TEST(RunJson, HasExactlyTheFieldsOfTheIssue) {
   const ordered_json j = json_of({"run", "simple_pendulum", "--method", "hbvm:3,2", "--step", "1/8", "--until", "2",
                                   "--precision", "quad", "--solver", "paper"});
-  EXPECT_EQ(keys_of(j), (Texts{"scene",
-                               "method",
-                               "solver",
-                               "precision",
-                               "step",
-                               "until",
-                               "steps",
-                               "t",
-                               "q",
-                               "p",
-                               "q_carry",
-                               "p_carry",
-                               "lambda",
-                               "output",
-                               "e_H",
-                               "e_g",
-                               "e_hid",
-                               "health",
-                               "iterations_per_step",
-                               "cpu_seconds",
-                               "version",
-                               "command",
-                               "title",
-                               "scene_text"}));
+  EXPECT_EQ(keys_of(j), words_of("scene method solver precision step until steps t q p q_carry p_carry lambda output "
+                                 "e_H e_g e_hid health iterations_per_step cpu_seconds version command title "
+                                 "scene_text"));
   EXPECT_EQ(keys_of(j["output"]), (Texts{"p", "lambda", "delta_H"}));
   EXPECT_EQ(j["scene"], "simple_pendulum");
   EXPECT_EQ(j["method"], "hbvm:3,2");
@@ -84,17 +62,6 @@ TEST(RunJson, HasExactlyTheFieldsOfTheIssue) {
   EXPECT_EQ(j["scene_text"], write_scene(load_scene("simple_pendulum")));
 }
 
-TEST(RunJson, NumbersOfTheWorkingPrecisionAreStrings) {
-  const ordered_json j =
-      json_of({"run", "tethered_satellites", "--method", "hbvm:2,2", "--step", "0.1", "--until", "1"});
-  for (const char* key : {"step", "until", "t", "e_H", "e_g", "e_hid"}) EXPECT_TRUE(j[key].is_string()) << key;
-  EXPECT_TRUE(j["output"]["delta_H"].is_string());
-  for (const auto& list : {j["q"], j["p"], j["lambda"], j["output"]["p"], j["output"]["lambda"]}) {
-    EXPECT_FALSE(list.empty());
-    for (const auto& entry : list) EXPECT_TRUE(entry.is_string());
-  }
-}
-
 TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
   for (const char* precision : {"double", "quad", "mpfr:50", "mpfr:300"}) {
     const ordered_json j = json_of({"run", "modified_pendulum", "--method", "hbvm:3,2", "--step", "1/16", "--until",
@@ -103,13 +70,13 @@ TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
       SceneRun<S> run(load_scene("modified_pendulum"), 3, 2, "1/16", "1");
       Drift<S> drift(run.scene.problem);
       const Integration<S> result = run({&drift});
-      Point<S> point(run.scene.problem);
+      StateEvaluator<S> point(run.scene.problem);
       const OutputState<S> output = output_state(point, result.end.q, result.end.p);
-      EXPECT_EQ(j["q"], texts<S>(result.end.q));
-      EXPECT_EQ(j["p"], texts<S>(result.end.p));
-      EXPECT_EQ(j["lambda"], texts<S>(result.end.lambda));
-      EXPECT_EQ(j["output"]["p"], texts<S>(output.p));
-      EXPECT_EQ(j["output"]["lambda"], texts<S>(output.lambda));
+      EXPECT_EQ(j["q"], to_texts<S>(result.end.q));
+      EXPECT_EQ(j["p"], to_texts<S>(result.end.p));
+      EXPECT_EQ(j["lambda"], to_texts<S>(result.end.lambda));
+      EXPECT_EQ(j["output"]["p"], to_texts<S>(output.p));
+      EXPECT_EQ(j["output"]["lambda"], to_texts<S>(output.lambda));
       EXPECT_EQ(j["output"]["delta_H"], to_text(S(point.energy(result.end.q, output.p) - drift.H0())));
       EXPECT_EQ(j["e_H"], to_text(drift.e_H()));
       EXPECT_EQ(j["e_g"], to_text(drift.e_g()));
@@ -128,8 +95,7 @@ TEST(RunHealth, IsInTheJsonAndTheText) {
   EXPECT_EQ(keys_of(health["warnings"][0]), (Texts{"name", "text"}));
   EXPECT_EQ(health["warnings"][0]["name"], "energy_lost");
   const std::string text = hbvm(lossy).out;
-  for (const char* word : {"energy error", "condition", "tangent space", "WARNING energy_lost"})
-    EXPECT_NE(text.find(word), std::string::npos) << word;
+  expect_words(text, {"energy error", "condition", "tangent space", "WARNING energy_lost"});
 }
 
 TEST(RunStrict, MakesWarningsExitCode3AndPrintsAll) {
@@ -155,8 +121,7 @@ TEST(RunShadow, IsInTheJsonAndTheTextIfAskedFor) {
   EXPECT_EQ(keys_of(shadow["worst"]), (Texts{"component", "digits", "t", "every"}));
   EXPECT_EQ(hbvm(run).out.find(" digits\n"), std::string::npos);
   const std::string text = hbvm(run + Arguments{"--shadow"}).out;
-  EXPECT_NE(text.find(" digits\n"), std::string::npos);
-  EXPECT_NE(text.find("against mpfr:32"), std::string::npos);
+  expect_words(text, {" digits\n", "against mpfr:32"});
 }
 
 TEST(RunJson, WithoutConstraintsHasNoMultipliers) {
@@ -171,20 +136,16 @@ TEST(RunJson, WithoutConstraintsHasNoMultipliers) {
   EXPECT_EQ(j["e_hid"], "0");
 }
 
-void expect_json_for_scene_named(const std::string& name) {
-  const Folder folder;
-  const std::string scene = folder.write(name, pendulum("1"));
-  const Outcome outcome = hbvm({"run", scene, "--method", "hbvm:1,1", "--step", "1/8", "--until", "1", "--json"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(ordered_json::accept(outcome.out)) << outcome.out;
-}
-
 TEST(RunJson, IsWrittenForASceneOfAnyName) {
-  for (const char* name : {"space here.toml", "\"quotes\".toml", "Übung.toml", "two\nlines.toml"})
-    expect_json_for_scene_named(name);
+  for (const char* name :
+       {"space here.toml", "\"quotes\".toml", "Übung.toml", "two\nlines.toml", "not_utf8_\xFF.toml"}) {
+    const Folder folder;
+    const std::string scene = folder.write(name, pendulum("1"));
+    const Outcome outcome = hbvm({"run", scene, "--method", "hbvm:1,1", "--step", "1/8", "--until", "1", "--json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(ordered_json::accept(outcome.out)) << outcome.out;
+  }
 }
-
-TEST(RunJson, IsWrittenForASceneNameThatIsNotUtf8) { expect_json_for_scene_named("not_utf8_\xFF.toml"); }
 
 TEST(Run, StepsAndTimesAreExpressions) {
   const ordered_json j = json_of({"run", "conical_pendulum", "--method", "hbvm:2,2", "--step", "2^(3/4)*pi/10",
@@ -199,8 +160,7 @@ TEST(Run, WithoutJsonPrintsTextForReaders) {
   const Outcome outcome = hbvm({"run", "simple_pendulum", "--method", "hbvm:2,2", "--step", "1/8", "--until", "1"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const char* word : {"simple_pendulum", "Simple pendulum", "hbvm:2,2", "double", "e_H", "e_g", "e_hid"})
-    EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+  expect_words(outcome.out, {"simple_pendulum", "Simple pendulum", "hbvm:2,2", "double", "e_H", "e_g", "e_hid"});
 }
 
 /// The lines of the account, by name.
@@ -303,9 +263,7 @@ TEST(RunAccount, IsPrintedOnlyIfAskedFor) {
   EXPECT_EQ(hbvm(run).out.find("central_gravity"), std::string::npos);
   EXPECT_FALSE(json_of(run).contains("account"));
   const std::string text = hbvm(run + Arguments{"--account"}).out;
-  for (const char* word :
-       {"8 steps, ", "central_gravity", "all effects", "momentum coefficients gamma (54)", "all parts"})
-    EXPECT_NE(text.find(word), std::string::npos) << word << " is not in\n" << text;
+  expect_words(text, {"8 steps, ", "central_gravity", "all effects", "momentum coefficients gamma (54)", "all parts"});
 }
 
 TEST(RunAuto, ReportsTheKOfAPolynomial) {
@@ -314,7 +272,7 @@ TEST(RunAuto, ReportsTheKOfAPolynomial) {
   EXPECT_EQ(j["method"], "hbvm:4,2");
   EXPECT_EQ(j["chosen"]["k"], 4);
   EXPECT_EQ(j["chosen"]["verified"], true);
-  EXPECT_NE(j["chosen"]["because"].get<std::string>().find("degree 4"), std::string::npos);
+  expect_words(j["chosen"]["because"].get<std::string>(), {"degree 4"});
   EXPECT_LT(number(j["e_H"]), 1e-14);
 }
 
@@ -331,7 +289,7 @@ TEST(RunAuto, ReportsTheKThatReachesRoundOff) {
   EXPECT_LT(number(j["e_H"]), 1e-31);
   const std::string text = hbvm(run + Arguments{"hbvm:auto,1"}).out;
   EXPECT_TRUE(text.starts_with("k = " + std::to_string(k) + ": U is not a polynomial")) << text;
-  EXPECT_NE(text.find("energy conserved to round-off over the run"), std::string::npos) << text;
+  expect_words(text, {"energy conserved to round-off over the run"});
 }
 
 /// A bob on a circle of radius 1, and a like charge 1/10 outside of it.
@@ -361,7 +319,7 @@ TEST(RunAuto, RaisesKOnTheWay) {
   EXPECT_LT(number(j["e_H"]), 1e-12);
   EXPECT_GT(number(json_of(run + Arguments{"hbvm:8,2"})["e_H"]), 1e-6) << "a hard case";
   const std::string text = hbvm(run + Arguments{"hbvm:auto,2"}).out;
-  EXPECT_NE(text.find("\nraised to "), std::string::npos) << text;
+  expect_words(text, {"\nraised to "});
 }
 
 /// Two bodies that nearly collide: steps too large for it fail typed, and vouch for nothing.
@@ -370,7 +328,7 @@ TEST(RunAuto, VouchesForNoNearCollisionThatItsStepsDoNotResolve) {
   const std::string scene = folder.write("scene.toml", two_bodies("1e-6"));
   const Outcome outcome = hbvm({"run", scene, "--method", "hbvm:auto,3", "--step", "1/256", "--until", "3"});
   EXPECT_EQ(outcome.code, 3);
-  EXPECT_NE(outcome.err.find("stage_equations_diverge"), std::string::npos) << outcome.err;
+  expect_words(outcome.err, {"stage_equations_diverge"});
   EXPECT_EQ(outcome.out.find("conserved to round-off"), std::string::npos) << outcome.out;
 }
 
@@ -416,7 +374,7 @@ TEST(RunOnFailure, HalvesWhatCannotBeMade) {
     EXPECT_LT(number(j["e_g"]), 1e-13);
     EXPECT_EQ(j["steps"], 12);
     const std::string text = hbvm(halve).out;
-    EXPECT_NE(text.find("12 steps were divided, down to h/"), std::string::npos) << text;
+    expect_words(text, {"12 steps were divided, down to h/"});
   }
 }
 
@@ -560,8 +518,7 @@ TEST(FailedRun, ExitsWithThreeAndNoOutput) {
     EXPECT_EQ(outcome.code, 3);
     EXPECT_EQ(outcome.out, "");
     ASSERT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
-    for (const char* word : {"step", "t = ", "increment", "smaller step"})
-      EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " is not in: " << outcome.err;
+    expect_words(outcome.err, {"step", "t = ", "increment", "smaller step"});
   }
 }
 
@@ -591,30 +548,19 @@ TEST(Run, IntegratesRedundantConstraints) {
   twice += "[[constraint]]\nkind = \"rod\"\nbetween = [\"bob\", \"O\"]\nlength = 1\n";
   const std::string once = folder.write("once.toml", pendulum("1")), path = folder.write("twice.toml", twice),
                     csv = folder / "twice.csv";
-  const auto json = [&](const std::string& scene, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"run", scene, "--method", "hbvm:2,2", "--step", "1/8", "--until", "1", "--json"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = hbvm(arguments);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return nlohmann::json::parse(outcome.out);
+  const auto run = [](const std::string& scene) {
+    return Arguments{"run", scene, "--method", "hbvm:2,2", "--step", "1/8", "--until", "1"};
   };
-  const auto one = json(once, {}), two = json(path, {"--out", csv});
+  const ordered_json one = json_of(run(once)), two = json_of(run(path) + Arguments{"--out", csv}, with_metadata(csv));
   EXPECT_EQ(two["q"], one["q"]);
   EXPECT_EQ(two["e_g"], one["e_g"]);
-  EXPECT_NE(two["health"]["warnings"].dump().find("redundant_constraints"), std::string::npos);
+  expect_words(two["health"]["warnings"].dump(), {"redundant_constraints"});
   EXPECT_EQ(one["health"]["warnings"].dump().find("redundant_constraints"), std::string::npos);
   ASSERT_EQ(two["lambda"].size(), 2u);
   ASSERT_EQ(two["output"]["lambda"].size(), 2u);
-  const double whole = std::stod(one["lambda"][0].get<std::string>());
-  for (int a = 0; a < 2; ++a) EXPECT_NEAR(std::stod(two["lambda"][a].get<std::string>()), whole / 2, 1e-14);
-  std::ifstream file(csv);
-  std::string header, line;
-  std::getline(file, header);
-  EXPECT_NE(header.find("lambda2"), std::string::npos);
-  EXPECT_NE(header.find("output.lambda2"), std::string::npos);
-  while (std::getline(file, line)) {
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ','));
-  }
+  for (const ordered_json& lambda : two["lambda"]) EXPECT_NEAR(number(lambda), number(one["lambda"][0]) / 2, 1e-14);
+  const Texts names = Csv(text_of(csv)).names;
+  for (const char* name : {"lambda2", "output.lambda2"}) EXPECT_EQ(std::count(names.begin(), names.end(), name), 1);
 }
 
 TEST(RunPlot, DrawsAnyScene) {
@@ -626,8 +572,7 @@ TEST(RunPlot, DrawsAnyScene) {
     EXPECT_EQ(outcome.code, 0) << name << outcome.err;
     EXPECT_EQ(outcome.err, "written to " + file + "\n");
     const std::string svg = text_of(file);
-    EXPECT_NE(svg.find("Motion"), std::string::npos) << name;
-    EXPECT_NE(svg.find("hbvm run " + name), std::string::npos) << name;
+    expect_words(svg, {"Motion", "hbvm run " + name});
   }
 }
 
@@ -639,7 +584,7 @@ TEST(RunPlot, MakesAPageThatMoves) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "written to " + file + "\n");
   EXPECT_TRUE(text_of(file).starts_with("<!DOCTYPE html>"));
-  EXPECT_NE(text_of(file).find("hbvm run kepler --method hbvm:3,3"), std::string::npos);
+  expect_words(text_of(file), {"hbvm run kepler --method hbvm:3,3"});
 }
 
 TEST(RunPlot, ShowsWhatWasComputedBeforeAFailure) {
@@ -666,20 +611,20 @@ TEST(RunError, SaysWhatTheRunWasComparedWith) {
   EXPECT_TRUE(stored["method"].is_null() && stored["precision"].is_null());
   EXPECT_EQ(computed["reference"], "computed now");
   EXPECT_EQ(computed["method"], "taylor");
-  EXPECT_NE(hbvm(run + Arguments{"1"}).out.find("error, against taylor, mpfr:32, computed now\n"), std::string::npos);
+  expect_words(hbvm(run + Arguments{"1"}).out, {"error, against taylor, mpfr:32, computed now\n"});
 }
 
 TEST(RunError, PrintsRightDigitsAndOneMore) {
   const Arguments run{"run",  "modified_pendulum", "--method", "hbvm:4,2",    "--step",
                       "1/16", "--until",           "20",       "--precision", "mpfr:50"};
   const Outcome without = hbvm(run);
-  EXPECT_NE(without.out.find("digits not assessed (--error)"), std::string::npos);
+  expect_words(without.out, {"digits not assessed (--error)"});
   const Outcome with = hbvm(run + Arguments{"--error"});
   EXPECT_EQ(with.code, 0) << with.err;
   EXPECT_EQ(with.out.find("not assessed"), std::string::npos);
   const ordered_json j = json_of(run + Arguments{"--error"});
   EXPECT_EQ(j["error"]["reference"], "stored reference, 100 digits");
-  EXPECT_NE(with.out.find("error, against the stored reference, 100 digits\n"), std::string::npos);
+  expect_words(with.out, {"error, against the stored reference, 100 digits\n"});
   EXPECT_EQ(keys_of(j["error"]),
             (Texts{"reference", "method", "precision", "q", "p", "lambda", "digits", "lambda_digits"}));
   ASSERT_EQ(j["error"]["digits"].size(), 4u);

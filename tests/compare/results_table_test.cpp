@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "hbvm/error.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
 /// A table with its columns, which refer to it.
 struct Read {
-  AgainstRequest request;
+  ComparisonRequest request;
   ResultsTable rows;
   ResultsColumns columns;
 
@@ -90,7 +91,7 @@ TEST(ResultsTable, RefusesWithLineAndColumn) {
                         {"t,a\n1,2\n", {{"sin(c7)", "bob.x"}}, "--map: 'c7' is no column of theirs.csv"},
                         {"t,a\n1,2\n", {{"a", "bob.q"}}, "--map: 'bob.q' is nothing of this scene"},
                         {"t,a\n1,2\n", {{"a", "bob.x"}, {"2*a", "bob.x"}}, "--map: 'bob.x' stands twice"}})
-    EXPECT_NE(refusal(c.csv, c.map).find(c.says), std::string::npos) << refusal(c.csv, c.map);
+    expect_words(refusal(c.csv, c.map), {c.says});
 }
 
 }  // namespace

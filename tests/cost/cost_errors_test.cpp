@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/text.hpp"
 
 namespace hbvm::core {
@@ -84,7 +84,7 @@ TEST(CostJudge, SeesNoFurtherThanTheReference) {
   const Scene scene = load_scene("simple_pendulum");
   const PrecisionScope scope(40);
   const Assembled<Mpfr> start = assemble<Mpfr>(scene);
-  Point<Mpfr> point(start.problem);
+  StateEvaluator<Mpfr> point(start.problem);
   const Vector<Mpfr> lambda = point.multiplier(start.q0, start.p0);
   ReferenceState state = state_of(start);
   state.lambda.push_back(to_text(lambda[0]));

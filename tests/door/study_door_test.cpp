@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "folder.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/study.hpp"
 
@@ -10,23 +10,21 @@ namespace hbvm {
 namespace {
 
 TEST(DoorStudy, EndsWhenItIsAskedTo) {
-  const std::filesystem::path out = std::filesystem::temp_directory_path() / "hbvm_door_study_ended";
+  const core::Folder out;
   std::stop_source source;
-  StudyRequest request{.folder = HBVM_SOURCE_DIR "/studies/table_1_simple_pendulum", .out = out.string()};
+  StudyRequest request{.folder = HBVM_SOURCE_DIR "/studies/table_1_simple_pendulum", .out = out / "."};
   request.progress = [&](long, long) { source.request_stop(); };
   request.stop = source.get_token();
   EXPECT_THROW(study(request), Interrupted);
-  std::filesystem::remove_all(out);
 }
 
 TEST(DoorStudy, MeetsWhatIsPrinted) {
-  const std::filesystem::path out = std::filesystem::temp_directory_path() / "hbvm_door_study";
+  const core::Folder out;
   const Study found =
-      study({.folder = HBVM_SOURCE_DIR "/studies/table_1_simple_pendulum", .precision = "double", .out = out.string()});
+      study({.folder = HBVM_SOURCE_DIR "/studies/table_1_simple_pendulum", .precision = "double", .out = out / "."});
   EXPECT_GT(found.stated, 10);
   EXPECT_EQ(found.agreed, found.stated);
   EXPECT_EQ(nlohmann::json::parse(to_json(found)).at("agreed"), found.agreed);
-  std::filesystem::remove_all(out);
   EXPECT_THROW(study({.folder = "/nowhere"}), InputError);
 }
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
@@ -27,7 +27,7 @@ TEST(HardScenes, AreConsistent) {
 TEST(HardScenes, OfOtherUnitsAreTheSame) {
   const auto energy = [](const Scene& text) {
     const Assembled<Quad> scene = assemble<Quad>(text);
-    return Point<Quad>(scene.problem).energy(scene.q0, scene.p0);
+    return StateEvaluator<Quad>(scene.problem).energy(scene.q0, scene.p0);
   };
   const Quad unit = energy(scaled_pendulum(0, 0, 0));
   EXPECT_NE(unit, 0);
@@ -42,7 +42,8 @@ TEST(HardScenes, OfKeplerAreOneOrbit) {
       const Assembled<Quad> scene = assemble<Quad>(kepler(eccentricity, at_pericentre));
       const Quad e = evaluate<Quad>(Expression::parse(eccentricity), {});
       EXPECT_LE(abs(Quad(abs(scene.q0[0]) - (at_pericentre ? Quad(1 - e) : Quad(1 + e)))), 4 * epsilon<Quad>());
-      EXPECT_LE(abs(Quad(Point<Quad>(scene.problem).energy(scene.q0, scene.p0) + Quad(1) / 2)), 1000 * epsilon<Quad>());
+      EXPECT_LE(abs(Quad(StateEvaluator<Quad>(scene.problem).energy(scene.q0, scene.p0) + Quad(1) / 2)),
+                1000 * epsilon<Quad>());
     }
 }
 

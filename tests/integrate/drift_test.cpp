@@ -3,6 +3,7 @@
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 #include "verification/models.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -77,14 +78,7 @@ TEST(Drift, RefusesAStateWithoutEnergy) {
   Snapshot<double> snapshot{7, 0.875, scene.q0, scene.p0, Vector<double>::Zero(1)};
   drift.observe({0, 0, scene.q0, scene.p0, snapshot.lambda});
   snapshot.q << 2, 0;  // on the fixed charge
-  try {
-    drift.observe(snapshot);
-    FAIL() << "no error";
-  } catch (const IntegrationError& error) {
-    const std::string what = error.what();
-    EXPECT_NE(what.find("step 7"), std::string::npos) << what;
-    EXPECT_NE(what.find("t = 0.875"), std::string::npos) << what;
-  }
+  expect_words(message_of<IntegrationError>([&] { drift.observe(snapshot); }), {"step 7", "t = 0.875"});
 }
 
 /// A pendulum and, set aside, the wall x = 0, which it should not leave.
@@ -109,8 +103,7 @@ TEST(Drift, WatchesRedundantConstraints) {
     EXPECT_EQ(error.cause(), FailureCause::inconsistent_state);
     EXPECT_EQ(error.constraint(), "wall");
     EXPECT_EQ(error.time(), "0.5");
-    for (const char* word : {"step 3", "t = 0.5", "constraint 2 (wall)", "1.00e-03", "inconsistent_state"})
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    expect_words(error.what(), {"step 3", "t = 0.5", "constraint 2 (wall)", "1.00e-03", "inconsistent_state"});
   }
   EXPECT_EQ(drift.e_g(), 1e-3);
   EXPECT_EQ(drift.redundancy(), 1);

@@ -34,7 +34,7 @@ TEST(EnergyBalance, ComparesWithTheGreatestTermOfH) {
       alone.effects.clear();
       if (t > 0) alone.effects = {scene.effects[t - 1]};
       const Assembled<Quad> term = assemble<Quad>(alone);
-      Point<Quad> point(term.problem);
+      StateEvaluator<Quad> point(term.problem);
       for (const Snapshot<Quad>& s : recorder.seen)
         raise_to(size, magnitude(point.energy(s.q, t == 0 ? s.p : Vector<Quad>(Vector<Quad>::Zero(s.p.size())))));
     }

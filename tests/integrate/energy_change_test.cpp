@@ -22,10 +22,7 @@ typename EnergyChange<S>::Change change_of(const std::vector<MeshPoint>& path, i
 }
 
 template <class S>
-class Energy : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Energy : public InDigits<50> {};
 TYPED_TEST_SUITE(Energy, AllScalars, ScalarNames);
 
 TYPED_TEST(Energy, HasChangedWhereItIsOffByMoreThanATwentieth) {

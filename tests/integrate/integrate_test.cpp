@@ -3,7 +3,7 @@
 #include "clock.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm::core {
@@ -150,10 +150,7 @@ TEST(FailedIntegration, OfTheFirstStepHasShownTheStart) {
 }
 
 template <class S>
-class FreeMotion : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class FreeMotion : public InDigits<50> {};
 TYPED_TEST_SUITE(FreeMotion, AllScalars, ScalarNames);
 
 TYPED_TEST(FreeMotion, IsAParabola) {

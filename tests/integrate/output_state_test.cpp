@@ -17,7 +17,7 @@ TEST_F(OutputStates, AreTheClosedFormulas) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
     SceneRun<Mpfr> run(read_scene(model.scene, "model"), 2, 2, "1/10", "1/2");
     const Integration<Mpfr> result = run({});
-    Point<Mpfr> point(run.scene.problem);
+    StateEvaluator<Mpfr> point(run.scene.problem);
     const auto& [q, p] = std::tie(result.end.q, result.end.p);
     const OutputState<Mpfr> output = output_state(point, q, p);
     EXPECT_GT(max_norm(model.hidden(q, p)), literal<Mpfr>("1e-8")) << "p should leave the tangent space visibly";
@@ -31,7 +31,7 @@ TEST_F(OutputStates, AreTheClosedFormulas) {
 TEST_F(OutputStates, LeaveATangentialMomentumAlone) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(model.scene, "model"));
-    Point<Mpfr> point(scene.problem);
+    StateEvaluator<Mpfr> point(scene.problem);
     const OutputState<Mpfr> output = output_state(point, scene.q0, scene.p0);
     EXPECT_LE(max_norm(Vector<Mpfr>(output.p - scene.p0)), tolerance);
   }
@@ -41,7 +41,7 @@ TEST_F(OutputStates, EnergyDiffersByTheSquareOfTheHiddenConstraint) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
     SceneRun<Mpfr> run(read_scene(model.scene, "model"), 1, 1, "1/10", "1/2");
     const Integration<Mpfr> result = run({});
-    Point<Mpfr> point(run.scene.problem);
+    StateEvaluator<Mpfr> point(run.scene.problem);
     const auto& [q, p] = std::tie(result.end.q, result.end.p);
     const OutputState<Mpfr> output = output_state(point, q, p);
     const Vector<Mpfr> w = model.hidden(q, p);
@@ -55,7 +55,7 @@ TEST_F(OutputStates, EnergyDiffersByTheSquareOfTheHiddenConstraint) {
 TEST_F(OutputStates, WithoutConstraintsAreTheStateItself) {
   const Assembled<Mpfr> scene = assemble<Mpfr>(
       read_scene("dimension = 2\n[[body]]\nname = \"a\"\nmass = 2\nposition = [0, 0]\nvelocity = [0.1, 0]\n", "free"));
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const OutputState<Mpfr> output = output_state(point, scene.q0, scene.p0);
   EXPECT_EQ(output.p, scene.p0);
   EXPECT_EQ(output.lambda.size(), 0);

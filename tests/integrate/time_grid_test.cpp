@@ -23,10 +23,7 @@ std::string refusal(const char* step, const char* until) {
 }
 
 template <class S>
-class TimeGridOf : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class TimeGridOf : public InDigits<50> {};
 TYPED_TEST_SUITE(TimeGridOf, AllScalars, ScalarNames);
 
 TYPED_TEST(TimeGridOf, HasRoundedQuotientSteps) {

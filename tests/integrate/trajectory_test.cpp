@@ -88,10 +88,7 @@ TEST(Trajectory, HasEveryNthAndTheLastMeshPoint) {
 }
 
 template <class S>
-class TrajectoryNumbers : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class TrajectoryNumbers : public InDigits<50> {};
 TYPED_TEST_SUITE(TrajectoryNumbers, AllScalars, ScalarNames);
 
 TYPED_TEST(TrajectoryNumbers, ReadBackAsTheSameValues) {
@@ -100,7 +97,7 @@ TYPED_TEST(TrajectoryNumbers, ReadBackAsTheSameValues) {
   Recorder<S> recorder;
   const Csv csv(trajectory_of<S>(run, 1, {"t"}, &recorder));
   ASSERT_EQ(csv.rows.size(), recorder.seen.size());
-  Point<S> point(run.scene.problem);
+  StateEvaluator<S> point(run.scene.problem);
   const S H0 = point.energy(run.scene.q0, run.scene.p0);
   for (std::size_t n = 0; n < csv.rows.size(); ++n) {
     const Snapshot<S>& s = recorder.seen[n];

@@ -16,7 +16,7 @@ Matrix<Mpfr> some(RandomValues<Mpfr>& random, Index rows, Index columns, long sp
   return a;
 }
 
-/// Against the sums with twice the digits; errors beside the largest products, which is what both are good for.
+/// Comparison the sums with twice the digits; errors beside the largest products, which is what both are good for.
 void expect_products(unsigned digits, Index rows, Index columns, Index stride, long spread) {
   const PrecisionScope scope(digits);
   RandomValues<Mpfr> random(static_cast<unsigned>(digits + rows));

@@ -24,7 +24,7 @@ AlignedSeries aligned(const Vector<Mpfr>& a) {
   return series;
 }
 
-/// Against the sums with twice the digits: errors of a rounding of the largest factors.
+/// Comparison the sums with twice the digits: errors of a rounding of the largest factors.
 void expect_convolutions(unsigned digits, Index length, double bits, double other_bits, const Mpfr& lead) {
   const PrecisionScope scope(digits);
   RandomValues<Mpfr> random(digits + static_cast<unsigned>(length));

@@ -6,10 +6,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class MaxNorm : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class MaxNorm : public InDigits<50> {};
 TYPED_TEST_SUITE(MaxNorm, AllScalars, ScalarNames);
 
 TYPED_TEST(MaxNorm, IsTheLargestMagnitude) {

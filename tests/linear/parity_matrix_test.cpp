@@ -7,10 +7,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class ParityMatrices : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class ParityMatrices : public InDigits<50> {};
 TYPED_TEST_SUITE(ParityMatrices, AllScalars, ScalarNames);
 
 template <Scalar S>

@@ -1,14 +1,13 @@
 #include "long_work/cells.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <atomic>
-#include <fstream>
 #include <random>
-#include <sstream>
 
-#include "hbvm/error.hpp"
+#include "folder.hpp"
+#include "read_file.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -17,20 +16,8 @@ namespace fs = std::filesystem;
 
 class Cells : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "hbvm_cells_test_XXXXXX").string();
-    ASSERT_TRUE(mkdtemp(pattern.data()));
-    folder_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path path(const std::string& name) const { return folder_ / name; }
-  std::string text(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    std::ostringstream all;
-    all << file.rdbuf();
-    return all.str();
-  }
+  std::string text(const std::string& name) const { return read_file(path(name)); }
 
   /// n cells whose result is their number's square, and what was run of them.
   std::vector<WorkCell> squares(int n) {
@@ -56,7 +43,7 @@ class Cells : public ::testing::Test {
     return text("expected");
   }
 
-  fs::path folder_;
+  Folder folder_;
   std::atomic<int> runs_ = 0;
 };
 
@@ -97,7 +84,7 @@ TEST_F(Cells, GoOnFromAFileCutAnywhere) {
   std::mt19937 random(7);
   for (int n = 0; n < 40; ++n) {
     const std::size_t length = random() % (whole.size() + 1);
-    std::ofstream(path("cut"), std::ios::binary | std::ios::trunc) << whole.substr(0, length);
+    folder_.write("cut", whole.substr(0, length));
     runs_ = 0;
     CellStore store(path("cut"));
     CellOptions options;
@@ -119,7 +106,7 @@ TEST_F(Cells, SeeDamage) {
     if (whole[i] == '\n') continue;
     std::string damaged = whole;
     damaged[i] = damaged[i] == 'x' ? 'y' : 'x';
-    std::ofstream(path("damaged"), std::ios::binary | std::ios::trunc) << damaged;
+    folder_.write("damaged", damaged);
     CellStore other(path("other"));
     EXPECT_THROW(other.merge(path("damaged")), InputError) << i;
     runs_ = 0;
@@ -158,12 +145,7 @@ TEST_F(Cells, ThatFailEndAllAndLoseNothing) {
   CellStore store(path("store"));
   CellOptions options;
   options.store = &store;
-  try {
-    run_cells(cells, options);
-    ADD_FAILURE() << "nothing was thrown";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "number nine");
-  }
+  EXPECT_EQ(message_of([&] { run_cells(cells, options); }), "number nine");
   EXPECT_EQ(runs_, 9);
   const CellStore again(path("store"));
   EXPECT_TRUE(again.find(cells[8].key));
@@ -175,7 +157,7 @@ TEST_F(Cells, OfAnotherVersionAreNotTaken) {
   std::string other = expected(cells);
   const std::size_t place = other.find("\"version\":\"") + 11;
   other[place] = other[place] == '9' ? '8' : '9';
-  std::ofstream(path("other"), std::ios::binary) << other;
+  folder_.write("other", other);
   runs_ = 0;
   CellStore store(path("other"));
   CellOptions options;

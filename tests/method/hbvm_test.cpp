@@ -6,6 +6,8 @@
 
 #include "basis/gauss_legendre.hpp"
 #include "hbvm/error.hpp"
+#include "method/coefficients.hpp"
+#include "method/order_conditions.hpp"
 #include "printing.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
@@ -39,26 +41,6 @@ Matrix<S> defect_from_identity(const Matrix<S>& a) {
   return a - Matrix<S>::Identity(a.rows(), a.cols());
 }
 
-template <Scalar S>
-using Coefficients = std::vector<std::pair<const char*, Matrix<S>>>;
-
-template <Scalar S>
-Coefficients<S> all(const Hbvm<S>& m) {
-  return {{"c", m.c},
-          {"b", m.b},
-          {"c_hat", m.c_hat},
-          {"b_hat", m.b_hat},
-          {"P_s", m.P_s},
-          {"I_s", m.I_s},
-          {"P_hat", m.P_hat},
-          {"I_hat", m.I_hat},
-          {"X_s", m.X_s},
-          {"projection", m.projection},
-          {"projection_hat", m.projection_hat},
-          {"A", m.A},
-          {"lambda_at_1", m.lambda_at_1}};
-}
-
 /// |value - reference| in ulps of the value. What is 0 in the reference's digits may be anything below `nothing`.
 template <Scalar S>
 double ulps_apart(const S& value, mpfr_srcptr reference, mpfr_srcptr nothing) {
@@ -73,10 +55,10 @@ double ulps_apart(const S& value, mpfr_srcptr reference, mpfr_srcptr nothing) {
 
 TYPED_TEST(HbvmCoefficients, AgreeWithFortyMoreDigits) {
   for (const Stages& choice : choices) {
-    const Coefficients<TypeParam> coefficients = all(make_hbvm<TypeParam>(choice.k, choice.s));
+    const Coefficients<TypeParam> coefficients = coefficients_of(make_hbvm<TypeParam>(choice.k, choice.s));
     const auto working = static_cast<unsigned>(digits10<TypeParam>());
     const PrecisionScope scope(working + 40);
-    const Coefficients<Mpfr> references = all(make_hbvm<Mpfr>(choice.k, choice.s));
+    const Coefficients<Mpfr> references = coefficients_of(make_hbvm<Mpfr>(choice.k, choice.s));
     const Mpfr nothing = pow(Mpfr(10), -static_cast<int>(working) - 10);
     for (std::size_t n = 0; n < coefficients.size(); ++n) {
       const auto& [name, values] = coefficients[n];
@@ -184,38 +166,15 @@ TYPED_TEST(HbvmCoefficients, TwoStagesHaveTheirClosedForm) {
   expect_near(m.projection(1, 1), "1/2");
 }
 
+/// The Butcher matrix I_hat projection_hat of the k-stage method integrates polynomials of degree < s exactly, too.
 TYPED_TEST(HbvmCoefficients, SatisfyConditionsBAndC) {
-  using std::pow;
+  using S = TypeParam;
   for (const auto& [k, s] : choices) {
-    const auto m = make_hbvm<TypeParam>(k, s);
-    for (int q = 1; q <= 2 * s; ++q) {
-      TypeParam sum = 0;
-      for (int i = 0; i < s; ++i) sum += m.b[i] * pow(m.c[i], q - 1);
-      EXPECT_LE(magnitude(TypeParam(q * sum - 1)), q * this->tolerance(s)) << "B(" << q << "), s = " << s;
-    }
-    for (int q = 1; q <= s; ++q) {
-      for (int i = 0; i < s; ++i) {
-        TypeParam sum = 0;
-        for (int j = 0; j < s; ++j) sum += m.A(i, j) * pow(m.c[j], q - 1);
-        EXPECT_LE(magnitude(TypeParam(sum - pow(m.c[i], q) / q)), this->tolerance(s)) << "C(" << q << "), s = " << s;
-      }
-    }
-  }
-}
-
-/// The Butcher matrix I_hat projection_hat of the k-stage method integrates polynomials of degree < s exactly.
-TYPED_TEST(HbvmCoefficients, HatsSatisfyConditionC) {
-  using std::pow;
-  for (const auto& [k, s] : choices) {
-    const auto m = make_hbvm<TypeParam>(k, s);
-    const Matrix<TypeParam> A_hat = times(m.I_hat, m.projection_hat);
-    for (int q = 1; q <= s; ++q) {
-      for (int i = 0; i < k; ++i) {
-        TypeParam sum = 0;
-        for (int j = 0; j < k; ++j) sum += A_hat(i, j) * pow(m.c_hat[j], q - 1);
-        EXPECT_LE(magnitude(TypeParam(sum - pow(m.c_hat[i], q) / q)), this->tolerance(k)) << q << " " << k << " " << s;
-      }
-    }
+    const auto m = make_hbvm<S>(k, s);
+    const RungeKutta<S> method{m.A, m.b, m.c}, hats{times(m.I_hat, m.projection_hat), m.b_hat, m.c_hat};
+    EXPECT_LE(condition_B(method, 2 * s), this->tolerance(s)) << s;
+    EXPECT_LE(condition_C(method, s), this->tolerance(s)) << s;
+    EXPECT_LE(condition_C(hats, s), this->tolerance(k)) << k << " " << s;
   }
 }
 
@@ -239,13 +198,13 @@ TYPED_TEST(HbvmCoefficients, RefusesStagesOutOfRange) {
 
 TEST(HbvmInDouble, LargestNumberOfStagesIsFinite) {
   const Hbvm<double> m = make_hbvm<double>(max_s, max_s);
-  for (const auto& [name, values] : all(m)) EXPECT_TRUE(std::isfinite(max_norm(values))) << name;
+  for (const auto& [name, values] : coefficients_of(m)) EXPECT_TRUE(std::isfinite(max_norm(values))) << name;
   EXPECT_LE(max_norm(defect_from_identity(times(m.projection, m.P_s))), 8 * max_s * epsilon<double>());
 }
 
 TEST(HbvmInMpfr, CoefficientsHaveTheDigitsOfTheScope) {
   const PrecisionScope scope(37);
-  for (const auto& [name, values] : all(make_hbvm<Mpfr>(5, 3)))
+  for (const auto& [name, values] : coefficients_of(make_hbvm<Mpfr>(5, 3)))
     for (Index i = 0; i < values.size(); ++i)
       EXPECT_EQ(mpfr_get_prec(raw(values.data()[i])), mpfr_working_bits()) << name;
   EXPECT_EQ(Mpfr::thread_default_precision(), 37u);
@@ -284,7 +243,7 @@ TYPED_TEST(HbvmCoefficients, OfMoreNodesForTheConstraints) {
 
 TYPED_TEST(HbvmCoefficients, WithAsManyAsStagesAreThePapers) {
   using S = TypeParam;
-  const auto with = all(make_hbvm<S>(5, 3, 3)), without = all(make_hbvm<S>(5, 3));
+  const auto with = coefficients_of(make_hbvm<S>(5, 3, 3)), without = coefficients_of(make_hbvm<S>(5, 3));
   for (std::size_t i = 0; i < with.size(); ++i) EXPECT_EQ(with[i].second, without[i].second) << with[i].first;
 }
 

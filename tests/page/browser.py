@@ -6,13 +6,33 @@ import os
 import select
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 
 
-def find():
-    """The program, or None."""
-    return shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+class Failure(Exception):
+    pass
+
+
+def check(holds, what):
+    if not holds:
+        raise Failure(what)
+
+
+def test(tests, **window):
+    """tests(program, page, folder, folder for screenshots or None), of the words of the command line; the exit code."""
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if not chromium:
+        print("skipped: there is no Chromium (Debian's package chromium)")
+        return 77
+    with tempfile.TemporaryDirectory() as folder, Browser(chromium, **window) as page:
+        try:
+            tests(sys.argv[1], page, folder, sys.argv[2] if len(sys.argv) > 2 else None)
+        except Failure as failure:
+            print(f"failed: {failure}")
+            return 1
+    return 0
 
 
 # Of an answer: no busy machine needs it, and no test hangs.

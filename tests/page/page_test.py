@@ -11,10 +11,10 @@ import math
 import os
 import subprocess
 import sys
-import tempfile
 import time
 
 import browser
+from browser import Failure, check
 
 RUNS = {
     "double_pendulum": ["--method", "hbvm:3,3", "--step", "1/16", "--until", "10"],
@@ -25,15 +25,6 @@ RUNS = {
     "chain": ["--method", "hbvm:1,1", "--step", "1/256", "--until", "20"],
     "quartic_oscillator": ["--method", "hbvm:4,2", "--step", "1", "--until", "1"],
 }
-
-
-class Failure(Exception):
-    pass
-
-
-def check(holds, what):
-    if not holds:
-        raise Failure(what)
 
 
 def read_csv(path):
@@ -306,22 +297,10 @@ def odd_data(program, chromium, folder):
                 check(height > 60, f"{what}: the names leave {height} pixels to the curves")
 
 
-def main():
-    program = sys.argv[1]
-    chromium = browser.find()
-    if not chromium:
-        print("skipped: there is no Chromium (Debian's package chromium)")
-        return 77
-    pictures = sys.argv[2] if len(sys.argv) > 2 else None
-    with tempfile.TemporaryDirectory() as folder, browser.Browser(chromium) as page:
-        page.prefer(reduced_motion="reduce")
-        try:
-            pages(program, page, folder, pictures)
-            odd_data(program, page, folder)
-        except Failure as failure:
-            print(f"failed: {failure}")
-            return 1
-    return 0
+def tests(program, page, folder, pictures):
+    page.prefer(reduced_motion="reduce")
+    pages(program, page, folder, pictures)
+    odd_data(program, page, folder)
 
 
-sys.exit(main())
+sys.exit(browser.test(tests))

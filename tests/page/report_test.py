@@ -10,20 +10,11 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 
 import browser
+from browser import check
 
 SCENE = ["double_pendulum", "--digits-range", "2:8", "--methods", "hbvm:3,3", "hbvm:4,2", "rattle", "--seconds", "0.01"]
-
-
-class Failure(Exception):
-    pass
-
-
-def check(holds, what):
-    if not holds:
-        raise Failure(what)
 
 
 def command(program, *words):
@@ -41,7 +32,8 @@ def has_what_is_there(chromium, folder):
     drawings = [name for name in files if name.endswith(".svg")]
     tables = [name for name in files if name.endswith(".csv")]
     check(len(drawings) >= 6, f"hbvm cost drew {drawings} only")
-    check(chromium.evaluate("document.querySelectorAll('figure.drawing svg').length") == len(drawings),
+    check(chromium.evaluate("""[...document.querySelectorAll('figure.drawing img')]
+        .filter((picture) => picture.complete && picture.naturalWidth > 0).length""") == len(drawings),
           "not every drawing is a figure")
     # Besides a table of facts on top, and one of cost.json.
     check(chromium.evaluate("document.querySelectorAll('.table:not(.facts) table').length") == len(tables),
@@ -67,9 +59,14 @@ def pointing_reads_values(chromium, path):
     at = chromium.evaluate("""(() => {
       const drawing = document.getElementById('step_time.svg').querySelector('.drawing');
       drawing.scrollIntoView({ block: 'center' });
-      const figure = JSON.parse(drawing.querySelector('script').textContent), svg = drawing.querySelector('svg');
-      const panel = figure.panels[0], box = svg.getBoundingClientRect(), scale = box.width / figure.size[0];
+      const figure = JSON.parse(drawing.querySelector('script').textContent), picture = drawing.querySelector('img');
+      const panel = figure.panels[0], box = picture.getBoundingClientRect(), scale = box.width / figure.size[0];
       const [left, top, width, height] = panel.box;
+      // What the picture shows, over it, to look into.
+      const drawn = new DOMParser().parseFromString(decodeURIComponent(picture.src.split(/,(.*)/s)[1]), 'image/svg+xml');
+      Object.assign(drawn.documentElement.style, { position: 'absolute', left: 0, top: 0, pointerEvents: 'none',
+                                                   width: `${box.width}px`, height: `${box.height}px` });
+      picture.after(drawn.documentElement);
       return panel.curves.find((curve) => curve.label === 'RATTLE').points.map(([x, y]) => [
         box.left + scale * (left + width * (x - panel.x.from) / (panel.x.to - panel.x.from)),
         box.top + scale * (top + height - height * (y - panel.y.from) / (panel.y.to - panel.y.from))]);
@@ -89,6 +86,12 @@ def pointing_reads_values(chromium, path):
           return Math.hypot(box.left + box.width / 2 - {x}, box.top + box.height / 2 - {y}) < 3;
         }})""")
         check(near, f"nothing is drawn at {x}, {y}")
+        ring = chromium.evaluate("""(() => {
+          const box = document.querySelector('.mark:not([hidden])').getBoundingClientRect();
+          return [box.left + box.width / 2, box.top + box.height / 2];
+        })()""")
+        check(max(abs(ring[0] - x), abs(ring[1] - y)) < 1, f"the ring is at {ring}, not at {x}, {y}")
+    chromium.evaluate("document.querySelector('.drawing svg').remove()")
     chromium.mouse("mouseMoved", 1, 1)
     check(chromium.evaluate("value.hidden"), "the value stays")
 
@@ -115,50 +118,41 @@ def nothing_acts(chromium, program, folder):
     evil = "<script>window.acted = 1</script><img src=x onerror='window.acted = 2'>"
     for name, text in {"t.csv": f"a\n\"{evil}\"\n", "r.json": '{"command": "</script>' + evil.replace('"', "'") + '"}',
                        "README.md": f"# {evil}\n\n{evil} [x](javascript:window.acted=3) ![y](https://example.org/y.svg)\n",
-                       "a.svg": "<svg width='40' height='40' onload='window.acted=4'><script>window.acted=5</script>"
+                       "a.svg": "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='40' onload='window.acted=4'><script>window.acted=5</script>"
                                 "<image href='https://example.org/a.png'/><a href='javascript:window.acted=6'><text>t</text></a>"
                                 "<rect width='9' height='9' onclick='window.acted=7'/>"
-                                "<metadata id='hbvm-figure'>{\"size\": [1, 1], \"panels\": [], \"x\": \"&lt;/script>"
+                                "<metadata id=\"hbvm-figure\">{\"size\": [1, 1], \"panels\": [], \"x\": \"&lt;/script>"
                                 "&lt;script>window.acted=8&lt;/script>\"}</metadata></svg>"}.items():
         with open(os.path.join(bad, name), "w", encoding="utf-8") as file:
             file.write(text)
     command(program, "report", bad)
     chromium.open(os.path.join(bad, "report.html"))
     check(chromium.evaluate("window.acted === undefined"), "something acted")
-    check(chromium.evaluate("document.images.length + document.querySelectorAll('svg script, svg a').length") == 0,
+    check(chromium.evaluate("[...document.images].map((picture) => picture.src.slice(0, 19))") == ["data:image/svg+xml,"],
+          "there is another picture than the drawing")
+    check(chromium.evaluate("document.querySelectorAll('svg, script:not([type]), [onload], [onclick], [href^=j]').length") == 1,
           "something was left that may act")
     is_quiet(chromium)
 
 
-def main():
-    program = sys.argv[1]
-    chromium = browser.find()
-    if not chromium:
-        print("skipped: there is no Chromium (Debian's package chromium)")
-        return 77
-    with tempfile.TemporaryDirectory() as folder, browser.Browser(chromium, width=1280, height=900) as page:
-        try:
-            out = os.path.join(folder, "cost")
-            command(program, "cost", *SCENE, "--out", out)
-            command(program, "report", out)
-            path = os.path.join(out, "report.html")
-            check(os.path.getsize(path) < 3_000_000, f"{os.path.getsize(path)} bytes are too many")
-            page.open(path)
-            has_what_is_there(page, out)
-            rows_are_those_of(page, os.path.join(out, "steps.csv"))
-            for width in (1280, 400):
-                fits(page, width)
-                pointing_reads_values(page, os.path.join(out, "steps.csv"))
-            follows_the_scheme(page)
-            is_quiet(page)
-            if len(sys.argv) > 2:
-                page.resize(1280, 2400)
-                page.screenshot(os.path.join(sys.argv[2], "report.png"))
-            nothing_acts(page, program, folder)
-        except Failure as failure:
-            print(f"failed: {failure}")
-            return 1
-    return 0
+def report(program, page, folder, pictures):
+    out = os.path.join(folder, "cost")
+    command(program, "cost", *SCENE, "--out", out)
+    command(program, "report", out)
+    path = os.path.join(out, "report.html")
+    check(os.path.getsize(path) < 3_000_000, f"{os.path.getsize(path)} bytes are too many")
+    page.open(path)
+    has_what_is_there(page, out)
+    rows_are_those_of(page, os.path.join(out, "steps.csv"))
+    for width in (1280, 400):
+        fits(page, width)
+        pointing_reads_values(page, os.path.join(out, "steps.csv"))
+    follows_the_scheme(page)
+    is_quiet(page)
+    if pictures:
+        page.resize(1280, 2400)
+        page.screenshot(os.path.join(pictures, "report.png"))
+    nothing_acts(page, program, folder)
 
 
-sys.exit(main())
+sys.exit(browser.test(report, width=1280, height=900))

@@ -10,38 +10,38 @@ namespace hbvm::core {
 /// are bodies 0 and 1, 1 and 2, ..., its bodies the bodies 1, 2, ... of d coordinates each.
 template <class Form, Scalar S>
 Constraint<S> any_constraint(Index d, RandomValues<S>& random) {
-  ConstraintUse<S> use;
-  use.dimension = d;
+  ConstraintInput<S> input;
+  input.dimension = d;
   Index pairs = 0, bodies = 0;
   for (const ConstraintKey& key : Form::keys) {
     using Takes = ConstraintKey::Takes;
     switch (key.takes) {
       case Takes::pair: {
         const Index a = pairs++;
-        use.pairs.emplace(key.name, Displacement<S>{{{a * d, S(1)}, {(a + 1) * d, S(-1)}}, random.vector(d)});
+        input.pairs.emplace(key.name, Displacement<S>{{{a * d, S(1)}, {(a + 1) * d, S(-1)}}, random.vector(d)});
         break;
       }
       case Takes::body:
-        use.bodies.emplace(key.name, Displacement<S>{{{++bodies * d, S(1)}}, {}});
+        input.bodies.emplace(key.name, Displacement<S>{{{++bodies * d, S(1)}}, {}});
         break;
       case Takes::number:
-        use.numbers.emplace(key.name, S(2 + random.value()));
+        input.numbers.emplace(key.name, S(2 + random.value()));
         break;
       case Takes::vector:
-        use.vectors.emplace(key.name, random.vector(d));
+        input.vectors.emplace(key.name, random.vector(d));
         break;
       case Takes::symmetric_matrix:
-        use.matrices.emplace(key.name, mass_block<S>(d));
+        input.matrices.emplace(key.name, mass_block<S>(d));
         break;
     }
   }
   Constraint<S> constraint{std::string(Form::kind), {}};
-  if constexpr (requires { Form::from(use).front().second; })
-    std::visit([&](const auto& form) { constraint.form = form; }, Form::from(use).front().second);
-  else if constexpr (requires { Form::from(use).index(); })
-    std::visit([&](const auto& form) { constraint.form = form; }, Form::from(use));
+  if constexpr (requires { Form::from(input).front().second; })
+    std::visit([&](const auto& form) { constraint.form = form; }, Form::from(input).front().second);
+  else if constexpr (requires { Form::from(input).index(); })
+    std::visit([&](const auto& form) { constraint.form = form; }, Form::from(input));
   else
-    constraint.form = Form::from(use);
+    constraint.form = Form::from(input);
   return constraint;
 }
 

@@ -159,10 +159,7 @@ TYPED_TEST(ConstraintGradientTest, CouplesOverAFullMassBlockWithoutSharedCoordin
 
 TYPED_TEST(ConstraintGradientTest, SeparateBodiesDoNotCouple) {
   using S = TypeParam;
-  Problem<S> problem;
-  problem.dimension = 2;
-  problem.mass.add_scalar(2, S(1));
-  problem.mass.add_scalar(2, S(1));
+  Problem<S> problem = free_bodies<S>(2, {1, 1});
   Vector<S> normal(2);
   normal << S(1), S(1);
   problem.constraints = {{"one", Plane<S>{{0}, normal, S(0)}}, {"other", Plane<S>{{2}, normal, S(0)}}};
@@ -173,9 +170,7 @@ TYPED_TEST(ConstraintGradientTest, SeparateBodiesDoNotCouple) {
 
 TYPED_TEST(ConstraintGradientTest, AnAngleToAFixedDirectionIsLinear) {
   using S = TypeParam;
-  Problem<S> problem;
-  problem.dimension = 2;
-  problem.mass.add_scalar(2, S(1));
+  Problem<S> problem = free_bodies<S>(2, {1});
   Vector<S> direction(2);
   direction << S(3), S(-4);
   problem.constraints = {{"angle", DisplacementProduct<S>{{{{0, S(1)}}, {}}, {{}, direction}, S(1)}}};
@@ -192,9 +187,7 @@ TYPED_TEST(ConstraintGradientTest, AnAngleToAFixedDirectionIsLinear) {
 
 TYPED_TEST(ConstraintGradientTest, NoConstraintsAreAllowed) {
   using S = TypeParam;
-  Problem<S> problem;
-  problem.dimension = 2;
-  problem.mass.add_scalar(2, S(1));
+  Problem<S> problem = free_bodies<S>(2, {1});
   ConstraintGradient<S> gradient(problem, 2);
   const Matrix<S> q = this->random.matrix(2, 2);
   Matrix<S> out = q;
@@ -215,10 +208,7 @@ TYPED_TEST(ConstraintGradientTest, StoresWhatIsNotZero) {
 /// The columns of a rod between two bodies are those of one and their negatives: half of the products do.
 TYPED_TEST(ConstraintGradientTest, CountsHalfOfTheProductsOfARod) {
   using S = TypeParam;
-  Problem<S> problem;
-  problem.dimension = 3;
-  problem.mass.add_scalar(3, S(1));
-  problem.mass.add_scalar(3, S(2));
+  Problem<S> problem = free_bodies<S>(3, {1, 2});
   Vector<S> pivot(3);
   pivot << S(1), S(2), S(3);
   problem.constraints = {{"rod", Rod<S>{{{{3, S(1)}, {0, S(-1)}}, {}}, S(1)}},
@@ -246,10 +236,7 @@ TYPED_TEST(ConstraintGradientTest, CountsHalfOfTheProductsOfARod) {
 
 TYPED_TEST(ConstraintGradientTest, CountsOperationsOfARod) {
   using S = TypeParam;
-  Problem<S> problem;
-  problem.dimension = 3;
-  problem.mass.add_scalar(3, S(1));
-  problem.mass.add_scalar(3, S(2));
+  Problem<S> problem = free_bodies<S>(3, {1, 2});
   const Displacement<S> x{{{0, S(1)}, {3, S(-1)}}, {}};
   problem.constraints = {{"rod", Rod<S>{x, S(1)}}};
   // In each lane: x = a - b, grad_a = x + x, grad_b = -grad_a, and W grad_b.

@@ -4,7 +4,7 @@
 
 #include "printing.hpp"
 #include "problem/dense.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -19,7 +19,7 @@ class CurvatureTest : public ::testing::Test {
   /// field.
   static Problem<S> problem(Index d) {
     Problem<S> result = constrained_problem<S>(d);
-    using Instance = typename EffectUse<S>::Instance;
+    using Instance = typename EffectInput<S>::Instance;
     Instance pair, body, other;
     pair.x = {{{d, S(1)}, {2 * d, S(-1)}}, {}};
     body.x = {{{0, S(1)}}, Vector<S>::Constant(d, S(3))};

@@ -74,6 +74,19 @@ Matrix<S> mass_block(Index n) {
   return M;
 }
 
+/// Bodies of these masses in d dimensions, under nothing.
+template <Scalar S>
+Problem<S> free_bodies(Index d, const std::vector<S>& masses) {
+  Problem<S> problem;
+  problem.dimension = problem.potential.dimension = d;
+  for (const S& mass : masses) {
+    problem.blocks.push_back({problem.m(), true});
+    problem.mass.add_scalar(d, mass);
+  }
+  problem.potential.m = problem.m();
+  return problem;
+}
+
 /// Bodies 0 (mass 2), 1 (full block), 2 (mass 1) and 3 (mass 3/4) with one constraint of every form, some of them
 /// sharing bodies.
 template <Scalar S>

@@ -9,10 +9,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class DiscreteForces : public ::testing::Test {
- protected:
-  PrecisionScope digits{40};
-};
+class DiscreteForces : public InDigits<40> {};
 TYPED_TEST_SUITE(DiscreteForces, AllScalars, ScalarNames);
 
 /// Springs and charges at points of rigid bodies, pairs, fields and several effects together.

@@ -1,17 +1,14 @@
 #include "problem/energy_terms.hpp"
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 
 namespace hbvm::core {
 namespace {
 
 template <class S>
-class EnergyOfTerms : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class EnergyOfTerms : public InDigits<50> {};
 TYPED_TEST_SUITE(EnergyOfTerms, AllScalars, ScalarNames);
 
 TYPED_TEST(EnergyOfTerms, IsThatOfAPoint) {
@@ -19,7 +16,7 @@ TYPED_TEST(EnergyOfTerms, IsThatOfAPoint) {
   for (const auto& [name, text] : built_in_scenes()) {
     const Assembled<S> scene = assemble<S>(load_scene(name));
     EnergyTerms<S> terms(scene.problem);
-    Point<S> point(scene.problem);
+    StateEvaluator<S> point(scene.problem);
     terms.evaluate(scene.q0, scene.p0);
     const S difference = magnitude(S(terms.H() - point.energy(scene.q0, scene.p0)));
     EXPECT_LE(difference, terms.count() * epsilon<S>() * terms.size()) << name;

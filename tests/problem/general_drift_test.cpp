@@ -7,10 +7,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class GeneralDriftTest : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class GeneralDriftTest : public InDigits<50> {};
 TYPED_TEST_SUITE(GeneralDriftTest, AllScalars, ScalarNames);
 
 TYPED_TEST(GeneralDriftTest, LooksAtConstraintsThatAreNotQuadratic) {

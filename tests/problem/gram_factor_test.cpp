@@ -7,10 +7,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class GramFactors : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class GramFactors : public InDigits<50> {};
 TYPED_TEST_SUITE(GramFactors, AllScalars, ScalarNames);
 
 /// A ring of rods whose neighbours in the list are far apart in it.

@@ -2,8 +2,8 @@
 
 #include "printing.hpp"
 #include "problem/dense.hpp"
-#include "problem/effect/use.hpp"
-#include "problem/point.hpp"
+#include "problem/effect/input.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/binary_exponent.hpp"
 #include "scalar/literal.hpp"
 
@@ -20,7 +20,7 @@ class ProblemInDouble : public ::testing::Test {
   static Problem<S> problem(Index d) {
     Problem<S> result = constrained_problem<S>(d);
     for (Index body = 0; body < 4; ++body) result.blocks.push_back({body * d, body != 2});
-    typename EffectUse<S>::Instance body, pair;
+    typename EffectInput<S>::Instance body, pair;
     body.x = {{{0, S(1)}}, Vector<S>::Constant(d, literal<S>("2.1"))};
     pair.x = {{{d, S(1)}, {3 * d, S(-1)}}, {}};
     body.mass_matrix = pair.mass_matrix = Matrix<S>::Identity(d, d);
@@ -58,8 +58,8 @@ TYPED_TEST(ProblemInDouble, SaysTheSameOfAState) {
     }
     const Vector<double> q = this->random.vector(problem.m()), p = this->random.vector(problem.m());
     const Vector<S> exact_q = q.template cast<S>(), exact_p = p.template cast<S>();
-    Point<S> exact(problem);
-    Point<double> point(rounded);
+    StateEvaluator<S> exact(problem);
+    StateEvaluator<double> point(rounded);
     const double bound = 256 * epsilon<double>();
     EXPECT_NEAR(point.energy(q, p), approximately(exact.energy(exact_q, exact_p)), bound * point.energy_size(q, p));
     const auto near = [&](const Vector<double>& a, const Vector<S>& b) {

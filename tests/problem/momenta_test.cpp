@@ -4,7 +4,7 @@
 
 #include "printing.hpp"
 #include "problem/any_constraint.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 #include "scalar/text.hpp"
@@ -24,17 +24,6 @@ class Momenta : public ::testing::Test {
     Index i = 0;
     for (const int entry : entries) v[i++] = S(entry);
     return v;
-  }
-
-  static Problem<S> free_bodies(Index d, int count) {
-    Problem<S> problem;
-    problem.dimension = problem.potential.dimension = d;
-    for (int body = 0; body < count; ++body) {
-      problem.blocks.push_back({problem.m(), true});
-      problem.mass.add_scalar(d, S(body + 1));
-    }
-    problem.potential.m = problem.m();
-    return problem;
   }
 
   static std::vector<S> along_axes(const Problem<S>& problem, const Vector<S>& q, const Vector<S>& p) {
@@ -58,19 +47,19 @@ class Momenta : public ::testing::Test {
 TYPED_TEST_SUITE(Momenta, AllScalars, ScalarNames);
 
 TYPED_TEST(Momenta, OfTwoBodiesInThePlane) {
-  const auto problem = this->free_bodies(2, 2);
+  const auto problem = free_bodies<TypeParam>(2, {1, 2});
   const auto P_and_L = this->along_axes(problem, this->vector({1, 2, 3, 5}), this->vector({7, 11, 13, 17}));
   EXPECT_EQ(P_and_L, (std::vector<TypeParam>{7 + 13, 11 + 17, (1 * 11 - 2 * 7) + (3 * 17 - 5 * 13)}));
 }
 
 TYPED_TEST(Momenta, OfABodyInSpaceIsTheCrossProduct) {
-  const auto problem = this->free_bodies(3, 1);
+  const auto problem = free_bodies<TypeParam>(3, {1});
   const auto P_and_L = this->along_axes(problem, this->vector({1, 2, 3}), this->vector({4, 5, 7}));
   EXPECT_EQ(P_and_L, (std::vector<TypeParam>{4, 5, 7, 2 * 7 - 3 * 5, 3 * 4 - 1 * 7, 1 * 5 - 2 * 4}));
 }
 
 TYPED_TEST(Momenta, AboutAnyAxisIsTheSumOfThoseAlongTheCoordinateAxes) {
-  const auto problem = this->free_bodies(3, 1);
+  const auto problem = free_bodies<TypeParam>(3, {1});
   const MomentumComponent<TypeParam> sum{this->vector({2, 2, 2}), this->vector({-1, -1, -1})};
   EXPECT_EQ(sum.name(), "2 L_x + 2 L_y + 2 L_z - P_x - P_y - P_z");
   EXPECT_EQ(momentum(problem, sum, this->vector({1, 2, 3}), this->vector({4, 5, 7})).value,
@@ -78,8 +67,8 @@ TYPED_TEST(Momenta, AboutAnyAxisIsTheSumOfThoseAlongTheCoordinateAxes) {
 }
 
 TYPED_TEST(Momenta, AreNamedByAxis) {
-  EXPECT_EQ(this->names(coordinate_momenta(this->free_bodies(2, 1))), "P_x, P_y, L_z");
-  EXPECT_EQ(this->names(coordinate_momenta(this->free_bodies(3, 1))), "P_x, P_y, P_z, L_x, L_y, L_z");
+  EXPECT_EQ(this->names(coordinate_momenta(free_bodies<TypeParam>(2, {1}))), "P_x, P_y, L_z");
+  EXPECT_EQ(this->names(coordinate_momenta(free_bodies<TypeParam>(3, {1}))), "P_x, P_y, P_z, L_x, L_y, L_z");
 }
 
 TYPED_TEST(Momenta, OfAFixedRigidBodyIsAngularOnly) {
@@ -150,44 +139,41 @@ std::string constraint(const std::string& kind, const std::string& keys) {
 }
 
 TYPED_TEST(Momenta, ConservedInThePlane) {
+  const auto conserved = [&](const std::string& more = {}) { return this->conserved(plane_pair + more); };
   const std::string gravity = effect("uniform_gravity", "acceleration = [0, -1]"),
                     mutual = effect("mutual_gravity", "strength = 1"), trap = "stiffness = 1\nexponent = 2\ncenter = ";
-  EXPECT_EQ(this->conserved(plane_pair), "P_x, P_y, L_z");
-  EXPECT_EQ(this->conserved(plane_pair + mutual), "P_x, P_y, L_z");
-  EXPECT_EQ(this->conserved(plane_pair + gravity + mutual), "P_x");
-  EXPECT_EQ(this->conserved(plane_pair + mutual + effect("trap", trap + "\"O\"")), "L_z");
-  EXPECT_EQ(this->conserved(plane_pair + mutual + effect("trap", trap + "\"A\"")), "L_z + 3 P_x");
-  EXPECT_EQ(this->conserved(plane_pair + effect("trap", trap + "\"O\"\non = [\"a\"]")), "L_z");
-  EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"a\", \"b\"]\nlength = \"sqrt(5)/2\"")),
-            "P_x, P_y, L_z");
-  EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"a\", \"O\"]\nlength = 1")), "L_z");
-  EXPECT_EQ(this->conserved(plane_pair + constraint("rod", "between = [\"b\", \"A\"]\nlength = 2.5")), "L_z + 3 P_x");
-  EXPECT_EQ(this->conserved(plane_pair + constraint("plane", "body = \"a\"\nnormal = [0, 2]\noffset = 0")), "P_x");
-  EXPECT_EQ(this->conserved(plane_pair +
-                            constraint("angle", "first = [\"a\", \"b\"]\nsecond = [\"b\", \"a\"]\nvalue = -1.25")),
+  EXPECT_EQ(conserved(), "P_x, P_y, L_z");
+  EXPECT_EQ(conserved(mutual), "P_x, P_y, L_z");
+  EXPECT_EQ(conserved(gravity + mutual), "P_x");
+  EXPECT_EQ(conserved(mutual + effect("trap", trap + "\"O\"")), "L_z");
+  EXPECT_EQ(conserved(mutual + effect("trap", trap + "\"A\"")), "L_z + 3 P_x");
+  EXPECT_EQ(conserved(effect("trap", trap + "\"O\"\non = [\"a\"]")), "L_z");
+  EXPECT_EQ(conserved(constraint("rod", "between = [\"a\", \"b\"]\nlength = \"sqrt(5)/2\"")), "P_x, P_y, L_z");
+  EXPECT_EQ(conserved(constraint("rod", "between = [\"a\", \"O\"]\nlength = 1")), "L_z");
+  EXPECT_EQ(conserved(constraint("rod", "between = [\"b\", \"A\"]\nlength = 2.5")), "L_z + 3 P_x");
+  EXPECT_EQ(conserved(constraint("plane", "body = \"a\"\nnormal = [0, 2]\noffset = 0")), "P_x");
+  EXPECT_EQ(conserved(constraint("angle", "first = [\"a\", \"b\"]\nsecond = [\"b\", \"a\"]\nvalue = -1.25")),
             "P_x, P_y, L_z");
 }
 
 TYPED_TEST(Momenta, ConservedInSpace) {
+  const auto conserved = [&](const std::string& more = {}) { return this->conserved(space_body + more); };
   const auto quadric = [](const std::string& A, const std::string& c) {
     return constraint("quadric", "body = \"a\"\nb = [0, 0, 0]\nA = " + A + "\nc = \"" + c + "\"");
   };
   const std::string gravity = effect("uniform_gravity", "acceleration = [0, 0, -1]"),
                     pull = "strength = 1\ncenter = ", sphere = quadric("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]", "-1");
-  EXPECT_EQ(this->conserved(space_body), "P_x, P_y, P_z, L_x, L_y, L_z");
-  EXPECT_EQ(this->conserved(space_body + gravity), "P_x, P_y, L_z");
-  EXPECT_EQ(this->conserved(space_body + effect("central_gravity", pull + "\"O\"")), "L_x, L_y, L_z");
-  EXPECT_EQ(this->conserved(space_body + effect("central_gravity", pull + "\"A\"")), "L_x + 3 P_y, L_y - 3 P_x, L_z");
-  EXPECT_EQ(
-      this->conserved(space_body + effect("central_gravity", pull + "\"A\"") + effect("radial_cosine", pull + "\"O\"")),
-      "L_z");
-  EXPECT_EQ(this->conserved(space_body + sphere), "L_x, L_y, L_z");
-  EXPECT_EQ(this->conserved(space_body + sphere + gravity), "L_z");
-  EXPECT_EQ(this->conserved(space_body + quadric("[[2, 0, 0], [0, 1, 0], [0, 0, 1]]", "-13/9")), "L_x");
-  EXPECT_EQ(this->conserved(space_body + quadric("[[2, 0, 0], [0, 1, 0], [0, 0, 3]]", "-21/9")), "");
-  EXPECT_EQ(this->conserved(space_body + quadric("[[1, 0, 0], [0, 1, 0], [0, 0, 0]]", "-5/9")), "P_z, L_z");
-  EXPECT_EQ(this->conserved(space_body + effect("oblateness", pull + "\"O\"\nradius = 1\nJ2 = 1\naxis = [0, 1, 0]")),
-            "L_y");
+  EXPECT_EQ(conserved(), "P_x, P_y, P_z, L_x, L_y, L_z");
+  EXPECT_EQ(conserved(gravity), "P_x, P_y, L_z");
+  EXPECT_EQ(conserved(effect("central_gravity", pull + "\"O\"")), "L_x, L_y, L_z");
+  EXPECT_EQ(conserved(effect("central_gravity", pull + "\"A\"")), "L_x + 3 P_y, L_y - 3 P_x, L_z");
+  EXPECT_EQ(conserved(effect("central_gravity", pull + "\"A\"") + effect("radial_cosine", pull + "\"O\"")), "L_z");
+  EXPECT_EQ(conserved(sphere), "L_x, L_y, L_z");
+  EXPECT_EQ(conserved(sphere + gravity), "L_z");
+  EXPECT_EQ(conserved(quadric("[[2, 0, 0], [0, 1, 0], [0, 0, 1]]", "-13/9")), "L_x");
+  EXPECT_EQ(conserved(quadric("[[2, 0, 0], [0, 1, 0], [0, 0, 3]]", "-21/9")), "");
+  EXPECT_EQ(conserved(quadric("[[1, 0, 0], [0, 1, 0], [0, 0, 0]]", "-5/9")), "P_z, L_z");
+  EXPECT_EQ(conserved(effect("oblateness", pull + "\"O\"\nradius = 1\nJ2 = 1\naxis = [0, 1, 0]")), "L_y");
 }
 
 /// The kinetic energy must not change either: M of no symmetry moves freely, but does not turn freely.
@@ -412,34 +398,23 @@ class MomentaBySampling : public ::testing::Test {
       EXPECT_LE(max_norm(Vector<double>(rows * x)), 1e-9 * max_norm(x)) << what << ": " << component.name();
     }
   }
-
-  /// Two bodies, one of them with a mass matrix.
-  static Problem<double> two_bodies(Index d) {
-    Problem<double> problem;
-    problem.dimension = problem.potential.dimension = d;
-    problem.blocks = {{0, true}, {d, true}};
-    problem.mass.add_scalar(d, 2);
-    problem.mass.add_scalar(d, 3);
-    problem.potential.m = problem.m();
-    return problem;
-  }
 };
 
 TEST_F(MomentaBySampling, OfEveryEffectAlone) {
   for (const Index d : {2, 3}) {
     const auto check = [&]<class Effect>() {
       for (const bool from_a_point : {false, true}) {
-        EffectUse<double> use;
-        use.kind = Effect::kind;
-        use.dimension = d;
+        EffectInput<double> input;
+        input.kind = Effect::kind;
+        input.dimension = d;
         for (const EffectKey& key : Effect::keys) {
           if (key.is_vector)
-            use.vectors[std::string(key.name)] = std::vector<double>(static_cast<std::size_t>(d), 0.5);
+            input.vectors[std::string(key.name)] = std::vector<double>(static_cast<std::size_t>(d), 0.5);
           else
-            use.numbers[std::string(key.name)] = key.name == "exponent" ? 4 : 0.75;
+            input.numbers[std::string(key.name)] = key.name == "exponent" ? 4 : 0.75;
         }
         for (const Index body : {0, 1}) {
-          EffectUse<double>::Instance instance;
+          EffectInput<double>::Instance instance;
           instance.x.blocks = {{body * d, 1}};
           if (from_a_point)
             instance.x.shift = random.vector(d);
@@ -448,9 +423,9 @@ TEST_F(MomentaBySampling, OfEveryEffectAlone) {
           instance.mass_matrix = body == 0 ? Matrix<double>(Matrix<double>::Identity(d, d)) : mass_block<double>(d);
           instance.masses[0] = instance.masses[1] = 1.5;
           instance.charges[0] = instance.charges[1] = -1.25;
-          use.instances = {instance};
-          Problem<double> problem = two_bodies(d);
-          problem.potential.terms.push_back(make_term(use));
+          input.instances = {instance};
+          Problem<double> problem = free_bodies<double>(d, {2, 3});
+          problem.potential.terms.push_back(make_term(input));
           expect_same(problem, std::string(Effect::kind) + " in " + std::to_string(d) + " dimensions");
         }
       }
@@ -463,19 +438,12 @@ TEST_F(MomentaBySampling, OfEveryConstraintAlone) {
   for (const Index d : {2, 3}) {
     const Problem<double> all = constrained_problem<double>(d);
     for (std::size_t a = 0; a < all.constraints.size(); ++a) {
-      Problem<double> problem = two_bodies(d);
-      problem.mass.add_scalar(d, 1);
-      problem.mass.add_scalar(d, 1);
-      for (const Index body : {2, 3}) problem.blocks.push_back({body * d, true});
-      problem.potential.m = problem.m();
+      Problem<double> problem = free_bodies<double>(d, {2, 3, 1, 1});
       problem.constraints = {all.constraints[a]};
       expect_same(problem, all.constraints[a].name);
     }
     for_each_constraint_form<double>([&]<class Form>() {
-      Problem<double> problem = two_bodies(d);
-      problem.mass.add_scalar(d, 1);
-      problem.blocks.push_back({2 * d, true});
-      problem.potential.m = problem.m();
+      Problem<double> problem = free_bodies<double>(d, {2, 3, 1});
       problem.constraints = {any_constraint<Form>(d, random)};
       expect_same(problem, std::string(Form::kind) + " in " + std::to_string(d) + " dimensions");
     });

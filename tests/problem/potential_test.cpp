@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "problem/dense.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -14,7 +14,7 @@ class PotentialTest : public ::testing::Test {
   PrecisionScope digits{50};
   RandomValues<S> random{73};
 
-  using Use = EffectUse<S>;
+  using Use = EffectInput<S>;
   using Instance = typename Use::Instance;
 
   static Instance instance(const Displacement<S>& x, int mass) {
@@ -28,8 +28,9 @@ class PotentialTest : public ::testing::Test {
   static Displacement<S> pair() { return {{{0, S(1)}, {d, S(-1)}}, {}}; }
 
   static EffectTerm<S> gravity() {
-    Use use{"uniform_gravity", d, {}, {{"acceleration", {S(2), S(-3)}}}, {instance(body(0), 1), instance(body(1), 5)}};
-    return make_term(use);
+    Use input{
+        "uniform_gravity", d, {}, {{"acceleration", {S(2), S(-3)}}}, {instance(body(0), 1), instance(body(1), 5)}};
+    return make_term(input);
   }
   static EffectTerm<S> attraction(int strength = 2) {
     return make_term(Use{"mutual_gravity", d, {{"strength", S(strength)}}, {}, {instance(pair(), 3)}});
@@ -39,6 +40,19 @@ class PotentialTest : public ::testing::Test {
         Use{"trap", d, {{"stiffness", S(4)}, {"exponent", S(2)}}, {}, {instance(body(0), 1), instance(body(1), 1)}});
   }
   static Potential<S> potential(std::vector<EffectTerm<S>> terms) { return {d, m, std::move(terms)}; }
+
+  static Matrix<S> varying_force(const Potential<S>& potential, const Matrix<S>& q) {
+    PotentialEvaluator<S> evaluator(potential, q.rows());
+    Matrix<S> force;
+    evaluator.varying_force(lanes(q), force);
+    return force;
+  }
+  static Vector<S> values(const Potential<S>& potential, const Matrix<S>& q) {
+    PotentialEvaluator<S> evaluator(potential, q.rows());
+    Vector<S> U;
+    evaluator.values(lanes(q), U);
+    return U;
+  }
 
   Matrix<S> apart(Index lanes) {
     Matrix<S> q = random.matrix(lanes, m);
@@ -108,14 +122,9 @@ TYPED_TEST(PotentialTest, EffectsThatActAlikeShareWhatTheyHaveInCommon) {
   const auto both = this->potential({this->attraction(), this->trap(), this->attraction(5), this->trap()});
   PotentialEvaluator<S> evaluator(both, 3);
   const Matrix<S> q = this->apart(3);
-  Matrix<S> force, one, sum = Matrix<S>::Zero(3, 4);
+  Matrix<S> force, sum = Matrix<S>::Zero(3, 4);
   for (int call = 0; call < 2; ++call) evaluator.varying_force(lanes(q), force);
-  for (const auto& term : both.terms) {
-    const auto U = this->potential({term});
-    PotentialEvaluator<S> alone(U, 3);
-    alone.varying_force(lanes(q), one);
-    sum += one;
-  }
+  for (const auto& term : both.terms) sum += this->varying_force(this->potential({term}), q);
   EXPECT_LE(max_norm(Matrix<S>(force - sum)), 8 * epsilon<S>() * max_norm(sum));
   const auto& counts = evaluator.counts();
   EXPECT_EQ(counts[2].evaluations, 6u);
@@ -134,19 +143,15 @@ TYPED_TEST(PotentialTest, EffectsThatActAlikeShareWhatTheyHaveInCommon) {
 
 TYPED_TEST(PotentialTest, EveryLaneIsTreatedAlike) {
   const auto U = this->potential({this->gravity(), this->attraction(), this->trap()});
-  PotentialEvaluator<TypeParam> together(U, 5), alone(U, 1);
+  const PotentialEvaluator<TypeParam> together(U, 5), alone(U, 1);
   const Matrix<TypeParam> q = this->apart(5);
-  Matrix<TypeParam> forces, force;
-  Vector<TypeParam> values, one;
-  together.varying_force(lanes(q), forces);
-  together.values(lanes(q), values);
+  const Matrix<TypeParam> forces = this->varying_force(U, q);
+  const Vector<TypeParam> values = this->values(U, q);
   EXPECT_EQ(together.constant_force(), alone.constant_force());
   for (Index i = 0; i < 5; ++i) {
     const Matrix<TypeParam> position = q.row(i);
-    alone.varying_force(lanes(position), force);
-    alone.values(lanes(position), one);
-    EXPECT_EQ(Matrix<TypeParam>(forces.row(i)), force);
-    EXPECT_EQ(values[i], one[0]);
+    EXPECT_EQ(Matrix<TypeParam>(forces.row(i)), this->varying_force(U, position));
+    EXPECT_EQ(values[i], this->values(U, position)[0]);
   }
 }
 
@@ -154,18 +159,12 @@ TYPED_TEST(PotentialTest, TermsAddUp) {
   const auto sum = this->potential({this->attraction(), this->trap()}), first = this->potential({this->attraction()}),
              second = this->potential({this->trap()});
   const Matrix<TypeParam> q = this->apart(2);
-  Matrix<TypeParam> all, a, b;
-  Vector<TypeParam> U, U_a, U_b;
-  PotentialEvaluator<TypeParam> evaluator(sum, 2), evaluator_a(first, 2), evaluator_b(second, 2);
-  evaluator.varying_force(lanes(q), all);
-  evaluator_a.varying_force(lanes(q), a);
-  evaluator_b.varying_force(lanes(q), b);
-  evaluator.values(lanes(q), U);
-  evaluator_a.values(lanes(q), U_a);
-  evaluator_b.values(lanes(q), U_b);
+  const Matrix<TypeParam> all = this->varying_force(sum, q);
+  const Vector<TypeParam> U = this->values(sum, q);
   const TypeParam tolerance = 8 * epsilon<TypeParam>();
-  EXPECT_LE(max_norm(Matrix<TypeParam>(all - a - b)), tolerance * max_norm(all));
-  EXPECT_LE(max_norm(Vector<TypeParam>(U - U_a - U_b)), tolerance * max_norm(U));
+  EXPECT_LE(max_norm(Matrix<TypeParam>(all - this->varying_force(first, q) - this->varying_force(second, q))),
+            tolerance * max_norm(all));
+  EXPECT_LE(max_norm(Vector<TypeParam>(U - this->values(first, q) - this->values(second, q))), tolerance * max_norm(U));
 }
 
 TYPED_TEST(PotentialTest, EvaluationsOverwrite) {
@@ -184,10 +183,7 @@ TYPED_TEST(PotentialTest, EvaluationsOverwrite) {
 
 TYPED_TEST(PotentialTest, ActionAndReaction) {
   const auto U = this->potential({this->attraction()});
-  PotentialEvaluator<TypeParam> evaluator(U, 3);
-  const Matrix<TypeParam> q = this->apart(3);
-  Matrix<TypeParam> force;
-  evaluator.varying_force(lanes(q), force);
+  const Matrix<TypeParam> force = this->varying_force(U, this->apart(3));
   EXPECT_EQ(Matrix<TypeParam>(force.leftCols(2)), Matrix<TypeParam>(-force.rightCols(2)));
   for (Index i = 0; i < 3; ++i) EXPECT_LT(force(i, 0), 0) << "the body on the right is pulled left";
 }

@@ -79,10 +79,7 @@ TYPED_TEST(RedundantConstraintsTest, KeepTheirPlacesValuesAndHiddenConstraints) 
 /// A constraint times 1, 2 and 3: shares in the proportion of the factors.
 TYPED_TEST(RedundantConstraintsTest, ShareTheMultipliers) {
   using S = TypeParam;
-  Problem<S> full;
-  full.dimension = full.potential.dimension = 2;
-  full.mass.add_scalar(2, S(5));
-  full.potential.m = 2;
+  Problem<S> full = free_bodies<S>(2, {5});
   for (const int factor : {1, 2, 3}) {
     const Vector<S> normal = (Vector<S>(2) << S(factor), S(-factor)).finished();
     full.constraints.push_back({"plane", Plane<S>{{0}, normal, S(0)}});

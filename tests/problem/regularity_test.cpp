@@ -24,13 +24,7 @@ class Regularity : public ::testing::Test {
   }
 
   /// Bodies of these masses in the plane.
-  static Problem<S> bodies(std::initializer_list<int> masses) {
-    Problem<S> problem;
-    problem.dimension = problem.potential.dimension = 2;
-    for (const int mass : masses) problem.mass.add_scalar(2, S(mass));
-    problem.potential.m = problem.m();
-    return problem;
-  }
+  static Problem<S> bodies(const std::vector<S>& masses) { return free_bodies<S>(2, masses); }
   static void hold(Problem<S>& problem, Index body, std::initializer_list<const char*> normal) {
     problem.constraints.push_back({"plane", Plane<S>{{2 * body}, vector(normal), S(0)}});
   }
@@ -150,10 +144,7 @@ TYPED_TEST(Regularity, DoesNotDependOnScales) {
   using S = TypeParam;
   for (const char* light : {"1", "1e-20", "1e20"})
     for (const char* length : {"1", "1e-100", "2^100"}) {
-      Problem<S> problem;
-      problem.dimension = problem.potential.dimension = 2;
-      for (const char* mass : {"1", light, "1"}) problem.mass.add_scalar(2, literal<S>(mass));
-      problem.potential.m = problem.m();
+      auto problem = this->bodies({1, literal<S>(light), 1});
       this->tie(problem, 0, 1);
       this->tie(problem, 1, 2);
       this->tie(problem, 0, 2);
@@ -293,8 +284,7 @@ TYPED_TEST(Regularity, ConditionIsTheRatioOfTheEigenvalues) {
 /// beside it. The eigenvalues of that are 2 - 2 cos((2 k - 1) pi/(2 n + 1)).
 TYPED_TEST(Regularity, ConditionOfManyConstraints) {
   for (const Index n : {127, 128, 400}) {
-    auto chain = this->bodies({});
-    for (Index i = 0; i < n; ++i) chain.mass.add_scalar(2, TypeParam(1));
+    auto chain = this->bodies(std::vector<TypeParam>(n, TypeParam(1)));
     Vector<TypeParam> q = Vector<TypeParam>::Zero(2 * n);
     this->pin(chain, 0);
     for (Index i = 1; i < n; ++i) this->tie(chain, i - 1, i);
@@ -313,8 +303,7 @@ TYPED_TEST(Regularity, ConditionOfManyConstraints) {
 /// Constraints that share no body cost nothing: in a dense matrix this takes hours.
 TYPED_TEST(Regularity, SeesRedundantOnesAmongThousands) {
   constexpr Index n = 3'000;
-  auto pairs = this->bodies({});
-  for (Index i = 0; i < 2 * n; ++i) pairs.mass.add_scalar(2, TypeParam(1));
+  auto pairs = this->bodies(std::vector<TypeParam>(2 * n, TypeParam(1)));
   Vector<TypeParam> q = Vector<TypeParam>::Zero(4 * n);
   for (Index i = 0; i < n; ++i) {
     this->tie(pairs, 2 * i, 2 * i + 1);

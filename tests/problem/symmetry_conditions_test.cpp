@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "problem/dense.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -17,13 +17,8 @@ class SymmetryConditions : public ::testing::Test {
   RandomValues<Mpfr> random{97};
 
   static Problem<Mpfr> bodies(Index d) {
-    Problem<Mpfr> problem;
-    problem.dimension = problem.potential.dimension = d;
-    for (Index b = 0; b < 3; ++b) {
-      problem.mass.add_scalar(d, Mpfr(b + 1));
-      problem.blocks.push_back({b * d, b != 2});  // the last one is a director
-    }
-    problem.potential.m = problem.m();
+    Problem<Mpfr> problem = free_bodies<Mpfr>(d, {1, 2, 3});
+    problem.blocks[2].translates = false;  // a director
     return problem;
   }
 
@@ -116,13 +111,8 @@ TEST_F(SymmetryConditions, OfConstraintsOfEveryForm) {
     const Problem<Mpfr> all = constrained_problem<Mpfr>(d);
     int kept = 0;
     for (const auto& constraint : all.constraints) {
-      Problem<Mpfr> problem;
-      problem.dimension = problem.potential.dimension = d;
-      for (Index b = 0; b < 4; ++b) {
-        problem.mass.add_scalar(d, Mpfr(1));
-        problem.blocks.push_back({b * d, b != 2});
-      }
-      problem.potential.m = problem.m();
+      Problem<Mpfr> problem = free_bodies<Mpfr>(d, {1, 1, 1, 1});
+      problem.blocks[2].translates = false;
       problem.constraints = {constraint};
       kept += expect_agreement(problem, constraint.name);
     }
@@ -146,7 +136,7 @@ TEST_F(SymmetryConditions, OfProductsWithShifts) {
 
 TEST_F(SymmetryConditions, OfEffectsOfEverySymmetry) {
   for (const Index d : {2, 3}) {
-    EffectUse<Mpfr>::Instance body, director, pair;
+    EffectInput<Mpfr>::Instance body, director, pair;
     body.x = {{{d, Mpfr(1)}}, Vector<Mpfr>(d)};
     for (Index j = 0; j < d; ++j) body.x.shift[j] = Mpfr(j + 1) / 4;
     director.x = {{{2 * d, Mpfr(1)}}, {}};
@@ -156,7 +146,7 @@ TEST_F(SymmetryConditions, OfEffectsOfEverySymmetry) {
       x->masses[0] = x->masses[1] = 1;
     }
     const std::vector<Mpfr> ones(static_cast<std::size_t>(d), Mpfr(1)), zeros(static_cast<std::size_t>(d), Mpfr(0));
-    for (const EffectUse<Mpfr>& use : std::vector<EffectUse<Mpfr>>{
+    for (const EffectInput<Mpfr>& input : std::vector<EffectInput<Mpfr>>{
              {"trap", d, {{"stiffness", Mpfr(1)}, {"exponent", Mpfr(2)}}, {}, {body}},
              {"trap", d, {{"stiffness", Mpfr(1)}, {"exponent", Mpfr(4)}}, {}, {director}},
              {"mutual_gravity", d, {{"strength", Mpfr(1)}}, {}, {pair}},
@@ -166,8 +156,8 @@ TEST_F(SymmetryConditions, OfEffectsOfEverySymmetry) {
              {"uniform_gravity", d, {}, {{"acceleration", ones}}, {director}},
              {"uniform_gravity", d, {}, {{"acceleration", zeros}}, {body}}}) {
       Problem<Mpfr> problem = bodies(d);
-      problem.potential.terms = {make_term(use)};
-      expect_agreement(problem, use.kind);
+      problem.potential.terms = {make_term(input)};
+      expect_agreement(problem, input.kind);
     }
   }
 }

@@ -5,9 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "hbvm/error.hpp"
+#include "folder.hpp"
 #include "hbvm/figure.hpp"
 #include "read_file.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -31,7 +32,6 @@ class Environment {
 class FigureTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(mkdtemp(folder_.data()));
     Panel panel;
     panel.title = "it's 90° of λ";
     panel.curves = {{"one", {{0, 0}, {1, 2}}}, {"two", {{0, 1}, {1, 1}}}};
@@ -40,9 +40,8 @@ class FigureTest : public ::testing::Test {
     figure_.caption = "a caption";
     figure_.footnote = "what_made_it";
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  std::string folder_ = (std::filesystem::temp_directory_path() / "hbvm_figure_test_XXXXXX").string();
+  Folder folder_;
   Figure figure_;
 };
 
@@ -51,31 +50,26 @@ TEST_F(FigureTest, IsDrawnInSilenceInEveryFormatWhateverTheLocale) {
   const Environment locale("LC_ALL", "C");
   for (const auto& [ending, begins] :
        {std::pair(".svg", "<?xml"), std::pair(".pdf", "%PDF"), std::pair(".png", "\x89PNG")}) {
-    const std::string file = folder_ + "/it's a figure" + ending;
+    const std::string file = folder_ / "it's a figure" + ending;
     testing::internal::CaptureStderr();
     draw(figure_, file);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << ending;
     EXPECT_TRUE(read_file(file).starts_with(begins)) << ending;
     EXPECT_GT(std::filesystem::file_size(file), 1'000u);
   }
-  const std::string svg = read_file(folder_ + "/it's a figure.svg");
-  for (const char* const words : {"a caption", "what_made_it", "it's 90° of λ", "two"})
-    EXPECT_NE(svg.find(words), std::string::npos) << words;
+  const std::string svg = read_file(folder_ / "it's a figure.svg");
+  expect_words(svg, {"a caption", "what_made_it", "it's 90° of λ", "two"});
 }
 
 TEST_F(FigureTest, NamesThePackageThatIsMissing) {
-  const Environment path("PATH", folder_.c_str());
-  try {
-    draw(figure_, folder_ + "/figure.svg");
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("apt install gnuplot-nox"), std::string::npos);
-  }
+  const Environment path("PATH", folder_.path().c_str());
+  const std::string refusal = message_of<Error>([&] { draw(figure_, folder_ / "figure.svg"); });
+  EXPECT_NE(refusal.find("apt install gnuplot-nox"), std::string::npos) << refusal;
 }
 
 TEST_F(FigureTest, RefusesAFolderThatIsNotThere) {
   testing::internal::CaptureStderr();
-  EXPECT_THROW(draw(figure_, folder_ + "/none/figure.svg"), Error);
+  EXPECT_THROW(draw(figure_, folder_ / "none/figure.svg"), Error);
   testing::internal::GetCapturedStderr();
 }
 

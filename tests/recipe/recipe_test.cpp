@@ -1,7 +1,7 @@
 // "A new effect" of src/README.md, with its two lines: compiled in place of the library's own list of effects.
 #include <gtest/gtest.h>
 
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 #include "problem/potential.hpp"
 
 namespace hbvm::core {
@@ -11,24 +11,24 @@ namespace {
 /// exp(-r/l)/r.
 TEST(Recipe, GivesTheForceOfItsFormula) {
   const PrecisionScope digits(60);
-  EffectUse<Mpfr> use;
-  use.kind = "yukawa";
-  use.dimension = 2;
-  use.numbers = {{"strength", Mpfr(3) / 8}, {"length", Mpfr(5) / 4}};
-  use.instances.resize(1);
-  use.instances[0].x.blocks = {{0, Mpfr(1)}};
-  use.instances[0].mass_matrix = Matrix<Mpfr>::Identity(2, 2);  // of no use to a pair
-  use.instances[0].charges[0] = Mpfr(7) / 4;
-  use.instances[0].charges[1] = -Mpfr(1) / 2;
+  EffectInput<Mpfr> input;
+  input.kind = "yukawa";
+  input.dimension = 2;
+  input.numbers = {{"strength", Mpfr(3) / 8}, {"length", Mpfr(5) / 4}};
+  input.instances.resize(1);
+  input.instances[0].x.blocks = {{0, Mpfr(1)}};
+  input.instances[0].mass_matrix = Matrix<Mpfr>::Identity(2, 2);  // of no use to a pair
+  input.instances[0].charges[0] = Mpfr(7) / 4;
+  input.instances[0].charges[1] = -Mpfr(1) / 2;
   Potential<Mpfr> potential;
   potential.dimension = 2;
   potential.m = 2;
-  potential.terms = {make_term(use)};
+  potential.terms = {make_term(input)};
   PotentialEvaluator<Mpfr> evaluator(potential, 1);
-  const Mpfr QQ = use.instances[0].charges[0] * use.instances[0].charges[1];
+  const Mpfr QQ = input.instances[0].charges[0] * input.instances[0].charges[1];
   const auto U = [&](const Vector<Mpfr>& q) {
     const Mpfr r = sqrt(Mpfr(q[0] * q[0] + q[1] * q[1]));
-    return Mpfr(-use.numbers["strength"] * QQ * exp(Mpfr(-r / use.numbers["length"])) / r);
+    return Mpfr(-input.numbers["strength"] * QQ * exp(Mpfr(-r / input.numbers["length"])) / r);
   };
   Vector<Mpfr> q(2), value(1);
   q << Mpfr(3) / 4, Mpfr(-5) / 8;

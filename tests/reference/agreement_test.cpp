@@ -4,10 +4,11 @@
 
 #include "method/perturbation.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "scene/scene.hpp"
 #include "step/hbvm_stepper.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -46,9 +47,8 @@ void expect_found(const Scene& text, const RouteRun& taylor, const RouteRun& hbv
     EXPECT_EQ(found.values[0].route, "taylor");
     EXPECT_EQ(found.values[1].route, "hbvm");
     EXPECT_NE(found.values[0].number, found.values[1].number) << message;
-    for (const std::string& said : {"t = " + found.t, found.component + " is ", found.values[0].number + " by taylor",
-                                    found.values[1].number + " by hbvm", std::string("nothing is given out")})
-      EXPECT_NE(message.find(said), std::string::npos) << said << " in " << message;
+    expect_words(message, {"t = " + found.t, found.component + " is ", found.values[0].number + " by taylor",
+                           found.values[1].number + " by hbvm", std::string("nothing is given out")});
   }
 }
 
@@ -125,7 +125,7 @@ TEST_F(RoutesAgreement, FindsAnEnergyThatIsNotConserved) {
     EXPECT_EQ(found.component, "H");
     ASSERT_EQ(found.values.size(), 3u);
     EXPECT_EQ(found.values.back().route, "start");
-    EXPECT_NE(std::string(found.what()).find(" at the start"), std::string::npos) << found.what();
+    expect_words(found.what(), {" at the start"});
   }
 }
 
@@ -200,7 +200,7 @@ TEST(RoutesAgreementTeeth, FindsACoefficientThatIsOff) {
   const Scene text = load_scene("modified_pendulum");
   const Assembled<Mpfr> scene = assemble<Mpfr>(text);
   const RouteRun taylor = by_taylor(scene);
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   constexpr int s = 24;
   const auto by = [&](const Hbvm<Mpfr>& method) {
     HbvmStepper<Mpfr> stepper(scene.problem, method, SolverKind::automatic);

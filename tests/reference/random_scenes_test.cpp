@@ -6,7 +6,7 @@
 
 #include "hbvm/error.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/compute_reference.hpp"
 #include "reference/random_scene.hpp"
 #include "reference/taylor.hpp"
@@ -43,7 +43,7 @@ Vector<Mpfr> numbers(const std::vector<std::string>& texts) {
 void expect_of_the_motion(const Scene& scene, const ReferenceState& state, std::uint64_t seed) {
   const PrecisionScope digits(60);
   const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
-  Point<Mpfr> point(assembled.problem);
+  StateEvaluator<Mpfr> point(assembled.problem);
   const Vector<Mpfr> q = numbers(state.q), p = numbers(state.p), lambda = numbers(state.lambda);
   ASSERT_EQ(q.size(), assembled.q0.size()) << seed;
   ASSERT_EQ(lambda.size(), assembled.problem.nu()) << seed;

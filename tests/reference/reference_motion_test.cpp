@@ -29,7 +29,7 @@ class ReferenceMotionTest : public ::testing::Test {
   /// log2 of the error of q, p and lambda.
   double true_error(const ReferenceMotion& m) const {
     const ExactPoint exact = known_motion("simple_pendulum", duration);
-    Point<Mpfr> point(pendulum.problem);
+    StateEvaluator<Mpfr> point(pendulum.problem);
     Mpfr error = max_norm(Vector<Mpfr>(m.q() - exact.q));
     raise_to(error, max_norm(Vector<Mpfr>(m.p() - exact.p)));
     raise_to(error, max_norm(Vector<Mpfr>(m.lambda() - point.multiplier(exact.q, exact.p))));
@@ -53,7 +53,7 @@ TEST_F(ReferenceMotionTest, ErrorIsAtLeastTheTrueOneAndNotFarAbove) {
 /// The estimates are the errors of the run before, of two stages less, which a run of one's own shows.
 TEST_F(ReferenceMotionTest, ErrorsAreThoseOfTheRunBefore) {
   const ExactPoint exact = known_motion("simple_pendulum", duration);
-  Point<Mpfr> point(pendulum.problem);
+  StateEvaluator<Mpfr> point(pendulum.problem);
   const Vector<Mpfr> exact_lambda = point.multiplier(exact.q, exact.p);
   for (const auto& [steps, stages] : {std::pair(1, 2), {2, 3}, {4, 4}}) {
     const Hbvm<Mpfr> method = make_hbvm<Mpfr>(stages, stages);
@@ -97,7 +97,7 @@ TEST_F(ReferenceMotionTest, MoreDigitsGoDeeper) {
 
 TEST_F(ReferenceMotionTest, EndsOnTheManifold) {
   const ReferenceMotion m = motion(2, 3);
-  Point<Mpfr> point(pendulum.problem);
+  StateEvaluator<Mpfr> point(pendulum.problem);
   EXPECT_LE(log2_of(max_norm(point.constraints(m.q()))), round_off());
   EXPECT_LE(log2_of(max_norm(point.hidden_constraints(m.q(), m.p()))), round_off());
 }
@@ -114,7 +114,7 @@ TEST_F(ReferenceMotionTest, PolynomialsOfOneStepGoFromStartToEnd) {
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(u - m.q()))), round_off());
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(v - step.p1))), round_off());
   // p is v(h), of order s only, after its projection.
-  Point<Mpfr> point(pendulum.problem);
+  StateEvaluator<Mpfr> point(pendulum.problem);
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(point.tangential(u, v) - m.p()))), round_off());
 }
 
@@ -125,7 +125,7 @@ TEST_F(ReferenceMotionTest, PolynomialsAreOfTheLastStep) {
   m.polynomials().at(pendulum.problem, Mpfr(0), u, v);
   const ExactPoint before = known_motion("simple_pendulum", Mpfr(duration * 3 / 4));
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(u - before.q))), greatest_error(m));
-  Point<Mpfr> point(pendulum.problem);
+  StateEvaluator<Mpfr> point(pendulum.problem);
   EXPECT_LE(log2_of(max_norm(Vector<Mpfr>(point.tangential(u, v) - before.p))), greatest_error(m));
 }
 

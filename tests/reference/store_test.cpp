@@ -3,7 +3,7 @@
 #include "hbvm/error.hpp"
 #include "printing.hpp"
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
@@ -111,7 +111,7 @@ TEST(Store, ShipsWhatIsConserved) {
     const Reference reference = read_reference(shipped.second, name).reference;
     const PrecisionScope scope(static_cast<unsigned>(reference.digits) + 20);
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(reference.scene));
-    Point<Mpfr> point(scene.problem);
+    StateEvaluator<Mpfr> point(scene.problem);
     const auto momenta = conserved_momenta(scene.problem);
     const Mpfr unit = literal<Mpfr>("1e-" + std::to_string(reference.digits));
     for (const ReferenceState& state : reference.times) {

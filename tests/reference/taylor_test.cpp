@@ -1,7 +1,7 @@
 #include "reference/taylor.hpp"
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/known_motion.hpp"
 #include "reference/wire_motion.hpp"
 #include "scalar/literal.hpp"
@@ -32,7 +32,7 @@ TEST(Taylor, FollowsClosedForms) {
         const std::string what = std::string(name) + " at " + time + " in " + std::to_string(digits) + " digits";
         expect_near(motion.q(), exact.q, tolerance, what);
         expect_near(motion.p(), exact.p, tolerance, what);
-        Point<Mpfr> point(scene.problem);
+        StateEvaluator<Mpfr> point(scene.problem);
         expect_near(motion.lambda(), point.multiplier(exact.q, exact.p), tolerance, what);
       }
     }
@@ -100,7 +100,7 @@ TEST(Taylor, KeepsWhatTheMotionKeeps) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(text, name));
     TaylorMotion motion(scene.problem, scene.q0, scene.p0);
     motion.advance_to(literal<Mpfr>("1/4"));
-    Point<Mpfr> point(scene.problem);
+    StateEvaluator<Mpfr> point(scene.problem);
     const Mpfr before = point.energy(scene.q0, scene.p0), size = point.energy_size(scene.q0, scene.p0);
     const Mpfr after = point.energy(motion.q(), motion.p());
     const Mpfr limit = 100'000 * epsilon<Mpfr>();

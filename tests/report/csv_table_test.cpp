@@ -2,18 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "hbvm/error.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
 std::string refusal(const std::string& text) {
-  try {
-    read_csv_table(text, "f.csv");
-    return "none";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return message_of([&] { read_csv_table(text, "f.csv"); });
 }
 
 TEST(CsvTable, IsReadWithQuotesAndLinesWithinThem) {

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
+#include "folder.hpp"
 #include "hbvm/error.hpp"
 #include "read_file.hpp"
 
@@ -57,17 +56,16 @@ TEST(Csvw, KeepsManyDigits) {
 }
 
 TEST(Csvw, StandsBesideATable) {
-  const std::string file = (std::filesystem::temp_directory_path() / "hbvm_csvw_test.csv").string();
+  const Folder folder;
+  const std::string file = folder / "csvw_test.csv";
   write_csv(file,
             {"A caption", {"hbvm 1.2.3", "command hbvm audit"}, {"k"}, {"i", "e_y"}, {{"", {"3"}, {{"0", "1e-1"}}}}});
   EXPECT_EQ(read_file(file), "k,i,e_y\n3,0,1e-1\n");
   const std::string metadata = read_file(csvw_file(file));
   for (const char* const text :
-       {"\"url\": \"hbvm_csvw_test.csv\"", "\"dc:title\": \"A caption\"", "\"hbvm:provenance1\": \"hbvm 1.2.3\"",
+       {"\"url\": \"csvw_test.csv\"", "\"dc:title\": \"A caption\"", "\"hbvm:provenance1\": \"hbvm 1.2.3\"",
         "\"hbvm:provenance2\": \"command hbvm audit\"", "\"titles\": \"e_y\""})
     EXPECT_NE(metadata.find(text), std::string::npos) << text << " is not in " << metadata;
-  std::filesystem::remove(file);
-  std::filesystem::remove(csvw_file(file));
   EXPECT_THROW(write_csv("/nonexistent/a.csv", {}), InputError);
 }
 

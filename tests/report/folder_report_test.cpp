@@ -2,35 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
-#include "hbvm/error.hpp"
-#include "write_file.hpp"
+#include "folder.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
-namespace fs = std::filesystem;
-
-class FolderReportTest : public ::testing::Test {
- protected:
-  void SetUp() override { ASSERT_TRUE(mkdtemp(folder_.data())); }
-  void TearDown() override { fs::remove_all(folder_); }
-  void write(const std::string& name, const std::string& text) {
-    fs::create_directories((fs::path(folder_) / name).parent_path());
-    write_file(fs::path(folder_) / name, text);
-  }
-  std::string page() { return folder_report(folder_, "1.2", "hbvm report x"); }
-  std::string refusal() {
-    try {
-      page();
-      return "none";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+struct FolderReportTest : ::testing::Test {
+  std::string page() const { return folder_report(folder.path(), "1.2", "hbvm report x"); }
+  std::string refusal() const {
+    return message_of([&] { page(); });
   }
 
-  std::string folder_ = (fs::temp_directory_path() / "hbvm_report_test_XXXXXX").string();
+  Folder folder;
 };
 
 std::size_t count(const std::string& text, const std::string& what) {
@@ -40,17 +24,18 @@ std::size_t count(const std::string& text, const std::string& what) {
 }
 
 TEST_F(FolderReportTest, ShowsTablesDrawingsTextsAndWhatMadeThem) {
-  write("README.md", "# A <study>\n\nSee ![it](a.svg).\n");
-  write("a.svg", "<svg><g/></svg>");
-  write("more/b.svg", "<svg><path/></svg>");
-  write("t.csv", "x,y\n1,<b>\n");
-  write("t.md", "| x | y |\n|--|--|\n| 1 | 2 |\n");
-  write("t.csv-metadata.json", R"({"dc:title": "Title", "hbvm:command": "hbvm study x", "hbvm:precision": "quad"})");
-  write("cells.jsonl", "{}");
+  folder.write("README.md", "# A <study>\n\nSee ![it](a.svg).\n");
+  folder.write("a.svg", "<svg><g/></svg>");
+  folder.write("more/b.svg", "<svg><path/></svg>");
+  folder.write("t.csv", "x,y\n1,<b>\n");
+  folder.write("t.md", "| x | y |\n|--|--|\n| 1 | 2 |\n");
+  folder.write("t.csv-metadata.json",
+               R"({"dc:title": "Title", "hbvm:command": "hbvm study x", "hbvm:precision": "quad"})");
+  folder.write("cells.jsonl", "{}");
   const std::string text = page();
   EXPECT_NE(text.find("<title>A &lt;study&gt;</title>"), std::string::npos);
   EXPECT_EQ(count(text, "<figure"), 2u);
-  EXPECT_EQ(count(text, "<svg"), 2u);
+  EXPECT_EQ(count(text, "src=\"data:image/svg+xml,%3Csvg%3E%3C"), 2u);
   EXPECT_EQ(count(text, "<td>1</td><td>&lt;b&gt;</td>"), 1u);
   EXPECT_EQ(count(text, "<code>hbvm study x</code>"), 1u);
   EXPECT_NE(text.find("<th>precision</th><td>quad</td>"), std::string::npos);
@@ -61,7 +46,7 @@ TEST_F(FolderReportTest, ShowsTablesDrawingsTextsAndWhatMadeThem) {
 TEST_F(FolderReportTest, ShowsSomeRowsOfLongTables) {
   std::string csv = "n\n";
   for (int n = 0; n < 5000; ++n) csv += std::to_string(n) + "\n";
-  write("t.csv", csv);
+  folder.write("t.csv", csv);
   const std::string text = page();
   EXPECT_NE(text.find("400 of 5000 rows"), std::string::npos);
   EXPECT_EQ(count(text, "<td>0</td>"), 1u);
@@ -69,8 +54,8 @@ TEST_F(FolderReportTest, ShowsSomeRowsOfLongTables) {
 }
 
 TEST_F(FolderReportTest, LeavesOutWhatIsTooLarge) {
-  write("large.svg", "<svg><path d=\"" + std::string(report_bytes, '0') + "\"/></svg>");
-  write("small.svg", "<svg><path d=\"1\"/></svg>");
+  folder.write("large.svg", "<svg><path d=\"" + std::string(report_bytes, '0') + "\"/></svg>");
+  folder.write("small.svg", "<svg><path d=\"1\"/></svg>");
   const std::string text = page();
   EXPECT_LT(text.size(), report_bytes);
   EXPECT_NE(text.find("large.svg is left out"), std::string::npos);
@@ -79,15 +64,15 @@ TEST_F(FolderReportTest, LeavesOutWhatIsTooLarge) {
 
 TEST_F(FolderReportTest, SaysWhatIsWrong) {
   EXPECT_NE(refusal().find("nothing to report in"), std::string::npos);
-  write("t.csv", "a,b\n1\n");
-  EXPECT_EQ(refusal(), folder_ + "/t.csv:2: 1 cells, and the first line names 2 columns");
-  write("t.csv", "a,b\n1,2\n");
-  write("r.json", "{");
-  EXPECT_TRUE(refusal().starts_with(folder_ + "/r.json:1: no JSON")) << refusal();
-  write("r.json", "{}");
-  write("a.svg", "<svg>");
-  EXPECT_EQ(refusal(), folder_ + "/a.svg:1: <svg> does not end");
-  EXPECT_THROW(folder_report(folder_ + "/none", "1", "x"), InputError);
+  folder.write("t.csv", "a,b\n1\n");
+  EXPECT_EQ(refusal(), folder / "t.csv:2: 1 cells, and the first line names 2 columns");
+  folder.write("t.csv", "a,b\n1,2\n");
+  folder.write("r.json", "{");
+  EXPECT_TRUE(refusal().starts_with(folder / "r.json:1: no JSON")) << refusal();
+  folder.write("r.json", "{}");
+  folder.write("a.svg", "<svg>");
+  EXPECT_EQ(refusal(), folder / "a.svg:1: <svg> does not end");
+  EXPECT_THROW(folder_report(folder / "none", "1", "x"), InputError);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ std::string shown(const std::string& text) {
 TEST(Markdown, HasHeadingsParagraphsListsAndCode) {
   EXPECT_EQ(shown("# One\n\nTwo\nlines\n\n- a\n  b\n- c\n\n1. d\n"),
             "<h3>One</h3>\n<p>Two lines</p>\n<ul>\n<li>a b</li>\n<li>c</li>\n</ul>\n<ol>\n<li>d</li>\n</ol>\n");
-  EXPECT_EQ(shown("```sh\na < b\n```\n\n    c\n    d\n"), "<pre>a &lt; b\n</pre>\n<pre>c\nd</pre>\n");
+  EXPECT_EQ(shown("```sh\na < b\n```\n\n    c\n    d\n"), "<pre>a &lt; b\n</pre>\n<pre>c\nd\n</pre>\n");
 }
 
 TEST(Markdown, HasTables) {

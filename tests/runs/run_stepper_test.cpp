@@ -6,6 +6,7 @@
 #include "scene/scene_text.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/registry.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -34,10 +35,7 @@ TEST(OnFailureText, IsReadAndWritten) {
 }
 
 template <class S>
-class RunSteps : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class RunSteps : public InDigits<50> {};
 TYPED_TEST_SUITE(RunSteps, AllScalars, ScalarNames);
 
 /// Each substep conserves energy and constraint: at the end of a run whose steps cannot be made whole, both are
@@ -98,7 +96,7 @@ TEST(RunStepsThatCannotBeMade, AtAnySizeFailWithTheirCause) {
   } catch (const StepError& error) {
     EXPECT_EQ(error.step(), 1);
     EXPECT_EQ(error.cause(), FailureCause::stage_equations_diverge);
-    EXPECT_NE(std::string(error.what()).find("2^-20"), std::string::npos) << error.what();
+    expect_words(std::string(error.what()), {"2^-20"});
   }
 }
 

@@ -1,8 +1,8 @@
 #include "run/scene_run.hpp"
 
 #include "printing.hpp"
+#include "runs/request_of.hpp"
 #include "scene/assemble.hpp"
-#include "step/registry.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm::core {
@@ -19,17 +19,15 @@ class RunTest : public ::testing::Test {
   PrecisionScope digits{50};
   const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
 
-  static RunResult result(const DenseModel& model, const char* method, SolverKind solver) {
-    return run({read_scene(model.scene, "model"), parse_method(method), solver, Expression::parse("1/10"),
-                Expression::parse("1/2"), Precision::parse("mpfr:50"), false},
-               {});
+  static hbvm::Run result(const DenseModel& model, const char* method, SolverKind solver) {
+    return run(request_of(read_scene(model.scene, "model"), method, "1/10", "1/2", "mpfr:50", solver), {});
   }
 };
 
 /// Its momentum is tangential, and its multiplier belongs to that momentum, not to the propagated one.
 TEST_F(RunTest, OutputStateIsTheClosedFormulas) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
-    const RunResult found = result(model, "hbvm:2,2", SolverKind::fixed_point);
+    const hbvm::Run found = result(model, "hbvm:2,2", SolverKind::fixed_point);
     const Vector<Mpfr> q = numbers(found.q), p = numbers(found.p), output_p = model.tangential(q, p),
                        output_lambda = model.multiplier(q, output_p);
     EXPECT_GT(distance(output_p, p), literal<Mpfr>("1e-9")) << "the two states should differ visibly";
@@ -45,12 +43,12 @@ TEST_F(RunTest, OutputStateIsTheClosedFormulas) {
 /// Every solver leads to the same end, and is the one that is asked for: they take unlike numbers of sweeps.
 TEST_F(RunTest, UsesTheSolverThatIsAskedFor) {
   const DenseModel model = ellipsoid_bead();
-  const RunResult fixed_point = result(model, "hbvm:3,2", SolverKind::fixed_point),
+  const hbvm::Run fixed_point = result(model, "hbvm:3,2", SolverKind::fixed_point),
                   newton = result(model, "hbvm:3,2", SolverKind::newton),
                   papers = result(model, "hbvm:3,2", SolverKind::paper);
   EXPECT_LT(newton.iterations_per_step, fixed_point.iterations_per_step);
   EXPECT_LT(fixed_point.iterations_per_step, papers.iterations_per_step);
-  for (const RunResult* other : {&newton, &papers}) {
+  for (const hbvm::Run* other : {&newton, &papers}) {
     EXPECT_LE(distance(numbers(other->q), numbers(fixed_point.q)), tolerance);
     EXPECT_LE(distance(numbers(other->p), numbers(fixed_point.p)), tolerance);
   }

@@ -6,22 +6,18 @@
 
 #include "integrate/runs.hpp"
 #include "run/scene_run.hpp"
+#include "runs/request_of.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
-#include "step/registry.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
-RunResult shadowed_result_of(const Scene& scene, const char* method, const char* step, const char* until,
+hbvm::Run shadowed_result_of(const Scene& scene, const char* method, const char* step, const char* until,
                              const char* precision) {
-  RunRequest request{scene,
-                     parse_method(method),
-                     SolverKind::automatic,
-                     Expression::parse(step),
-                     Expression::parse(until),
-                     Precision::parse(precision)};
+  RunRequest request = request_of(scene, method, step, until, precision);
   request.shadow = true;
   return run(request, {});
 }
@@ -55,7 +51,7 @@ std::vector<BigFloat> numbers(const std::vector<std::string>& texts, const char*
 
 void expect_truth(const char* name, const char* step, const char* until, const char* precision) {
   const Scene scene = load_scene(name);
-  const RunResult result = shadowed_result_of(scene, "hbvm:3,3", step, until, precision);
+  const hbvm::Run result = shadowed_result_of(scene, "hbvm:3,3", step, until, precision);
   ASSERT_TRUE(result.shadow && result.shadow->failure.empty());
   const auto q = numbers(result.q, precision), p = numbers(result.p, precision);
   const PrecisionScope more(Precision::parse(precision).digits() + 40);
@@ -119,10 +115,9 @@ TEST(ShadowedRun, OfManyStepsIsComparedAtSome) {
       q[1] = double(n) / 1000;
       run.observe({n, 0, q, start.p0, {}});
     }
-    const MethodPtr method = parse_method("hbvm:1,1");
-    return run.compare({scene, method, SolverKind::fixed_point, Expression::parse("1/1000"),
-                        Expression::parse(std::to_string(steps) + "/1000"), Precision::parse("double")},
-                       *method, {});
+    const RunRequest request =
+        request_of(scene, "hbvm:1,1", "1/1000", std::to_string(steps) + "/1000", "double", SolverKind::fixed_point);
+    return run.compare(request, *request.method, {});
   };
   for (const auto& [numbers, every] :
        {std::pair(ShadowedRun<double>::most_numbers, 1L), {400L, 11L}, {40L, 101L}, {1L, 1001L}}) {
@@ -139,7 +134,7 @@ TEST(ShadowText, NamesTheWorstOrTheFailure) {
   EXPECT_EQ(to_text(shadow),
             "shadow\n  against mpfr:32, compared at every step: p_3 kept the fewest digits, 3.1 at t = 1e+00\n");
   shadow.every = 7;
-  EXPECT_NE(to_text(shadow).find("every 7 steps"), std::string::npos);
+  expect_words(to_text(shadow), {"every 7 steps"});
   shadow.failure = "no";
   EXPECT_EQ(to_text(shadow), "shadow\n  mpfr:32 failed: no\n");
 }

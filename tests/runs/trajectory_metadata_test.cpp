@@ -5,14 +5,13 @@
 #include <map>
 
 #include "hbvm/version.hpp"
-#include "step/registry.hpp"
+#include "runs/request_of.hpp"
 
 namespace hbvm::core {
 namespace {
 
 TEST(TrajectoryMetadata, SaysWhatWasRun) {
-  RunRequest request{load_scene("kepler"),         parse_method("hbvm:4,2"),  SolverKind::automatic,
-                     Expression::parse("2*pi/64"), Expression::parse("2*pi"), Precision::parse("double")};
+  RunRequest request = request_of(load_scene("kepler"), "hbvm:4,2", "2*pi/64", "2*pi");
   const auto properties = [&] {
     const CsvMetadata metadata = trajectory_metadata(request, {{"t", "time"}}, "hbvm run kepler", 3);
     return std::map<std::string, std::string>(metadata.properties.begin(), metadata.properties.end());

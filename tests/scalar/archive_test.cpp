@@ -22,10 +22,7 @@ std::string bits_of(const BigFloat& x) {
 }
 
 template <class S>
-class Remembered : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Remembered : public InDigits<50> {};
 TYPED_TEST_SUITE(Remembered, AllScalars, ScalarNames);
 
 TYPED_TEST(Remembered, NumbersHaveTheSameBits) {

@@ -6,10 +6,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class BinaryExponent : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class BinaryExponent : public InDigits<50> {};
 TYPED_TEST_SUITE(BinaryExponent, AllScalars, ScalarNames);
 
 TYPED_TEST(BinaryExponent, IsThatOfThePowerJustAbove) {

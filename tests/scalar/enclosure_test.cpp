@@ -7,37 +7,20 @@
 #include <string>
 #include <utility>
 
-#include "scalar/arb.hpp"
+#include "scalar/ball.hpp"
 #include "scalar/expression.hpp"
 #include "scalar/scalar.hpp"
 
 namespace hbvm::core {
 namespace {
 
-class RealBall {
- public:
-  RealBall() { arb_init(x_); }
-  explicit RealBall(long n) : RealBall() { arb_set_si(x_, n); }
-  RealBall(const RealBall& other) : RealBall() { arb_set(x_, other.x_); }
-  RealBall& operator=(const RealBall& other) {
-    arb_set(x_, other.x_);
-    return *this;
-  }
-  ~RealBall() { arb_clear(x_); }
-  arb_ptr get() { return x_; }
-  arb_srcptr get() const { return x_; }
-
- private:
-  arb_t x_;
-};
-
 /// How tightly a text binds, in the order of the grammar.
 enum class Binding { sum, product, sign, power, primary };
 
 struct Formula {
-  std::string text;
-  Binding binding;
-  RealBall value;
+  std::string text{};
+  Binding binding = Binding::primary;
+  RealBall value{};
 
   std::string at_least(Binding needed) const { return binding >= needed ? text : "(" + text + ")"; }
 };
@@ -45,7 +28,7 @@ struct Formula {
 /// Random formulas with the brackets their meaning needs and no others.
 class Generator {
  public:
-  Generator(std::uint64_t seed, slong precision) : engine_(seed), precision_(precision) {}
+  explicit Generator(std::uint64_t seed) : engine_(seed) {}
 
   Formula formula(int depth) {
     if (depth == 0 || pick(10) == 0) return leaf();
@@ -61,7 +44,7 @@ class Generator {
     switch (pick(4)) {
       case 0: {
         Formula pi{"pi", Binding::primary, {}};
-        arb_const_pi(pi.value.get(), precision_);
+        arb_const_pi(raw(pi.value), ball_bits);
         return pi;
       }
       case 1: {
@@ -72,15 +55,9 @@ class Generator {
         const int whole = pick(30), thousandths = 1 + pick(999), exponent = pick(7) - 3;
         std::string digits = std::to_string(thousandths);
         digits.insert(0, 3 - digits.size(), '0');
-        Formula decimal{std::to_string(whole) + "." + digits, Binding::primary, RealBall(1000L * whole + thousandths)};
+        Formula decimal{std::to_string(whole) + "." + digits, Binding::primary,
+                        RealBall(1000 * whole + thousandths) * pow(RealBall(10), RealBall(exponent - 3))};
         if (exponent != 0) decimal.text += "e" + std::to_string(exponent);
-        const RealBall ten(10);
-        RealBall scale;
-        arb_pow_ui(scale.get(), ten.get(), static_cast<ulong>(std::abs(exponent - 3)), precision_);
-        if (exponent > 3)
-          arb_mul(decimal.value.get(), decimal.value.get(), scale.get(), precision_);
-        else
-          arb_div(decimal.value.get(), decimal.value.get(), scale.get(), precision_);
         return decimal;
       }
     }
@@ -88,110 +65,89 @@ class Generator {
 
   static long exponent_of(const RealBall& x) {
     BigFloat middle(53);
-    arf_get_mpfr(raw(middle), arb_midref(x.get()), MPFR_RNDN);
+    arf_get_mpfr(raw(middle), arb_midref(raw(x)), MPFR_RNDN);
     return mpfr_zero_p(raw(middle)) ? 0 : static_cast<long>(mpfr_get_exp(raw(middle)));
   }
 
   std::optional<Formula> operation(int depth) {
     const Formula a = formula(depth - 1);
-    Formula result{{}, Binding::primary, {}};
-    const auto function = [&](const char* name) { result.text = std::string(name) + blank() + "(" + a.text + ")"; };
-    const auto infix = [&](const char* op, const Formula& b, Binding own, Binding left, Binding right) {
+    Formula result;
+    const auto function = [&](const char* name, const RealBall& value) {
+      result.text = std::string(name) + blank() + "(" + a.text + ")";
+      result.value = value;
+    };
+    const auto infix = [&](const char* op, const Formula& b, const RealBall& value, Binding own, Binding left,
+                           Binding right) {
       result.text = a.at_least(left) + blank() + op + blank() + b.at_least(right);
       result.binding = own;
+      result.value = value;
     };
     switch (pick(12)) {
       case 0:
       case 1: {
         const Formula b = formula(depth - 1);
-        infix("+", b, Binding::sum, Binding::sum, Binding::product);
-        arb_add(result.value.get(), a.value.get(), b.value.get(), precision_);
+        infix("+", b, a.value + b.value, Binding::sum, Binding::sum, Binding::product);
         break;
       }
       case 2:
       case 3: {
         const Formula b = formula(depth - 1);
-        infix("-", b, Binding::sum, Binding::sum, Binding::product);
-        arb_sub(result.value.get(), a.value.get(), b.value.get(), precision_);
+        infix("-", b, a.value - b.value, Binding::sum, Binding::sum, Binding::product);
         break;
       }
       case 4: {
         const Formula b = formula(depth - 1);
-        infix("*", b, Binding::product, Binding::product, Binding::sign);
-        arb_mul(result.value.get(), a.value.get(), b.value.get(), precision_);
+        infix("*", b, a.value * b.value, Binding::product, Binding::product, Binding::sign);
         break;
       }
       case 5: {
         const Formula b = formula(depth - 1);
-        if (arb_contains_zero(b.value.get())) return std::nullopt;
-        infix("/", b, Binding::product, Binding::product, Binding::sign);
-        arb_div(result.value.get(), a.value.get(), b.value.get(), precision_);
+        if (arb_contains_zero(raw(b.value))) return std::nullopt;
+        infix("/", b, a.value / b.value, Binding::product, Binding::product, Binding::sign);
         break;
       }
       case 6: {
+        Formula b;
         if (pick(2) == 0) {
           const int n = pick(9) - 4;
-          if (arb_contains_zero(a.value.get()) || std::labs(exponent_of(a.value)) > 200) return std::nullopt;
-          const RealBall exponent(n);
-          infix("^", Formula{std::to_string(n), n < 0 ? Binding::sign : Binding::primary, exponent}, Binding::power,
-                Binding::primary, Binding::sign);
-          arb_set_si(result.value.get(), n);
-          arb_pow(result.value.get(), a.value.get(), exponent.get(), precision_);
-          break;
+          if (arb_contains_zero(raw(a.value))) return std::nullopt;
+          b = {std::to_string(n), n < 0 ? Binding::sign : Binding::primary, RealBall(n)};
+        } else {
+          b = formula(depth - 1);
+          if (!arb_is_positive(raw(a.value)) || exponent_of(b.value) > 5) return std::nullopt;
         }
-        const Formula b = formula(depth - 1);
-        if (!arb_is_positive(a.value.get()) || std::labs(exponent_of(a.value)) > 200 || exponent_of(b.value) > 5)
-          return std::nullopt;
-        infix("^", b, Binding::power, Binding::primary, Binding::sign);
-        arb_pow(result.value.get(), a.value.get(), b.value.get(), precision_);
+        if (std::labs(exponent_of(a.value)) > 200) return std::nullopt;
+        infix("^", b, pow(a.value, b.value), Binding::power, Binding::primary, Binding::sign);
         break;
       }
       case 7:
-        result.text = "-" + blank() + a.at_least(Binding::sign);
-        result.binding = Binding::sign;
-        arb_neg(result.value.get(), a.value.get());
+        result = {"-" + blank() + a.at_least(Binding::sign), Binding::sign, -a.value};
         break;
       case 8:
-        if (!arb_is_positive(a.value.get())) return std::nullopt;
-        if (pick(2) == 0) {
-          function("sqrt");
-          arb_sqrt(result.value.get(), a.value.get(), precision_);
-        } else {
-          function("log");
-          arb_log(result.value.get(), a.value.get(), precision_);
-        }
+        if (!arb_is_positive(raw(a.value))) return std::nullopt;
+        pick(2) == 0 ? function("sqrt", sqrt(a.value)) : function("log", log(a.value));
         break;
       case 9:
         if (exponent_of(a.value) > 40) return std::nullopt;
-        if (pick(2) == 0) {
-          function("sin");
-          arb_sin(result.value.get(), a.value.get(), precision_);
-        } else {
-          function("cos");
-          arb_cos(result.value.get(), a.value.get(), precision_);
-        }
+        pick(2) == 0 ? function("sin", sin(a.value)) : function("cos", cos(a.value));
         break;
       case 10:
         if (exponent_of(a.value) > 8) return std::nullopt;
-        function("exp");
-        arb_exp(result.value.get(), a.value.get(), precision_);
+        function("exp", exp(a.value));
         break;
       default: {
         if (exponent_of(a.value) > 8) return std::nullopt;
-        using Function = void (*)(arb_t, const arb_t, slong);
-        static const std::pair<const char*, Function> more[] = {
-            {"tan", arb_tan}, {"sinh", arb_sinh}, {"cosh", arb_cosh}, {"tanh", arb_tanh}, {"atan", arb_atan}};
+        static const std::pair<const char*, RealBall (*)(const RealBall&)> more[] = {
+            {"tan", tan}, {"sinh", sinh}, {"cosh", cosh}, {"tanh", tanh}, {"atan", atan}};
         const auto& [name, f] = more[pick(5)];
-        function(name);
-        f(result.value.get(), a.value.get(), precision_);
+        function(name, f(a.value));
       }
     }
-    if (!arb_is_finite(result.value.get()) || std::labs(exponent_of(result.value)) > 20'000) return std::nullopt;
+    if (!arb_is_finite(raw(result.value)) || std::labs(exponent_of(result.value)) > 20'000) return std::nullopt;
     return result;
   }
 
   std::mt19937_64 engine_;
-  slong precision_;
 };
 
 class RandomExpressions : public ::testing::TestWithParam<int> {};
@@ -199,30 +155,28 @@ class RandomExpressions : public ::testing::TestWithParam<int> {};
 TEST_P(RandomExpressions, AreRoundedCorrectly) {
   const PrecisionScope scope(static_cast<unsigned>(GetParam()));
   const int bits = mpfr_working_bits();
-  const slong precision = 6 * bits + 1'000;
-  Generator generator(2024, precision);
-  RealBall distance, half_ulp;
+  ball_bits = 6 * bits + 1'000;
+  Generator generator(2024);
   int not_zero = 0;
   for (int trial = 0; trial < 1'000; ++trial) {
     const Formula formula = generator.formula(2 + trial % 4);
     SCOPED_TRACE(formula.text);
     const BigFloat value = Expression::parse(formula.text).evaluate_to_bits(bits);
     ASSERT_EQ(mpfr_get_prec(raw(value)), bits);
-    if (arb_contains_zero(formula.value.get())) {
+    if (arb_contains_zero(raw(formula.value))) {
       EXPECT_NE(mpfr_zero_p(raw(value)), 0);
       continue;
     }
     ++not_zero;
-    ASSERT_GT(arb_rel_accuracy_bits(formula.value.get()), 2 * bits);
+    ASSERT_GT(arb_rel_accuracy_bits(raw(formula.value)), 2 * bits);
     ASSERT_NE(mpfr_regular_p(raw(value)), 0);
-    arf_set_mpfr(arb_midref(distance.get()), raw(value));
-    mag_zero(arb_radref(distance.get()));
-    arb_sub(distance.get(), distance.get(), formula.value.get(), precision);
-    arb_abs(distance.get(), distance.get());
-    arb_set_ui(half_ulp.get(), 1);
-    arb_mul_2exp_si(half_ulp.get(), half_ulp.get(), mpfr_get_exp(raw(value)) - bits - 1);
+    RealBall found, half_ulp(1);
+    arf_set_mpfr(arb_midref(raw(found)), raw(value));
+    RealBall distance = found - formula.value;
+    arb_abs(raw(distance), raw(distance));
+    arb_mul_2exp_si(raw(half_ulp), raw(half_ulp), mpfr_get_exp(raw(value)) - bits - 1);
     // Certainly more than half an ulp away: wrong. (Half way itself is undecided in balls.)
-    EXPECT_FALSE(arb_gt(distance.get(), half_ulp.get()));
+    EXPECT_FALSE(arb_gt(raw(distance), raw(half_ulp)));
   }
   EXPECT_GT(not_zero, 950);
 }

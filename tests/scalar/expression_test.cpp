@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scalar/literal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -101,12 +102,7 @@ TEST(Expression, UnknownFunctionsListThoseThereAre) {
        {std::pair("1 + atan2(y, x)", "column 5: 'atan2' is no function: did you mean 'atan'? There are sqrt, sin,"),
         {"abs(x)", "'abs' is no function; there are sqrt, sin, cos, tan, exp, log, sinh, cosh, tanh, atan"},
         {"mu(x + 1)", "if it is a name, a product is written mu*(...)"}})
-    try {
-      Expression::parse(text, Expression::Syntax::formula);
-      ADD_FAILURE() << text;
-    } catch (const ExpressionError& error) {
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-    }
+    expect_words(message_of<ExpressionError>([&] { Expression::parse(text, Expression::Syntax::formula); }), {words});
   EXPECT_THROW(Expression::parse("k(x + 1)", Expression::Syntax::formula), ExpressionError);
 }
 

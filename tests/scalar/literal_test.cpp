@@ -25,10 +25,7 @@ Constants constants(std::initializer_list<std::pair<const char*, std::string>> e
 }
 
 template <class S>
-class Literal : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Literal : public InDigits<50> {};
 TYPED_TEST_SUITE(Literal, AllScalars, ScalarNames);
 
 TYPED_TEST(Literal, IsRoundedToNearest) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hbvm/error.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -46,12 +47,7 @@ TEST(Precision, TellsPrecisionsApart) {
 class RefusedPrecision : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RefusedPrecision, IsAnInputErrorThatQuotesIt) {
-  try {
-    Precision::parse(GetParam());
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("'" + std::string(GetParam()) + "'"), std::string::npos) << error.what();
-  }
+  expect_words(message_of([&] { Precision::parse(GetParam()); }), {"'" + std::string(GetParam()) + "'"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, RefusedPrecision,

@@ -83,19 +83,7 @@ TEST_F(Sine, HasTheBitsOfMpfrBesideMultiplesOfAQuarterTurn) {
   }
 }
 
-/// All multiples of steps of the tables, alone, and with the least rest on either side.
-TEST_F(Sine, HasTheBitsOfMpfrAtEntriesOfItsTables) {
-  for (const long step : {7, 14, 21, 28})
-    for (long k = 1; k <= 102; ++k)
-      for (const long off : {0, 1, -1}) {
-        BigFloat a(333);
-        mpfr_set_si_2exp(raw(a), k, -step, MPFR_RNDN);
-        for (long i = 0; i < std::labs(off); ++i) off > 0 ? mpfr_nextabove(raw(a)) : mpfr_nextbelow(raw(a));
-        for (const mpfr_prec_t precision : {100, 333, 900}) expect_same_bits(raw(a), precision);
-      }
-}
-
-TEST_F(Sine, LeavesToMpfrWhatIsBeyondItsTables) {
+TEST_F(Sine, LeavesToMpfrWhatItsBallsDoNotDecide) {
   for (const mpfr_prec_t precision : {53L, 333L, 5000L}) {
     BigFloat a(precision);
     mpfr_set_zero(raw(a), -1);
@@ -103,7 +91,7 @@ TEST_F(Sine, LeavesToMpfrWhatIsBeyondItsTables) {
     for (const int sign : {1, -1}) {
       mpfr_set_inf(raw(a), sign);
       expect_same_bits(raw(a), precision);
-      for (const long exponent : {-1'000'000L, -400L, -21L, -20L, -19L, 19L, 20L, 21L, 62L, 65L, 400L}) {
+      for (const long exponent : {-1'000'000L, -400L, -21L, -20L, -19L, 19L, 20L, 21L, 62L, 65L, 400L, 100'000L}) {
         mpfr_set_si_2exp(raw(a), sign, exponent, MPFR_RNDN);
         expect_same_bits(raw(a), precision);
         set_random(raw(a), exponent);

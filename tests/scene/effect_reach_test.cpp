@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
@@ -52,30 +52,19 @@ std::vector<EffectReach> reach(const std::string& text) {
   return assemble<double>(read_scene(text, "test.toml")).reach;
 }
 
-std::string refused(const std::string& text) {
-  try {
-    reach(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+std::string refused_reach(const std::string& text) {
+  return refused([&] { reach(text); });
 }
 
 /// An effect without `on` or `between`, and what it must be. The points where rigid bodies have their centres of mass,
 /// and their masses, stand as numbers.
 struct SameEffect {
-  const char *name, *on_all, *by_points;
+  std::string on_all, by_points;
 };
-void PrintTo(const SameEffect& same, std::ostream* out) { *out << same.name; }
 
-std::string name_of_same_effect(const ::testing::TestParamInfo<SameEffect>& same) { return same.param.name; }
-
-class EffectOnAll : public ::testing::TestWithParam<SameEffect> {};
-
-TEST_P(EffectOnAll, ActsOnRigidBodiesAtTheirCentresOfMass) {
-  const PrecisionScope digits(50);
+void expect_same(const SameEffect& same) {
   const auto scene_of = [](const std::string& text) { return assemble<Mpfr>(read_scene(text, "test.toml")); };
-  const Assembled<Mpfr> all = scene_of(sky + GetParam().on_all), points = scene_of(sky + GetParam().by_points);
+  const Assembled<Mpfr> all = scene_of(sky + same.on_all), points = scene_of(sky + same.by_points);
   ASSERT_EQ(all.problem.m(), points.problem.m());
   Vector<Mpfr> q(all.q0.size()), v(all.q0.size());
   for (Index i = 0; i < q.size(); ++i) {
@@ -83,7 +72,7 @@ TEST_P(EffectOnAll, ActsOnRigidBodiesAtTheirCentresOfMass) {
     v[i] = Mpfr((3 * i * i + 11 * i) % 19 - 9) / 7;
   }
   const Vector<Mpfr> zero = Vector<Mpfr>::Zero(q.size());
-  Point<Mpfr> at(all.problem), other(points.problem);
+  StateEvaluator<Mpfr> at(all.problem), other(points.problem);
   const auto near = [](const Mpfr& a, const Mpfr& b) { return magnitude(Mpfr(a - b)) <= 1'000 * epsilon<Mpfr>(); };
   EXPECT_PRED2(near, at.energy(q, zero), other.energy(q, zero));
   const Vector<Mpfr> force = at.forces(q, zero).applied, expected = other.forces(q, zero).applied;
@@ -100,53 +89,48 @@ TEST_P(EffectOnAll, ActsOnRigidBodiesAtTheirCentresOfMass) {
   EXPECT_EQ(names(all.problem), names(points.problem));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, EffectOnAll,
-    ::testing::Values(
-        SameEffect{"CentralGravity", "[[effect]]\nkind = \"central_gravity\"\ncenter = \"sun\"\nstrength = 7\n",
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"probe\"]\nU = \"14/r\"\n"
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"heart\"]\nU = \"21/r\"\n"
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"crown\"]\nU = \"35/r\"\n"},
-        SameEffect{"MutualGravity", "[[effect]]\nkind = \"mutual_gravity\"\nstrength = 7\n",
-                   "[[effect]]\nkind = \"formula\"\nbetween = [\"probe\", \"heart\"]\nU = \"42/r\"\n"
-                   "[[effect]]\nkind = \"formula\"\nbetween = [\"heart\", \"crown\"]\nU = \"105/r\"\n"
-                   "[[effect]]\nkind = \"formula\"\nbetween = [\"probe\", \"crown\"]\nU = \"70/r\"\n"},
-        SameEffect{"Trap", "[[effect]]\nkind = \"trap\"\ncenter = \"sun\"\nstiffness = \"1/20\"\nexponent = 4\n",
-                   "[[effect]]\nkind = \"trap\"\ncenter = \"sun\"\nstiffness = \"1/20\"\nexponent = 4\n"
-                   "on = [\"probe\", \"heart\", \"crown\"]\n"},
-        SameEffect{"RadialCosine", "[[effect]]\nkind = \"radial_cosine\"\ncenter = \"sun\"\nstrength = 7\n",
-                   "[[effect]]\nkind = \"radial_cosine\"\ncenter = \"sun\"\nstrength = 7\n"
-                   "on = [\"probe\", \"heart\", \"crown\"]\n"},
-        SameEffect{"Oblateness",
-                   "[[effect]]\nkind = \"oblateness\"\ncenter = \"sun\"\nstrength = 7\nradius = 2\nJ2 = 0.1\n"
-                   "axis = [0, 0, 1]\n",
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"probe\"]\n"
-                   "U = \"-7*2*0.1*4*(3*z^2/r^2 - 1)/(2*r^3)\"\n"
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"heart\"]\n"
-                   "U = \"-7*3*0.1*4*(3*z^2/r^2 - 1)/(2*r^3)\"\n"
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"crown\"]\n"
-                   "U = \"-7*5*0.1*4*(3*z^2/r^2 - 1)/(2*r^3)\"\n"},
-        SameEffect{"Spring", "[[effect]]\nkind = \"spring\"\nstiffness = 2\nrest_length = 1\n",
-                   "[[effect]]\nkind = \"spring\"\nstiffness = 2\nrest_length = 1\n"
-                   "between = [[\"probe\", \"heart\"], [\"probe\", \"crown\"], [\"heart\", \"crown\"]]\n"},
-        SameEffect{"LennardJones", "[[effect]]\nkind = \"lennard_jones\"\ndepth = 2\ndiameter = 4\n",
-                   "[[effect]]\nkind = \"lennard_jones\"\ndepth = 2\ndiameter = 4\n"
-                   "between = [[\"probe\", \"heart\"], [\"probe\", \"crown\"], [\"heart\", \"crown\"]]\n"},
-        SameEffect{"FormulaOnEach", "[[effect]]\nkind = \"formula\"\nU = \"m*x*y - z^3/9\"\n",
-                   "[[effect]]\nkind = \"formula\"\nof = [\"probe\"]\nU = \"2*x1*y1 - z1^3/9\"\n"
-                   "[[effect]]\nkind = \"formula\"\nof = [\"heart\"]\nU = \"3*x1*y1 - z1^3/9\"\n"
-                   "[[effect]]\nkind = \"formula\"\nof = [\"crown\"]\nU = \"5*x1*y1 - z1^3/9\"\n"},
-        SameEffect{"FormulaAboutACentre", "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\nU = \"m*x/r\"\n",
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"probe\"]\nU = \"2*x/r\"\n"
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"heart\"]\nU = \"3*x/r\"\n"
-                   "[[effect]]\nkind = \"formula\"\ncenter = \"sun\"\non = [\"crown\"]\nU = \"5*x/r\"\n"},
-        SameEffect{"FormulaOfPairs",
-                   "[[effect]]\nkind = \"formula\"\nbetween = [[\"ship\", \"sun\"]]\nU = \"x1*m1/r\"\n",
-                   "[[effect]]\nkind = \"formula\"\nbetween = [[\"heart\", \"sun\"]]\nU = \"x1*3/r\"\n"},
-        SameEffect{"FormulaOfAGroup",
-                   "[[effect]]\nkind = \"formula\"\nof = [\"probe\", \"ship\"]\nU = \"probe.x*ship.y*ship.m\"\n",
-                   "[[effect]]\nkind = \"formula\"\nof = [\"probe\", \"heart\"]\nU = \"probe.x*heart.y*3\"\n"}),
-    name_of_same_effect);
+TEST(EffectOnAll, ActsOnRigidBodiesAtTheirCentresOfMass) {
+  const PrecisionScope digits(50);
+  const std::string each = "on = [\"probe\", \"heart\", \"crown\"]";
+  const std::string pairs = "between = [[\"probe\", \"heart\"], [\"probe\", \"crown\"], [\"heart\", \"crown\"]]";
+  const std::string trap = "kind = \"trap\"\ncenter = \"sun\"\nstiffness = \"1/20\"\nexponent = 4\n";
+  const std::string cosine = "kind = \"radial_cosine\"\ncenter = \"sun\"\nstrength = 7\n";
+  const std::string spring = "kind = \"spring\"\nstiffness = 2\nrest_length = 1\n";
+  const std::string lennard_jones = "kind = \"lennard_jones\"\ndepth = 2\ndiameter = 4\n";
+  const auto formula = [](const std::string& on, const std::string& U) {
+    return effect("kind = \"formula\"\n" + on + "\nU = \"" + U + "\"");
+  };
+  const auto about = [&](const std::string& point, const std::string& U) {
+    return formula("center = \"sun\"\non = [\"" + point + "\"]", U);
+  };
+  const auto between = [&](const std::string& a, const std::string& b, const std::string& U) {
+    return formula("between = [\"" + a + "\", \"" + b + "\"]", U);
+  };
+  const SameEffect same[] = {
+      {effect("kind = \"central_gravity\"\ncenter = \"sun\"\nstrength = 7"),
+       about("probe", "14/r") + about("heart", "21/r") + about("crown", "35/r")},
+      {effect("kind = \"mutual_gravity\"\nstrength = 7"),
+       between("probe", "heart", "42/r") + between("heart", "crown", "105/r") + between("probe", "crown", "70/r")},
+      {effect(trap), effect(trap + each)},
+      {effect(cosine), effect(cosine + each)},
+      {effect("kind = \"oblateness\"\ncenter = \"sun\"\nstrength = 7\nradius = 2\nJ2 = 0.1\naxis = [0, 0, 1]"),
+       about("probe", "-7*2*0.1*4*(3*z^2/r^2 - 1)/(2*r^3)") + about("heart", "-7*3*0.1*4*(3*z^2/r^2 - 1)/(2*r^3)") +
+           about("crown", "-7*5*0.1*4*(3*z^2/r^2 - 1)/(2*r^3)")},
+      {effect(spring), effect(spring + pairs)},
+      {effect(lennard_jones), effect(lennard_jones + pairs)},
+      {formula("", "m*x*y - z^3/9"), formula("of = [\"probe\"]", "2*x1*y1 - z1^3/9") +
+                                         formula("of = [\"heart\"]", "3*x1*y1 - z1^3/9") +
+                                         formula("of = [\"crown\"]", "5*x1*y1 - z1^3/9")},
+      {formula("center = \"sun\"", "m*x/r"),
+       about("probe", "2*x/r") + about("heart", "3*x/r") + about("crown", "5*x/r")},
+      {between("ship", "sun", "x1*m1/r"), between("heart", "sun", "x1*3/r")},
+      {formula("of = [\"probe\", \"ship\"]", "probe.x*ship.y*ship.m"),
+       formula("of = [\"probe\", \"heart\"]", "probe.x*heart.y*3")}};
+  for (const SameEffect& effects : same) {
+    SCOPED_TRACE(effects.on_all);
+    expect_same(effects);
+  }
+}
 
 TEST(EffectReach, NamesBodiesPairsAndGroups) {
   const auto found = reach(sky + effect("kind = \"central_gravity\"\ncenter = \"sun\"\nstrength = 1") +
@@ -181,10 +165,10 @@ TEST(EffectReach, OfNobodyIsRefusedByLine) {
   const std::string alone =
       "dimension = 2\n[[point]]\nname = \"o\"\nposition = [0, 0]\n[[body]]\nname = \"a\"\nmass = 1\n"
       "position = [1, 0]\nvelocity = [0, 0]\n";
-  const auto expect = [&](const std::string& keys, const std::vector<std::string>& words) {
-    const std::string message = refused(alone + effect(keys));
+  const auto expect = [&](const std::string& keys, std::initializer_list<std::string> words) {
+    const std::string message = refused_reach(alone + effect(keys));
     EXPECT_TRUE(message.starts_with("test.toml:10: effect 1 (")) << message;
-    for (const std::string& word : words) EXPECT_NE(message.find(word), std::string::npos) << message;
+    expect_words(message, words);
   };
   expect("kind = \"mutual_gravity\"\nstrength = 1", {"acts on nobody", "'a' (there is none to pair it with)"});
   expect("kind = \"coulomb\"\nstrength = 1", {"acts on nobody", "'a' (no charge)"});
@@ -194,25 +178,23 @@ TEST(EffectReach, OfNobodyIsRefusedByLine) {
       "dimension = 2\n[[point]]\nname = \"o\"\nposition = [3, 0]\n[[rigid_body]]\nname = \"top\"\n"
       "fixed_at = [0, 0]\nmass = 1\ncenter = [0, 0]\nsecond_moment = [[1, 0], [0, 1]]\n"
       "directors = [[1, 0], [0, 1]]\nangular_velocity = 1\n";
-  EXPECT_NE(refused(top + effect("kind = \"central_gravity\"\ncenter = \"o\"\nstrength = 1"))
-                .find("acts on nobody: not on 'top' (its centre of mass is fixed in space)"),
-            std::string::npos);
-  EXPECT_NE(refused(top + effect("kind = \"central_gravity\"\ncenter = \"o\"\nstrength = 1\non = [\"top\"]"))
-                .find("'top' is fixed in space, by its centre of mass"),
-            std::string::npos);
-  EXPECT_EQ(refused(top + effect("kind = \"uniform_gravity\"\nacceleration = [0, -1]")), "") << "it has energy there";
+  const std::string central = "kind = \"central_gravity\"\ncenter = \"o\"\nstrength = 1";
+  expect_words(refused_reach(top + effect(central)),
+               {"acts on nobody: not on 'top' (its centre of mass is fixed in space)"});
+  expect_words(refused_reach(top + effect(central + "\non = [\"top\"]")),
+               {"'top' is fixed in space, by its centre of mass"});
+  EXPECT_EQ(refused_reach(top + effect("kind = \"uniform_gravity\"\nacceleration = [0, -1]")), "")
+      << "it has energy there";
 }
 
 TEST(EffectReach, ARigidBodyHasNoChargeOfItsOwn) {
-  const std::string message =
-      refused(sky + effect("kind = \"coulomb\"\nstrength = 1\nbetween = [\"ship\", \"probe\"]"));
-  EXPECT_NE(message.find("'ship' has no charge; give one to a point of it"), std::string::npos) << message;
+  expect_words(refused_reach(sky + effect("kind = \"coulomb\"\nstrength = 1\nbetween = [\"ship\", \"probe\"]")),
+               {"'ship' has no charge; give one to a point of it"});
 }
 
 TEST(EffectReach, AForceWithinARigidBodyIsRefused) {
-  const std::string message =
-      refused(sky + effect("kind = \"spring\"\nstiffness = 1\nbetween = [\"ship\", \"heart\"]"));
-  EXPECT_NE(message.find("both ends are points of the rigid body 'ship'"), std::string::npos) << message;
+  expect_words(refused_reach(sky + effect("kind = \"spring\"\nstiffness = 1\nbetween = [\"ship\", \"heart\"]")),
+               {"both ends are points of the rigid body 'ship'"});
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "problem/effect/trace.hpp"
 #include "problem/energy_terms.hpp"
 #include "problem/momenta.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "scene/formula_scene.hpp"
 #include "scene/joined_bodies.hpp"
@@ -22,6 +22,13 @@ Vector<S> away_from(const Vector<S>& near) {
   Vector<S> v = near;
   for (Index i = 0; i < v.size(); ++i) v[i] += S(static_cast<int>((i * i * 7 + i * 5) % 23) - 11) / 700;
   return v;
+}
+
+template <Scalar S>
+std::string conserved(const Problem<S>& problem) {
+  std::string names;
+  for (const auto& component : conserved_momenta(problem)) names += component.name() + " ";
+  return names;
 }
 
 template <class S>
@@ -38,7 +45,7 @@ class FormulaScene : public ::testing::Test {
     const auto add = [&](const auto& values) {
       result.insert(result.end(), values.data(), values.data() + values.size());
     };
-    Point<S> point(problem);
+    StateEvaluator<S> point(problem);
     result.push_back(point.energy(q, p));
     result.push_back(point.energy_size(q, p));
     add(point.constraints(q));
@@ -90,11 +97,7 @@ TYPED_TEST(FormulaScene, MaySayTheSameInOtherNames) {
 }
 
 TYPED_TEST(FormulaScene, KeepsTheMomentaOfItsSymmetries) {
-  const auto names = [&](const std::string& text) {
-    std::string all;
-    for (const auto& component : conserved_momenta(this->assembled(text).problem)) all += component.name() + " ";
-    return all;
-  };
+  const auto names = [&](const std::string& text) { return conserved(this->assembled(text).problem); };
   const std::string gravity = "[[effect]]\nkind = \"formula\"\nU = \"-9.81*m*y\"\n";
   EXPECT_EQ(names(pendulum_by_formulas), "");
   EXPECT_EQ(names(changed(pendulum_by_formulas, gravity, "")), "L_z ");
@@ -120,13 +123,11 @@ TYPED_TEST(FormulaScene, OfPairsHasDisplacementsAndTheirSymmetry) {
       "between = [\"a\", \"b\"]\n";
   for (const std::string& text : {pair, changed(pair, "2*x +", "2*x + 0*x1 +"), changed(pair, "2*x", "2*x1 - 2*x2")}) {
     const Assembled<S> scene = this->assembled(text);
-    Point<S> point(scene.problem);
+    StateEvaluator<S> point(scene.problem);
     const Vector<S> force = point.forces(scene.q0, scene.p0).applied;
     const S expected[] = {2 - S(6) / 10, S(-8) / 10, S(6) / 10 - 2, S(8) / 10};
     for (Index i = 0; i < 4; ++i) EXPECT_LE(magnitude(S(force[i] - expected[i])), 4 * epsilon<S>()) << text;
-    std::string names;
-    for (const auto& component : conserved_momenta(scene.problem)) names += component.name() + " ";
-    EXPECT_EQ(names, "P_x P_y ") << text;
+    EXPECT_EQ(conserved(scene.problem), "P_x P_y ") << text;
   }
 }
 
@@ -144,12 +145,7 @@ TYPED_TEST(FormulaScene, ActsOnRigidBodies) {
 
 /// What a scene with a change of the pendulum is refused with in double.
 std::string refused_in_double(const std::string& from, const std::string& to) {
-  try {
-    assemble<double>(read_scene(changed(pendulum_by_formulas, from, to), "test.toml"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return refused([&] { assemble<double>(read_scene(changed(pendulum_by_formulas, from, to), "test.toml")); });
 }
 
 TEST(FormulaScenes, AreRefusedAtTheOperationThatHasNoValue) {
@@ -165,14 +161,13 @@ TEST(FormulaScenes, AreRefusedAtTheOperationThatHasNoValue) {
 
 TEST(FormulaScenes, AreRefusedIfTheyDoNotSayWhatTheyActOn) {
   const std::string pair = "between = [\"a\", \"b\"]\ng";
-  EXPECT_NE(refused_in_double(pair, "g").find("the key 'on' is missing"), std::string::npos);
-  EXPECT_NE(refused_in_double(pair, "on = \"a\"\nof = [\"a\"]\ng").find("give either 'on' or 'of'"), std::string::npos);
-  EXPECT_NE(refused_in_double(pair, "of = [\"pivot\"]\ng").find("fixed points alone"), std::string::npos);
-  EXPECT_NE(refused_in_double(pair, "of = []\ng").find("must name a body"), std::string::npos);
-  EXPECT_NE(refused_in_double(pair, "of = [\"a\", \"a\"]\ng").find("'a' twice"), std::string::npos);
-  EXPECT_NE(refused_in_double(pair, "of = [\"a\", \"c\"]\ng").find("no body 'c'"), std::string::npos);
-  EXPECT_NE(refused_in_double("kind = \"formula\"\non", "kind = \"formla\"\non").find("did you mean 'formula'"),
-            std::string::npos);
+  expect_words(refused_in_double(pair, "g"), {"the key 'on' is missing"});
+  expect_words(refused_in_double(pair, "on = \"a\"\nof = [\"a\"]\ng"), {"give either 'on' or 'of'"});
+  expect_words(refused_in_double(pair, "of = [\"pivot\"]\ng"), {"fixed points alone"});
+  expect_words(refused_in_double(pair, "of = []\ng"), {"must name a body"});
+  expect_words(refused_in_double(pair, "of = [\"a\", \"a\"]\ng"), {"'a' twice"});
+  expect_words(refused_in_double(pair, "of = [\"a\", \"c\"]\ng"), {"no body 'c'"});
+  expect_words(refused_in_double("kind = \"formula\"\non", "kind = \"formla\"\non"), {"did you mean 'formula'"});
 }
 
 TYPED_TEST(FormulaScene, HasConstraintsThatAreNotQuadratic) {
@@ -191,8 +186,7 @@ TYPED_TEST(FormulaScene, HasConstraintsThatAreNotQuadratic) {
 TEST(FormulaScenes, WithAConstraintThatTheStartMissesAreRefused) {
   EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 + y^2) - 2").substr(0, 83),
             "test.toml:28: the initial position is not consistent with constraint 1 (formula of ");
-  EXPECT_NE(refused_in_double("x^2 + y^2 - 1", "x^3 - (3/5)^3").find("the initial velocity is not consistent"),
-            std::string::npos);
+  expect_words(refused_in_double("x^2 + y^2 - 1", "x^3 - (3/5)^3"), {"the initial velocity is not consistent"});
   EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", "log(x^2 - 9/25) + y^2 - 1").substr(0, 70),
             "test.toml:28: constraint 1 (formula): 'g', line 31, column 6: logarith");
 }
@@ -201,9 +195,7 @@ TEST(FormulaScenes, WithAConstraintThatTheStartMissesAreRefused) {
 TEST(FormulaScenes, WithAGradientWhoseSquareIsBeyondTheRangeAreRefused) {
   for (const std::string g : {"((x^2 + y^2)^2 - 1)*1e", "(x^2 + y^2 - 1)*1e"}) {
     for (const std::string exponent : {"-200", "-158", "200"})
-      EXPECT_NE(refused_in_double("x^2 + y^2 - 1", g + exponent).find("beyond the range of this precision"),
-                std::string::npos)
-          << g << exponent;
+      expect_words(refused_in_double("x^2 + y^2 - 1", g + exponent), {"beyond the range of this precision"});
     for (const std::string exponent : {"-100", "100"})
       EXPECT_EQ(refused_in_double("x^2 + y^2 - 1", g + exponent), "") << g << exponent;
   }
@@ -212,12 +204,8 @@ TEST(FormulaScenes, WithAGradientWhoseSquareIsBeyondTheRangeAreRefused) {
 /// Clairaut's integral is recognised.
 TEST(FormulaScenes, WithASurfaceOfRevolutionConserveItsMomentum) {
   const PrecisionScope digits(50);
-  const auto names = [](const char* scene) {
-    std::string all;
-    for (const auto& component : conserved_momenta(assemble<Mpfr>(load_scene(scene)).problem)) all += component.name();
-    return all;
-  };
-  EXPECT_EQ(names("bead_on_torus"), "L_z");
+  const auto names = [](const char* scene) { return conserved(assemble<Mpfr>(load_scene(scene)).problem); };
+  EXPECT_EQ(names("bead_on_torus"), "L_z ");
   EXPECT_EQ(names("bead_on_quartic"), "");
   EXPECT_EQ(names("rope_over_two_pegs"), "");
 }
@@ -231,11 +219,7 @@ TYPED_TEST(FormulaScene, KeepsTheMomentaOfAnyConstraint) {
         "}, { name = \"b\", mass = 3, position = [-1, \"2/3\", \"1/5\"], velocity = [0, 0, 0] }]\n"
         "[[constraint]]\nkind = \"formula\"\n" +
         constraint + "\"\n";
-    std::string all;
-    for (const auto& component :
-         conserved_momenta(assemble<TypeParam>(read_scene(text, "test.toml"), Consistency::unchecked).problem))
-      all += component.name() + " ";
-    return all;
+    return conserved(assemble<TypeParam>(read_scene(text, "test.toml"), Consistency::unchecked).problem);
   };
   const std::string pair = "between = [\"a\", \"b\"]\ng = \"", all = "P_x P_y P_z L_x L_y L_z ";
   EXPECT_EQ(names(pair + "sinh(r) - sinh(1)"), all);
@@ -272,21 +256,16 @@ TYPED_TEST(FormulaScene, SetsRedundantConstraintsAside) {
     EXPECT_EQ(assembled.problem.redundant.size(), 1u) << second;
   }
   for (const char* second : {"3*x/5 + 4*y/5 - 1 + (x - 3/5)^4", "sqrt(x^2 + y^2) - 1 + (4*x - 3*y)^2*sin(x)"}) {
-    try {
-      scene(second);
-      ADD_FAILURE() << second;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("second derivative"), std::string::npos) << error.what();
-    }
+    SCOPED_TRACE(second);
+    expect_words(refused([&] { scene(second); }), {"second derivative"});
   }
 }
 
 /// A gradient that vanishes, and g that has none, at the start.
 TEST(FormulaScenes, WithoutAGradientAreRefused) {
   for (const char* g : {"(sqrt(x^2 + y^2) - 1)^2", "exp(x) - exp(x)", "0*x"})
-    EXPECT_NE(refused_in_double("x^2 + y^2 - 1", g).find("its gradient vanishes"), std::string::npos) << g;
-  EXPECT_NE(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 - 9/25) + y - 4/5").find("test.toml:28: constraint 1"),
-            std::string::npos);
+    expect_words(refused_in_double("x^2 + y^2 - 1", g), {"its gradient vanishes"});
+  expect_words(refused_in_double("x^2 + y^2 - 1", "sqrt(x^2 - 9/25) + y - 4/5"), {"test.toml:28: constraint 1"});
 }
 
 TEST(FormulaScenes, ReadBackAsTheyAreWritten) {
@@ -325,7 +304,7 @@ TEST(FormulaScenes, OfRandomTextsAreReadOrRefused) {
     try {
       const Assembled<double> scene =
           assemble<double>(read_scene(changed(pendulum_by_formulas, "\"-9.81*m*y\"", "\"" + text + "\""), "test.toml"));
-      Point<double> point(scene.problem);
+      StateEvaluator<double> point(scene.problem);
       EXPECT_TRUE(is_finite(point.energy(scene.q0, scene.p0))) << text;
       ++read;
     } catch (const InputError& error) {
@@ -342,12 +321,12 @@ TEST(FormulaScenes, OfHugeTextsAreRefused) {
   const auto of = [](const std::string& text) { return refused_in_double("\"-9.81*m*y\"", "\"" + text + "\""); };
   std::string deep, steep = "x", long_sum = "x";
   for (int i = 0; i < 50'000; ++i) deep += "(";
-  EXPECT_NE(of(deep + "x").find("nested too deeply"), std::string::npos);
+  expect_words(of(deep + "x"), {"nested too deeply"});
   for (int i = 0; i < 10; ++i) steep = "(" + steep + ")^999";
   EXPECT_NE(of("exp(2*x)*" + steep + "/x^999").size(), 0u);
   for (int i = 0; i < 2'000; ++i) long_sum += "+x";
-  EXPECT_NE(of(long_sum).find("too many operations"), std::string::npos);
-  EXPECT_NE(of(std::string(200'000, ' ')).find("too long"), std::string::npos);
+  expect_words(of(long_sum), {"too many operations"});
+  expect_words(of(std::string(200'000, ' ')), {"too long"});
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "scene/nearest_position.hpp"
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene_text.hpp"
 
@@ -37,7 +37,7 @@ TYPED_TEST(NearestPosition, FulfilsTheConstraints) {
       EXPECT_TRUE(value(constraint, 2, q).vanishes()) << constraint.name;
     EXPECT_LT(max_norm(Vector<S>(q - scene.q0)), S(n) / 1'000);
     // Momenta likewise.
-    Point<S> point(scene.problem);
+    StateEvaluator<S> point(scene.problem);
     const Vector<S> p = point.tangential(q, Vector<S>(Vector<S>::Constant(q.size(), S(1)))),
                     left = point.hidden_constraints(q, p);
     EXPECT_LE(max_norm(left), S(1'000 * n) * epsilon<S>());

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <string>
 #include <string_view>
 
-#include "hbvm/error.hpp"
 #include "scalar/literal.hpp"
 #include "scene/scene.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 
@@ -171,14 +169,21 @@ inline std::size_t line_of(std::string_view text, std::string_view part) {
   return line;
 }
 
-/// What read_scene refuses the text with; empty if it does not.
-inline std::string refusal(const std::string& text, const std::string& name = "test.toml") {
+/// The one line that wrong input is refused with; empty if it is not.
+std::string refused(const auto& use) {
+  std::string message;
   try {
-    read_scene(text, name);
+    use();
   } catch (const InputError& error) {
-    return error.what();
+    message = error.what();
   }
-  return {};
+  EXPECT_EQ(message.find('\n'), std::string::npos) << "more than one line: " << message;
+  return message;
+}
+
+/// What read_scene refuses the text with; empty if it does not.
+inline std::string refusal(const std::string& text) {
+  return refused([&] { read_scene(text, "test.toml"); });
 }
 
 /// The number of a scene with 50 digits.

@@ -83,10 +83,7 @@ TEST(Automatic, InDoubleTurnsToNewtonWhereTheFixedPointFails) {
 }
 
 template <class S>
-class AutomaticBeyondDouble : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class AutomaticBeyondDouble : public InDigits<50> {};
 using ManyDigits = ::testing::Types<Quad, Mpfr>;
 TYPED_TEST_SUITE(AutomaticBeyondDouble, ManyDigits, ScalarNames);
 

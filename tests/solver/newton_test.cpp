@@ -12,10 +12,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class NewtonTest : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class NewtonTest : public InDigits<50> {};
 TYPED_TEST_SUITE(NewtonTest, AllScalars, ScalarNames);
 
 /// The pendulum that goes over the top, with steps at which the fixed point has no chance. U is linear, so that H and g

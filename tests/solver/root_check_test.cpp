@@ -16,10 +16,7 @@ effect = [{ kind = "uniform_gravity", acceleration = ["9.272e-04", "2.940e-04"] 
 )";
 
 template <class S>
-class Roots : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Roots : public InDigits<50> {};
 TYPED_TEST_SUITE(Roots, AllScalars, ScalarNames);
 
 TYPED_TEST(Roots, AreToldApart) {

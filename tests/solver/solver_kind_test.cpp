@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hbvm/error.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -25,8 +26,7 @@ TEST(SolverKinds, UnknownAreRefusedWithTheKnown) {
       ADD_FAILURE() << unknown;
     } catch (const InputError& error) {
       const std::string message = error.what();
-      for (const char* const part : {"auto", "newton", "fixed-point", "paper"})
-        EXPECT_NE(message.find(part), std::string::npos) << message;
+      expect_words(message, {"auto", "newton", "fixed-point", "paper"});
       EXPECT_NE(message.find("'" + std::string(unknown) + "'"), std::string::npos) << message;
     }
   }

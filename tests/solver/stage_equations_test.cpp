@@ -7,7 +7,7 @@
 #include "plain_step/mechanics.hpp"
 #include "printing.hpp"
 #include "problem/in_double.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 
 namespace hbvm::core {
@@ -162,7 +162,7 @@ TEST(StageEquations, OfAnyConstraintAreItsLegendreCoefficients) {
 
       const Quadrature<Mpfr> gauss = gauss_legendre<Mpfr>(n.r);
       const Matrix<Mpfr> P = legendre_values<Mpfr>(gauss.c, n.s), I = legendre_integrals<Mpfr>(gauss.c, n.s);
-      Point<Mpfr> point(problem);
+      StateEvaluator<Mpfr> point(problem);
       ConstraintGradient<Mpfr> gradient(problem, 1);
       const auto coefficients = [&](const Matrix<Mpfr>& of_v, Matrix<Mpfr>& zeta, Matrix<Mpfr>& hidden) {
         zeta.setZero(n.s, problem.m());

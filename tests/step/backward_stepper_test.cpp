@@ -7,10 +7,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class Backward : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Backward : public InDigits<50> {};
 TYPED_TEST_SUITE(Backward, AllScalars, ScalarNames);
 
 /// The methods are symmetric.

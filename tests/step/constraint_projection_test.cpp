@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "problem/dense.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 
@@ -61,7 +61,7 @@ TYPED_TEST(ConstraintProjectionTest, MomentaBecomeTangentialThere) {
     const Matrix<S> G = dense_gradient(problem, scene.q0);
     EXPECT_LE(max_norm(times(Matrix<S>(G.transpose()), this->inverse_mass_times(problem, p))), this->tolerance) << name;
     EXPECT_LE(max_norm(Vector<S>(before - p - times(G, Vector<S>(mu.row(0).transpose())))), this->tolerance) << name;
-    Point<S> point(problem);
+    StateEvaluator<S> point(problem);
     EXPECT_LE(max_norm(Vector<S>(p - point.tangential(scene.q0, before))), this->tolerance) << name;
   }
 }

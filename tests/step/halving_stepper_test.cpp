@@ -186,10 +186,7 @@ class NeverMade final : public Stepper<S> {
 };
 
 template <class S>
-class HalvingOfAPendulum : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class HalvingOfAPendulum : public InDigits<50> {};
 TYPED_TEST_SUITE(HalvingOfAPendulum, AllScalars, ScalarNames);
 
 /// The substeps are steps of the method: divided once throughout, they are those of half the size, bit for bit.

@@ -1,41 +1,17 @@
 #include "step/projected_stepper.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "printing.hpp"
-#include "problem/point.hpp"
-#include "scene/assemble.hpp"
-#include "step/registry.hpp"
+#include "problem/state_evaluator.hpp"
+#include "step/stepping.hpp"
 
 namespace hbvm::core {
 namespace {
 
 template <class S>
-class ProjectedSteps : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class ProjectedSteps : public InDigits<50> {};
 TYPED_TEST_SUITE(ProjectedSteps, AllScalars, ScalarNames);
 
 constexpr const char* both[] = {"projected_hbvm:4,2", "restored_hbvm:4,2"};
-
-TYPED_TEST(ProjectedSteps, EndOnTheConstraintsAndInTheirTangentSpace) {
-  using S = TypeParam;
-  for (const char* const method : both)
-    for (const char* const name : {"tethered_satellites", "modified_pendulum", "heavy_top"}) {
-      const Assembled<S> scene = assemble<S>(load_scene(name));
-      const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
-      State<S> state(scene.q0, scene.p0);
-      Point<S> point(scene.problem);
-      for (int n = 0; n < 20; ++n) {
-        stepper->step(state, S(S(1) / 16));
-        EXPECT_LE(max_norm(point.constraints(state.q)), 32 * epsilon<S>() * point.constraint_size(state.q)) << name;
-        EXPECT_LE(max_norm(point.hidden_constraints(state.q, state.p)), 256 * epsilon<S>()) << name;
-      }
-    }
-}
 
 /// A step is that of HBVM from the projected state, so that one step ends with the output state of HBVM.
 TYPED_TEST(ProjectedSteps, BeginAsHbvmEnds) {
@@ -46,7 +22,7 @@ TYPED_TEST(ProjectedSteps, BeginAsHbvmEnds) {
   State<S> raw(scene.q0, scene.p0), state = raw;
   plain->step(raw, S(S(1) / 16));
   projected->step(state, S(S(1) / 16));
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   EXPECT_EQ(state.q, raw.q);
   EXPECT_LE(distance(state.p, point.tangential(raw.q, raw.p)), 16 * epsilon<S>());
   EXPECT_GT(distance(state.p, raw.p), 1'000 * epsilon<S>());
@@ -57,19 +33,16 @@ TYPED_TEST(ProjectedSteps, BeginAsHbvmEnds) {
 TEST(ProjectedHbvm, LosesEnergyAtItsRate) {
   const PrecisionScope digits(50);
   const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("modified_pendulum"));
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Mpfr H0 = point.energy(scene.q0, scene.p0);
-  const auto lost = [&](const char* method, long steps) {
-    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
-    State<Mpfr> state(scene.q0, scene.p0);
-    for (long n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / (2 * steps)));
-    return Mpfr(H0 - point.energy(state.q, state.p));
+  const auto lost = [&](const std::string& method, long steps) {
+    const State<Mpfr> end = after(method, scene, Mpfr(1) / (2 * steps), steps);
+    return Mpfr(H0 - point.energy(end.q, end.p));
   };
   for (const int s : {1, 2, 3}) {
     const std::string method = "projected_hbvm:" + std::to_string(s + 4) + "," + std::to_string(s);
-    EXPECT_GT(lost(method.c_str(), 16), 0) << method;
-    EXPECT_NEAR(std::log2(approximately(Mpfr(lost(method.c_str(), 32) / lost(method.c_str(), 64)))), 2 * s + 1, 0.2)
-        << method;
+    EXPECT_GT(lost(method, 16), 0) << method;
+    EXPECT_NEAR(order_of(lost(method, 32), lost(method, 64)), 2 * s + 1, 0.2) << method;
   }
 }
 
@@ -80,7 +53,7 @@ TYPED_TEST(ProjectedSteps, RestoreTheEnergy) {
     const Assembled<S> scene = assemble<S>(load_scene("modified_pendulum"));
     const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
     State<S> state(scene.q0, scene.p0);
-    Point<S> point(scene.problem);
+    StateEvaluator<S> point(scene.problem);
     const S H0 = point.energy(state.q, state.p), size = point.energy_size(state.q, state.p);
     for (int n = 0; n < 500; ++n) {
       stepper->step(state, S(S(1) / 16));
@@ -93,51 +66,18 @@ TEST(ProjectedHbvm, HasOrder2s) {
   const PrecisionScope digits(50);
   const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("double_pendulum"));
   const auto end = [&](const std::string& method, long steps) {
-    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
-    State<Mpfr> state(scene.q0, scene.p0);
-    for (long n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / (4 * steps)));
-    return state;
+    return after(method, scene, Mpfr(1) / (4 * steps), steps);
   };
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const State<Mpfr> exact = end("hbvm:12,12", 8);
   const Vector<Mpfr> p = point.tangential(exact.q, exact.p);
   for (const char* const family : {"projected_hbvm", "restored_hbvm"})
     for (const int s : {1, 2, 3}) {
       const std::string method = std::string(family) + ":" + std::to_string(s) + "," + std::to_string(s);
       const State<Mpfr> coarse = end(method, 16), fine = end(method, 32);
-      EXPECT_NEAR(std::log2(approximately(Mpfr(distance(coarse.q, exact.q) / distance(fine.q, exact.q)))), 2 * s, 0.2)
-          << method;
-      EXPECT_NEAR(std::log2(approximately(Mpfr(distance(coarse.p, p) / distance(fine.p, p)))), 2 * s, 0.2) << method;
+      EXPECT_NEAR(order_of(distance(coarse.q, exact.q), distance(fine.q, exact.q)), 2 * s, 0.2) << method;
+      EXPECT_NEAR(order_of(distance(coarse.p, p), distance(fine.p, p)), 2 * s, 0.2) << method;
     }
-}
-
-TYPED_TEST(ProjectedSteps, GoOnFromWhatTheyRemember) {
-  using S = TypeParam;
-  const Assembled<S> scene = assemble<S>(load_scene("tethered_satellites"));
-  for (const char* const method : both) {
-    const auto make = parse_method(method)->prepare(scene.problem, SolverKind::automatic);
-    const auto whole = make(), part = make();
-    const S h = S(1) / 32;
-    State<S> state(scene.q0, scene.p0);
-    for (int n = 0; n < 5; ++n) whole->step(state, h);
-    Archive writing;
-    writing(*whole, state);
-    Archive reading(writing.text());
-    State<S> resumed = state;
-    reading(*part, resumed);
-    reading.expect_end();
-    for (int n = 0; n < 3; ++n) EXPECT_EQ(part->step(resumed, h), whole->step(state, h));
-    EXPECT_EQ(resumed.q, state.q);
-    EXPECT_EQ(resumed.p, state.p);
-    EXPECT_EQ(resumed.p_carry, state.p_carry);
-    const SolverCounts counts = whole->counts(), later = part->counts();
-    EXPECT_EQ(counts.effects[0].evaluations, later.effects[0].evaluations);
-    ASSERT_EQ(counts.parts.size(), later.parts.size());
-    for (std::size_t i = 0; i < counts.parts.size(); ++i) {
-      EXPECT_EQ(counts.parts[i].name, later.parts[i].name);
-      EXPECT_EQ(counts.parts[i].calls, later.parts[i].calls) << counts.parts[i].name;
-    }
-  }
 }
 
 /// Whoever put a state there, its energy is the one that is kept from then on.
@@ -149,30 +89,8 @@ TEST(RestoredHbvm, TakesAStateThatItDidNotMake) {
   used->step(state, 0.05);
   used->step(slow, 0.05);
   fresh->step(again, 0.05);
-  Point<double> point(scene.problem);
+  StateEvaluator<double> point(scene.problem);
   EXPECT_NEAR(point.energy(slow.q, slow.p), point.energy(again.q, again.p), 1e-14);
-}
-
-TEST(ProjectedHbvm, RefusesAndFailsWithItsReason) {
-  const auto refusal = [](const std::string& text) -> std::string {
-    try {
-      parse_method(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  for (const std::string family : {"projected_hbvm", "restored_hbvm"}) {
-    for (const char* const arguments : {"", ":", ":2", ":2,3", ":0,0", ":2,2x", ":auto,2"})
-      EXPECT_NE(refusal(family + arguments).find(family), std::string::npos) << family << arguments;
-  }
-  const Assembled<double> scene = assemble<double>(load_scene("kepler"));
-  for (const char* const method : both) {
-    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
-    State<double> centre(Vector<double>::Zero(2), Vector<double>::Zero(2));
-    EXPECT_THROW(stepper->step(centre, 0.1), StageFailure);
-    EXPECT_EQ(centre.q, (Vector<double>(Vector<double>::Zero(2))));
-  }
 }
 
 /// Moves and comes to rest: no scaling of p restores H.

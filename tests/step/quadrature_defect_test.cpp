@@ -29,10 +29,7 @@ S defect_of(const std::string& scene_text, int k, const S& h) {
 }
 
 template <class S>
-class Defect : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Defect : public InDigits<50> {};
 TYPED_TEST_SUITE(Defect, AllScalars, ScalarNames);
 
 TYPED_TEST(Defect, OfALightBodyIsTheSameBesideAHeavyOne) {

@@ -5,6 +5,7 @@
 #include "printing.hpp"
 #include "problem/general_drift.hpp"
 #include "scene/assemble.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -56,10 +57,7 @@ struct Raised {
 };
 
 template <class S>
-class Raising : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Raising : public InDigits<50> {};
 TYPED_TEST_SUITE(Raising, AllScalars, ScalarNames);
 
 TYPED_TEST(Raising, MakesTheStepsOfTheMethodWhereTheNodesSuffice) {
@@ -201,12 +199,10 @@ TEST(RaisingWhereNoNumberIsEnough, FailsIfAskedTo) {
   NodeLog log;
   RaisingStepper<double> stepper(scene.problem, HbvmName{8, 2}, SolverKind::fixed_point, log, OnShortage::fail);
   State<double> state(scene.q0, scene.p0);
-  try {
-    for (int n = 0; n < 8; ++n) stepper.step(state, 1.0 / 4);
-    ADD_FAILURE() << "64 nodes were enough";
-  } catch (const StageFailure& failure) {
-    EXPECT_NE(std::string(failure.what()).find("no number of nodes up to 64"), std::string::npos) << failure.what();
-  }
+  expect_words(message_of<StageFailure>([&] {
+                 for (int n = 0; n < 8; ++n) stepper.step(state, 1.0 / 4);
+               }),
+               {"no number of nodes up to 64"});
   EXPECT_EQ(log.unresolved, 0);
 }
 

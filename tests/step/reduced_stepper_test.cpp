@@ -9,10 +9,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class Reduced : public ::testing::Test {
- protected:
-  PrecisionScope digits{40};
-};
+class Reduced : public InDigits<40> {};
 TYPED_TEST_SUITE(Reduced, AllScalars, ScalarNames);
 
 /// The forces of a Point, and its multiplier.
@@ -21,7 +18,7 @@ TYPED_TEST(Reduced, EquationsAreThoseOfAPoint) {
   for (const char* const name : {"double_pendulum", "heavy_top", "kepler", "tethered_satellites"}) {
     const Assembled<S> scene = assemble<S>(load_scene(name));
     ReducedEquations<S> equations(scene.problem);
-    Point<S> point(scene.problem);
+    StateEvaluator<S> point(scene.problem);
     equations.evaluate(scene.q0, scene.p0);
     const auto& forces = point.forces(scene.q0, scene.p0);
     EXPECT_LE(distance(equations.force(), Vector<S>(forces.applied + forces.constraint)),
@@ -57,7 +54,7 @@ TYPED_TEST(Reduced, StepsAddChangesAndEvaluateOnceEach) {
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
   Euler<S> euler(scene.problem);
   State<S> state(scene.q0, scene.p0);
-  Point<S> point(scene.problem);
+  StateEvaluator<S> point(scene.problem);
   const S h = S(1) / 64;
   for (int n = 0; n < 5; ++n) {
     const auto forces = point.forces(state.q, state.p);

@@ -1,13 +1,14 @@
 #include "step/registry.hpp"
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 
-#include "scene/assemble.hpp"
+#include "printing.hpp"
+#include "problem/state_evaluator.hpp"
 #include "step/hbvm_method.hpp"
+#include "step/stepping.hpp"
 #include "step/tableau_method.hpp"
+#include "verification/models.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -33,10 +34,9 @@ constexpr const char* midpoint = "name = \"midpoint\"\nA = [[\"1/2\"]]\nb = [1]\
 TEST(Registry, ReadsWhatAMethodSaysOfItself) {
   const File file(midpoint);
   for (const std::string& text :
-       {std::string("hbvm:4,2"), std::string("hbvm:auto,3"), std::string("rattle"), std::string("compose:rattle,6"),
-        std::string("energy_momentum"), std::string("projected_hbvm:4,2"), std::string("restored_hbvm:3,3"),
-        std::string("rkf78"), std::string("bulirsch_stoer:12"), std::string("compose:hbvm:1,1,4"),
-        "tableau:" + file.path(), "tableau:" + file.path() + "+project"})
+       std::vector<std::string>{"hbvm:4,2", "hbvm:auto,3", "rattle", "compose:rattle,6", "energy_momentum",
+                                "projected_hbvm:4,2", "restored_hbvm:3,3", "rkf78", "bulirsch_stoer:12",
+                                "compose:hbvm:1,1,4", "tableau:" + file.path(), "tableau:" + file.path() + "+project"})
     EXPECT_EQ(parse_method(text)->text(), text);
 }
 
@@ -80,33 +80,22 @@ TEST(Registry, RefusesWhatThereIsNot) {
     }
     return "";
   };
-  for (const char* const text : {"",
-                                 "gauss",
-                                 "hbvm",
-                                 "hbvm:2,3",
-                                 "hbvm:2",
-                                 "rattle:2",
-                                 "compose",
-                                 "compose:rattle",
-                                 "compose:rattle,",
-                                 "compose:rattle,3",
-                                 "compose:rattle,0",
-                                 "compose:rattle,14",
-                                 "compose:rattle,4x",
-                                 "compose:hbvm:2,2,4",
-                                 "compose:gauss,4",
-                                 "compose:projected_hbvm:1,1,4",
-                                 "compose:rkf78,4",
-                                 "energy_momentum:2",
-                                 "projected_hbvm:2,3",
-                                 "restored_hbvm:auto,2",
-                                 "rkf78:8",
-                                 "bulirsch_stoer:0",
-                                 "tableau",
-                                 "tableau:",
-                                 "tableau:+project",
-                                 "tableau:no such file.toml"})
-    EXPECT_NE(refusal(text), "") << text;
+  struct Refused {
+    std::string family;
+    std::vector<const char*> arguments;
+  };
+  for (const auto& [family, arguments] :
+       {Refused{"", {""}}, Refused{"gauss", {""}}, Refused{"hbvm", {"", ":2,3", ":2"}}, Refused{"rattle", {":2"}},
+        Refused{"compose", {"", ":rattle", ":rattle,", ":rattle,3", ":rattle,0", ":rattle,14", ":rattle,4x"}},
+        Refused{"compose", {":hbvm:2,2,4", ":gauss,4", ":projected_hbvm:1,1,4", ":rkf78,4"}},
+        Refused{"energy_momentum", {":2"}}, Refused{"rkf78", {":8"}},
+        Refused{"lobatto", {"", ":", ":1", ":0", ":201", ":3x"}},
+        Refused{"bulirsch_stoer", {"", ":", ":0", ":-3", ":1001", ":1e-8", ":8x"}},
+        Refused{"tableau", {"", ":", ":+project", ":no such file.toml"}}})
+    for (const char* const more : arguments) EXPECT_NE(refusal(family + more), "") << family << more;
+  for (const std::string family : {"projected_hbvm", "restored_hbvm"})
+    for (const char* const arguments : {"", ":", ":2", ":2,3", ":0,0", ":2,2x", ":auto,2"})
+      EXPECT_NE(refusal(family + arguments).find(family), std::string::npos) << family << arguments;
   // In short: the names there are, or what it is called here.
   const std::string unknown = refusal("adams:2");
   for (const MethodFamily& family : method_families()) EXPECT_NE(unknown.find(family.name), std::string::npos);
@@ -116,36 +105,134 @@ TEST(Registry, RefusesWhatThereIsNot) {
   EXPECT_NE(refusal("rattel").find("did you mean 'rattle'?"), std::string::npos);
 }
 
-/// Each makes steppers for every number type, one after the other, that know nothing of each other.
-template <Scalar S>
-void expect_equal_steppers(const Method& method) {
+template <class S>
+class EveryMethod : public InDigits<50> {};
+TYPED_TEST_SUITE(EveryMethod, AllScalars, ScalarNames);
+
+constexpr const char* constrained_methods[] = {"hbvm:4,2",
+                                               "rattle",
+                                               "lobatto:3",
+                                               "compose:rattle,4",
+                                               "compose:hbvm:1,1,4",
+                                               "energy_momentum",
+                                               "projected_hbvm:4,2",
+                                               "restored_hbvm:4,2",
+                                               "rkf78",
+                                               "bulirsch_stoer:10"};
+
+/// Steppers that one maker makes know nothing of each other.
+TYPED_TEST(EveryMethod, MakesSteppersThatAreAlike) {
+  using S = TypeParam;
+  const File file(midpoint);
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
-  const StepperMaker<S> make = method.prepare(scene.problem, SolverKind::automatic);
-  std::optional<State<S>> first;
-  for (int n = 0; n < 2; ++n) {
-    State<S> state(scene.q0, scene.p0);
-    const std::unique_ptr<Stepper<S>> stepper = make();
-    for (int i = 0; i < 3; ++i) stepper->step(state, S(S(1) / 32));
-    EXPECT_EQ(stepper->multiplier().size(), 2);
-    if (first) {
-      EXPECT_EQ(state.q, first->q) << method.text();
-      EXPECT_EQ(state.p, first->p) << method.text();
-    }
-    first.emplace(state);
+  std::vector<std::string> methods(std::begin(constrained_methods), std::end(constrained_methods));
+  methods.push_back("tableau:" + file.path() + "+project");
+  for (const std::string& method : methods) {
+    const StepperMaker<S> make = parse_method(method)->prepare(scene.problem, SolverKind::automatic);
+    const auto one = make(), other = make();
+    const State<S> first = after<S>(*one, scene, S(1) / 32, 3), second = after<S>(*other, scene, S(1) / 32, 3);
+    EXPECT_EQ(one->multiplier().size(), 2) << method;
+    EXPECT_EQ(first.q, second.q) << method;
+    EXPECT_EQ(first.p, second.p) << method;
   }
 }
 
-TEST(Registry, MethodsMakeSteppers) {
-  const PrecisionScope digits(40);
+TYPED_TEST(EveryMethod, GoesOnFromWhatItRemembers) {
+  using S = TypeParam;
   const File file(midpoint);
-  for (const std::string& text :
-       {std::string("hbvm:4,2"), std::string("rattle"), std::string("compose:rattle,4"), std::string("energy_momentum"),
-        std::string("projected_hbvm:4,2"), std::string("restored_hbvm:4,2"), std::string("rkf78"),
-        std::string("bulirsch_stoer:8"), "tableau:" + file.path() + "+project"}) {
-    const MethodPtr method = parse_method(text);
-    expect_equal_steppers<double>(*method);
-    expect_equal_steppers<Quad>(*method);
-    expect_equal_steppers<Mpfr>(*method);
+  for (const char* const method : constrained_methods)
+    for (const char* const scene : {"tethered_satellites", "double_pendulum"}) expect_memory<S>(method, scene, "1/32");
+  expect_memory<S>("rattle", "tethered_satellites", "1/8");
+  expect_memory<S>("bulirsch_stoer:10", "tethered_satellites", "1");
+  expect_memory<S>("tableau:" + file.path(), "kepler", "1/16", SolverKind::automatic, 12);
+  expect_memory<S>("tableau:" + file.path() + "+project", "double_pendulum", "1/32");
+}
+
+/// g and the hidden constraints stay round-off in every step.
+TYPED_TEST(EveryMethod, ThatKeepsBothConstraintsEndsItsStepsOnThem) {
+  using S = TypeParam;
+  struct Case {
+    const char* method;
+    std::vector<const char*> scenes;
+    int steps_of_one, steps, g;  // in round-offs of g
+  };
+  for (const auto& [method, scenes, steps_of_one, steps, g] :
+       {Case{"projected_hbvm:4,2", {"tethered_satellites", "modified_pendulum", "heavy_top"}, 16, 20, 32},
+        Case{"restored_hbvm:4,2", {"tethered_satellites", "modified_pendulum", "heavy_top"}, 16, 20, 32},
+        Case{"lobatto:3", {"double_pendulum", "tethered_satellites", "charged_tetrahedron"}, 64, 16, 32},
+        Case{"compose:rattle,4", {"double_pendulum"}, 32, 16, 8},
+        Case{"rattle", {"tethered_satellites", "double_pendulum", "heavy_top", "bead_on_ellipsoid"}, 50, 100, 32}})
+    for (const char* const name : scenes) {
+      const Assembled<S> scene = assemble<S>(load_scene(name));
+      const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
+      State<S> state(scene.q0, scene.p0);
+      StateEvaluator<S> point(scene.problem);
+      EXPECT_TRUE(parse_method(method)->kept().hidden);
+      for (int n = 0; n < steps; ++n) {
+        stepper->step(state, S(S(1) / steps_of_one));
+        EXPECT_LE(max_norm(point.constraints(state.q)), g * epsilon<S>() * point.constraint_size(state.q))
+            << method << ", " << name << ", step " << n;
+        EXPECT_LE(max_norm(point.hidden_constraints(state.q, state.p)), 256 * epsilon<S>())
+            << method << ", " << name << ", step " << n;
+      }
+    }
+}
+
+/// It is symmetric: with the momentum turned it goes back to where it came from.
+TYPED_TEST(EveryMethod, ThatIsSymmetricComesBack) {
+  using S = TypeParam;
+  struct Case {
+    const char* method;
+    std::string scene;
+    int steps_of_one, steps, in_q, in_p;  // in epsilons
+  };
+  const std::string bead = scene_path("ellipsoid_bead");
+  for (const auto& [method, name, steps_of_one, steps, in_q, in_p] :
+       {Case{"energy_momentum", "tethered_satellites", 16, 16, 10'000, 10'000},
+        Case{"lobatto:3", "double_pendulum", 64, 16, 4'096, 65'536},
+        Case{"lobatto:3", "tethered_satellites", 64, 16, 4'096, 65'536},
+        Case{"lobatto:3", "charged_tetrahedron", 64, 16, 4'096, 65'536},
+        Case{"compose:rattle,4", "double_pendulum", 32, 16, 10'000, 100'000},
+        Case{"rattle", "double_pendulum", 50, 50, 100'000, 100'000}, Case{"hbvm:1,1", bead, 5, 4, 10'000, 10'000},
+        Case{"hbvm:4,1", bead, 5, 4, 10'000, 10'000}, Case{"hbvm:2,2", bead, 5, 4, 10'000, 10'000},
+        Case{"hbvm:5,3", bead, 5, 4, 10'000, 10'000}}) {
+    SCOPED_TRACE(method + (" on " + name));
+    const Assembled<S> scene = assemble<S>(load_scene(name));
+    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
+    State<S> state = after<S>(*stepper, scene, S(1) / steps_of_one, steps);
+    EXPECT_TRUE(parse_method(method)->kept().reversal);
+    EXPECT_GT(distance(state.q, scene.q0), S(1) / 20);
+    state.p = -state.p;
+    state.p_carry = -state.p_carry;
+    for (int n = 0; n < steps; ++n) stepper->step(state, S(S(1) / steps_of_one));
+    EXPECT_LE(distance(state.q, scene.q0), in_q * epsilon<S>());
+    EXPECT_LE(distance(state.p, Vector<S>(-scene.p0)), in_p * epsilon<S>());
+  }
+}
+
+/// Where a force is not finite, where nothing is found, or where directions are dependent; the next step can be made.
+TEST(EveryMethodThatFails, LeavesTheStateAndThenGoesOn) {
+  struct Case {
+    const char *method, *scene;
+    double size;  // 0: a step in the centre
+  };
+  for (const auto& [method, name, size] :
+       {Case{"rattle", "kepler", 0}, Case{"rkf78", "kepler", 0}, Case{"bulirsch_stoer:10", "kepler", 0},
+        Case{"projected_hbvm:4,2", "kepler", 0}, Case{"restored_hbvm:4,2", "kepler", 0},
+        Case{"energy_momentum", "double_pendulum", 100}, Case{"lobatto:3", "double_pendulum", 100},
+        Case{"rattle", "swinging_pendulum", 5}}) {
+    SCOPED_TRACE(method + (" on " + std::string(name)));
+    const Assembled<double> scene = assemble<double>(load_scene(name));
+    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
+    const double in_the_centre = size == 0 ? 0 : 1;
+    const State<double> start(scene.q0 * in_the_centre, scene.p0 * in_the_centre);
+    State<double> state = start;
+    EXPECT_THROW(stepper->step(state, size == 0 ? 1.0 / 8 : size), StageFailure);
+    EXPECT_EQ(state.q, start.q);
+    EXPECT_EQ(state.p, start.p);
+    State<double> next(scene.q0, scene.p0);
+    stepper->step(next, 1.0 / 128);
+    EXPECT_TRUE(next.q.allFinite() && next.q != scene.q0);
   }
 }
 

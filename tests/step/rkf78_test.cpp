@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/assemble.hpp"
 #include "step/odeint_methods.hpp"
 #include "step/registry.hpp"
@@ -16,7 +16,7 @@ TEST(Rkf78, HasOrder8) {
   const PrecisionScope digits(60);
   for (const char* const name : {"double_pendulum", "modified_pendulum", "kepler"}) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
-    Point<Mpfr> point(scene.problem);
+    StateEvaluator<Mpfr> point(scene.problem);
     const auto end = [&](const char* method, long steps) {
       const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
       State<Mpfr> state(scene.q0, scene.p0);
@@ -37,10 +37,7 @@ TEST(Rkf78, HasOrder8) {
 }
 
 template <class S>
-class Rkf78Test : public ::testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class Rkf78Test : public InDigits<50> {};
 TYPED_TEST_SUITE(Rkf78Test, AllScalars, ScalarNames);
 
 /// Short steps leave nothing but round-off, in every number type.
@@ -60,30 +57,6 @@ TYPED_TEST(Rkf78Test, IsRightToTheLastDigits) {
   EXPECT_LE(distance(state.q, exact.q), 64 * epsilon<S>());
 }
 
-TYPED_TEST(Rkf78Test, GoesOnFromWhatItRemembers) {
-  using S = TypeParam;
-  const Assembled<S> scene = assemble<S>(load_scene("tethered_satellites"));
-  const auto make = parse_method("rkf78")->prepare(scene.problem, SolverKind::automatic);
-  const auto whole = make(), part = make();
-  const S h = S(1) / 32;
-  State<S> state(scene.q0, scene.p0);
-  for (int n = 0; n < 5; ++n) whole->step(state, h);
-  Archive writing;
-  writing(*whole, state);
-  Archive reading(writing.text());
-  State<S> resumed = state;
-  reading(*part, resumed);
-  reading.expect_end();
-  for (int n = 0; n < 3; ++n) {
-    whole->step(state, h);
-    part->step(resumed, h);
-  }
-  EXPECT_EQ(resumed.q, state.q);
-  EXPECT_EQ(resumed.p_carry, state.p_carry);
-  EXPECT_EQ(part->multiplier(), whole->multiplier());
-  EXPECT_EQ(part->counts().effects[0].evaluations, whole->counts().effects[0].evaluations);
-}
-
 /// Thirteen a step: what ends a step begins the next.
 TEST(Rkf78, CountsItsEvaluations) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
@@ -91,16 +64,6 @@ TEST(Rkf78, CountsItsEvaluations) {
   State<double> state(scene.q0, scene.p0);
   for (int n = 0; n < 10; ++n) EXPECT_EQ(rkf->step(state, 0.05), 1);
   EXPECT_EQ(rkf->counts().effects[0].evaluations, 131U);
-}
-
-TEST(Rkf78, TakesNoArguments) { EXPECT_THROW(parse_method("rkf78:8"), InputError); }
-
-TEST(Rkf78, LeavesTheStateWhereForcesAreNone) {
-  const Assembled<double> scene = assemble<double>(load_scene("kepler"));
-  const auto rkf = parse_method("rkf78")->make_stepper(scene.problem, SolverKind::automatic);
-  State<double> centre(Vector<double>::Zero(2), Vector<double>::Zero(2));
-  EXPECT_THROW(rkf->step(centre, 0.1), StageFailure);
-  EXPECT_EQ(centre.q, (Vector<double>(Vector<double>::Zero(2))));
 }
 
 }  // namespace

@@ -1,28 +1,18 @@
 #include "study/expected_csv.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <unistd.h>
 
-#include <fstream>
-
-#include "hbvm/error.hpp"
+#include "folder.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
 using Cells = std::vector<std::string>;
 
-/// A file of this text, removed in the end.
 ExpectedCsv expected_of(const std::string& text) {
-  std::string path = (std::filesystem::temp_directory_path() / "hbvm_expected_XXXXXX").string();
-  close(mkstemp(path.data()));
-  std::ofstream(path) << text;
-  struct Removed {
-    const std::string& path;
-    ~Removed() { std::filesystem::remove(path); }
-  } removed{path};
-  return ExpectedCsv(path);
+  const Folder folder;
+  return ExpectedCsv(folder.write("expected.csv", text));
 }
 
 TEST(ExpectedCsvs, AreColumnsAndRows) {
@@ -37,14 +27,9 @@ TEST(ExpectedCsvs, AreColumnsAndRows) {
 
 TEST(ExpectedCsvs, RefuseRowsOfAnotherLength) {
   for (const char* const row : {"1,2", "1,2,3,4", "1,2,3,"}) {
-    try {
-      expected_of(std::string("# a,b,c\n1,2,3\n") + row + "\n");
-      ADD_FAILURE() << row;
-    } catch (const InputError& error) {
-      const std::string text = error.what();
-      EXPECT_NE(text.find("'" + std::string(row) + "'"), std::string::npos) << text;
-      EXPECT_NE(text.find("instead of 3"), std::string::npos) << text;
-    }
+    const std::string text = message_of([&] { expected_of(std::string("# a,b,c\n1,2,3\n") + row + "\n"); });
+    EXPECT_NE(text.find("'" + std::string(row) + "'"), std::string::npos) << text;
+    EXPECT_NE(text.find("instead of 3"), std::string::npos) << text;
   }
   EXPECT_THROW(expected_of("1,2\n"), InputError) << "no columns";
   EXPECT_EQ(expected_of("a,b\n1,2\n").columns, (Cells{"a", "b"})) << "with a # before them or without";

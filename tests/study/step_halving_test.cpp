@@ -121,7 +121,7 @@ TEST(StepHalving, KeepsTheNumbersOfARunExactly) {
     EXPECT_EQ(run.steps, 16);
     EXPECT_EQ(run.q.size(), 2u);
     EXPECT_EQ(run.lambda.size(), 1u);
-    const RunResult same = core::run({scene, request.method, SolverKind::fixed_point, Expression::parse("1/16"),
+    const hbvm::Run same = core::run({scene, request.method, SolverKind::fixed_point, Expression::parse("1/16"),
                                       request.until, Precision::parse(precision)},
                                      {});
     EXPECT_EQ(run.q, same.q) << precision;

@@ -1,17 +1,17 @@
 #include "study/study.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "csv_line.hpp"
+#include "folder.hpp"
 #include "hbvm/error.hpp"
 #include "processes/draw.hpp"
 #include "read_file.hpp"
 #include "scalar/text.hpp"
 #include "scene/scene.hpp"
+#include "write_file.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -21,14 +21,6 @@ namespace fs = std::filesystem;
 /// A copy of a study's folder, so that results do not land in the source tree.
 class StudyTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    root_ = fs::temp_directory_path() / (std::string("hbvm_study_") + test->name() + "_" + std::to_string(getpid()));
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   fs::path copy_of(const std::string& study) const {
     const fs::path target = root_ / study;
     fs::copy(fs::path(HBVM_SOURCE_DIR) / "studies" / study, target, fs::copy_options::recursive);
@@ -44,15 +36,15 @@ class StudyTest : public ::testing::Test {
   }
 
   static void replace(const fs::path& file, const std::string& from, const std::string& to) {
-    std::ifstream in(file);
-    std::string text((std::istreambuf_iterator<char>(in)), {});
+    std::string text = read_file(file);
     const auto at = text.find(from);
     ASSERT_NE(at, std::string::npos);
     text.replace(at, from.size(), to);
-    std::ofstream(file) << text;
+    write_file(file, text);
   }
 
-  fs::path root_;
+  Folder folder_;
+  const fs::path& root_ = folder_.path();
 };
 
 TEST_F(StudyTest, AllPrintedFiguresAgreeInDouble) {
@@ -139,15 +131,13 @@ TEST_F(StudyTest, AFigureThatWasNotComputedIsReported) {
 
 /// A bound of a long run is met or reported, from above and from below.
 TEST_F(StudyTest, AnExceededBoundIsReported) {
-  const fs::path folder = root_ / "long_run";
-  fs::create_directories(folder);
-  const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  const auto write = [&](const std::string& name, const std::string& text) { folder_.write("long_run/" + name, text); };
   write("study.toml",
         "title = \"Run\"\nkind = \"long_run\"\nscene = \"tethered_satellites\"\nstep = \"0.1\"\n"
         "run = [{ method = \"hbvm:1,1\", until = 10 }]\n");
   const auto complaints = [&](const std::string& bounds) {
     write("expected.csv", "k,s,until,e_H_min,e_H_max,e_g_max,only\n1,1,10," + bounds + "\n");
-    const StudyOutcome outcome = run(folder, "double");
+    const StudyOutcome outcome = run(root_ / "long_run", "double");
     EXPECT_EQ(outcome.stated - outcome.agreed, static_cast<long>(outcome.complaints.size())) << bounds;
     return outcome.complaints;
   };
@@ -162,15 +152,15 @@ TEST_F(StudyTest, AnExceededBoundIsReported) {
 /// HBVM(5,1) loses a little energy, which falls by 2^10 from row to row until round-off hides it: a few thousand units
 /// are still reported.
 TEST_F(StudyTest, AnErrorALittleAboveRoundOffIsReported) {
-  const fs::path folder = root_ / "near_round_off";
-  fs::create_directories(folder);
-  const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  const auto write = [&](const std::string& name, const std::string& text) {
+    folder_.write("near_round_off/" + name, text);
+  };
   write("study.toml",
         "title = \"Energy\"\nkind = \"step_halving\"\nscene = \"modified_pendulum\"\nstep = \"2^(-i)\"\n"
         "until = 5\ngroup = \"k\"\ncolumns = [\"e_g\", \"e_H\"]\ncompare_above = \"1e-12\"\n"
         "round_off = [\"e_g\", \"e_H\"]\nblock = [{ method = \"hbvm:5,1\", first = 3, last = 6 }]\n");
   write("expected.csv", "k,s,i,e_y\n5,1,3,\n5,1,4,\n5,1,5,\n5,1,6,\n");
-  const StudyOutcome outcome = run(folder, "mpfr:30");
+  const StudyOutcome outcome = run(root_ / "near_round_off", "mpfr:30");
   EXPECT_EQ(outcome.further, 8);
   EXPECT_EQ(outcome.further_agreed, 5);
   ASSERT_EQ(outcome.complaints.size(), 3u);

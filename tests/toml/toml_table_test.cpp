@@ -1,8 +1,8 @@
 #include "toml/toml_table.hpp"
 
-#include "hbvm/error.hpp"
 #include "printing.hpp"
 #include "scalar/literal.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -20,17 +20,6 @@ class Read {
  public:
   TomlTable table;
 };
-
-/// What it is refused with.
-template <class Read>
-std::string refused(const Read& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
-}
 
 TEST(TomlTables, GiveNumbersAsTheyStand) {
   Read read("\"\xC3\xA4\" = 1\na = 0.1000000000000000000000000000000001\nb = -1_000.5e-3\nc = \"sqrt(2)/2\"\nd = 7\n");
@@ -90,39 +79,39 @@ TEST(TomlTables, RefuseWithFileLineAndKey) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
   };
   TomlTable& t = read.table;
-  expect(refused([&] { t.string("a"); }), "1", "'a' must be a string");
-  expect(refused([&] { t.string("b"); }), "2", "'b' must not be empty");
-  expect(refused([&] { t.integer("b"); }), "2", "'b' must be a whole number");
-  expect(refused([&] { t.vector("v", 3); }), "3", "'v' has 2 entries instead of 3");
-  expect(refused([&] { t.vector("a", 3); }), "1", "'a' must be an array of 3 numbers");
-  expect(refused([&] { t.matrix("M", 2); }), "4", "row 2 of 'M' has 1 entries instead of 2");
-  expect(refused([&] { t.strings("n"); }), "5", "each entry of 'n'");
-  expect(refused([&] { t.number("bad"); }), "6", "'bad'");
-  expect(refused([&] { t.number("v"); }), "3", "must be a number");
-  expect(refused([&] { t.tables("t"); }), "7", "[[t]]");
-  expect(refused([&] { t.number("y"); }), "8", "'y' must be finite");
-  expect(refused([&] { t.number("absent"); }), "1", "the key 'absent' is missing");
+  expect(message_of([&] { t.string("a"); }), "1", "'a' must be a string");
+  expect(message_of([&] { t.string("b"); }), "2", "'b' must not be empty");
+  expect(message_of([&] { t.integer("b"); }), "2", "'b' must be a whole number");
+  expect(message_of([&] { t.vector("v", 3); }), "3", "'v' has 2 entries instead of 3");
+  expect(message_of([&] { t.vector("a", 3); }), "1", "'a' must be an array of 3 numbers");
+  expect(message_of([&] { t.matrix("M", 2); }), "4", "row 2 of 'M' has 1 entries instead of 2");
+  expect(message_of([&] { t.strings("n"); }), "5", "each entry of 'n'");
+  expect(message_of([&] { t.number("bad"); }), "6", "'bad'");
+  expect(message_of([&] { t.number("v"); }), "3", "must be a number");
+  expect(message_of([&] { t.tables("t"); }), "7", "[[t]]");
+  expect(message_of([&] { t.number("y"); }), "8", "'y' must be finite");
+  expect(message_of([&] { t.number("absent"); }), "1", "the key 'absent' is missing");
 }
 
 TEST(TomlTables, GuessWhatAMisspeltKeyWasMeantToBe) {
   Read misspelt("\nstifness = 1\n");
-  EXPECT_EQ(refused([&] { misspelt.table.number("stiffness"); }),
+  EXPECT_EQ(message_of([&] { misspelt.table.number("stiffness"); }),
             "file.toml:2: table 't': unknown key 'stifness': did you mean 'stiffness'?");
   Read more("a = 1\nlenght = 2\nzzz = 3\n");
   more.table.take("a");
   more.table.take("zzz");
-  EXPECT_NE(refused([&] { more.table.expect({"length"}); }).find("did you mean 'length'?"), std::string::npos);
+  EXPECT_NE(message_of([&] { more.table.expect({"length"}); }).find("did you mean 'length'?"), std::string::npos);
   Read odd("qwertz = 1\n");
-  EXPECT_EQ(refused([&] { odd.table.finish(); }), "file.toml:1: table 't': unknown key 'qwertz'");
+  EXPECT_EQ(message_of([&] { odd.table.finish(); }), "file.toml:1: table 't': unknown key 'qwertz'");
 }
 
 TEST(TomlSources, AreTextOfOneMarkAtMost) {
   const std::string mark = "\xEF\xBB\xBF";
   EXPECT_EQ(TomlSource(mark + "a = 1\n", "f").parse()["a"].value<int>(), 1);
-  EXPECT_EQ(refused([&] { TomlSource("a = 1\nb = '" + mark + "'\n", "f").parse(); }),
+  EXPECT_EQ(message_of([&] { TomlSource("a = 1\nb = '" + mark + "'\n", "f").parse(); }),
             "f:2: a byte order mark (U+FEFF) stands inside the file");
-  EXPECT_TRUE(refused([] { TomlSource("a = 1\nb = \n", "f").parse(); }).starts_with("f:2: "));
-  EXPECT_EQ(refused([] { TomlSource("", "f").fail(0, "two\nlines"); }), "f: two lines");
+  EXPECT_TRUE(message_of([] { TomlSource("a = 1\nb = \n", "f").parse(); }).starts_with("f:2: "));
+  EXPECT_EQ(message_of([] { TomlSource("", "f").fail(0, "two\nlines"); }), "f: two lines");
 }
 
 }  // namespace

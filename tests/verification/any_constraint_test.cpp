@@ -95,7 +95,7 @@ struct End {
 End end_of(const Assembled<Mpfr>& scene, const MethodPtr& method, int n) {
   const auto stepper = method->make_stepper(scene.problem, SolverKind::automatic);
   State<Mpfr> state(scene.q0, scene.p0);
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   End end;
   for (int i = 0; i < n; ++i) {
     stepper->step(state, Mpfr(1) / n);

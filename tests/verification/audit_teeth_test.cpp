@@ -3,7 +3,7 @@
 #include <random>
 
 #include "audit/audit.hpp"
-#include "audit/cell.hpp"
+#include "audit/claim_group.hpp"
 #include "step/hbvm_method.hpp"
 
 namespace hbvm::core {
@@ -214,10 +214,10 @@ TEST(Audit, TakesRoundOffOfDoubleForNoAnswer) {
 TEST(Audit, TakesTheReferencesErrorForNoAnswer) {
   const Rung lost{-3, -20, -18, true};
   EXPECT_FALSE(lost.is_clean());
-  Cell cell;
-  cell.claims.push_back(claim(Quantity::q, "kepler", {1, 1}, Span::interval, Form::at_least, 2));
-  EXPECT_FALSE(cell.is_lost({{Quantity::q, {lost}}}));
-  EXPECT_TRUE(cell.is_lost({{Quantity::q, {{-3, -20, -18}}}}));
+  ClaimGroup group;
+  group.claims.push_back(claim(Quantity::q, "kepler", {1, 1}, Span::interval, Form::at_least, 2));
+  EXPECT_FALSE(group.is_lost({{Quantity::q, {lost}}}));
+  EXPECT_TRUE(group.is_lost({{Quantity::q, {{-3, -20, -18}}}}));
 }
 
 TEST(Audit, KnowsWhatDoesNotExist) {

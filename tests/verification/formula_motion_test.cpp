@@ -5,7 +5,7 @@
 
 #include "hbvm/error.hpp"
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/binary_exponent.hpp"
 #include "scene/assemble.hpp"
 #include "scene/formula_scene.hpp"
@@ -149,7 +149,7 @@ TYPED_TEST(FormulaMotion, KeepsAPolynomialWithAsManyNodesAsItTakes) {
       if (r < s) continue;
       const auto stepper = HbvmMethod({s, s, r}).make_stepper(scene.problem, SolverKind::automatic);
       State<S> state(scene.q0, scene.p0);
-      Point<S> point(scene.problem);
+      StateEvaluator<S> point(scene.problem);
       S greatest = 0;
       for (long n = 0; n < steps; ++n) {
         stepper->step(state, S(S(s) / 16));
@@ -200,7 +200,7 @@ acceleration = [0, "1/3", -1]
     const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
     State<Mpfr> state(scene.q0, scene.p0);
     for (int n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / 2 / steps));
-    Point<Mpfr> point(scene.problem);
+    StateEvaluator<Mpfr> point(scene.problem);
     state.p = point.tangential(state.q, state.p);
     return state;
   };

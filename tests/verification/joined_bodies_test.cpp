@@ -203,7 +203,7 @@ class JoinedBodies : public ::testing::Test {
   static End by_hbvm(const Scene& scene, int s, const char* step) {
     SceneRun<Mpfr> run(scene, s, s, step, "1/2", SolverKind::newton);
     const Integration<Mpfr> result = run({});
-    Point<Mpfr> point(run.scene.problem);
+    StateEvaluator<Mpfr> point(run.scene.problem);
     const OutputState<Mpfr> output = output_state(point, result.end.q, result.end.p);
     End end{result.end.q, Vector<Mpfr>(result.end.q.size())};
     run.scene.problem.mass.velocity(lanes(output.p), lanes(end.v));

@@ -100,7 +100,7 @@ class DoublePendulumOrder : public ::testing::TestWithParam<int> {
   PrecisionScope digits{36};
   const Scene scene = load_scene(scene_path("double_pendulum"));
   const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
-  Point<Mpfr> point{assembled.problem};
+  StateEvaluator<Mpfr> point{assembled.problem};
 };
 
 TEST_P(DoublePendulumOrder, IsThatOfEachComponent) {

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <map>
 #include <regex>
 #include <set>
 
@@ -191,26 +190,11 @@ TEST(Prose, PagesHaveShortSentences) {
       ADD_FAILURE() << sentence;
 }
 
-/// How many longer sentences are left in comments, by room. A number here only falls.
-const std::map<std::string, std::size_t>& still_long() {
-  static const std::map<std::string, std::size_t> left{
-      {"src/audit", 33}, {"src/cli", 1}, {"src/cost", 18}, {"src/run", 18}, {"src/step", 36}};
-  return left;
-}
-
 TEST(Prose, CommentsHaveShortSentences) {
-  std::map<std::string, std::vector<std::string>> found;
   for (const char* root : {"src", "include", "tests"})
     for (const Source& source : sources_in(root))
       for (const std::string& sentence : too_long(passages_of_comments(source.text), words_in_a_comment, source.path))
-        found[root + ("/" + source.folder)].push_back(sentence);
-  for (const auto& [room, sentences] : found) {
-    const auto left = still_long().find(room);
-    const std::size_t most = left == still_long().end() ? 0 : left->second;
-    if (sentences.size() <= most) continue;
-    ADD_FAILURE() << room << " has " << sentences.size() << " sentences that are too long, and may have " << most;
-    for (const std::string& sentence : sentences) std::cerr << sentence << '\n';
-  }
+        ADD_FAILURE() << sentence;
 }
 
 /// Lines "| `room` | what is there |" of the table below that heading.

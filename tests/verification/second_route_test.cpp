@@ -20,7 +20,7 @@ class SecondRoute : public ::testing::Test {
     Drift<Mpfr> drift(run.scene.problem);
     const Integration<Mpfr> result = run({&drift});
     EXPECT_LE(drift.e_g(), 1'000 * epsilon<Mpfr>());
-    Point<Mpfr> point(run.scene.problem);
+    StateEvaluator<Mpfr> point(run.scene.problem);
     const OutputState<Mpfr> output = output_state(point, result.end.q, result.end.p);
     return {result.end.q, output.p, output.lambda};
   }

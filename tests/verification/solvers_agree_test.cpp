@@ -68,10 +68,7 @@ State<S> end_of(const Scene& text, int k, int s, SolverKind kind, int r = 0) {
 }
 
 template <class S>
-class SolversAgree : public ::testing::Test {
- protected:
-  PrecisionScope digits{45};
-};
+class SolversAgree : public InDigits<45> {};
 TYPED_TEST_SUITE(SolversAgree, AllScalars, ScalarNames);
 
 TYPED_TEST(SolversAgree, OnFiftyRandomScenesAndMethods) {

@@ -64,18 +64,16 @@ CaseResult against_more_digits(const std::string& name, F&& numbers) {
 
 }  // namespace
 
-void add_coefficients(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "nodes and tableaux", collection);
-  const std::vector<std::string> all{"double", "quad", "mpfr:50"};
+void add_coefficients(const Family& family) {
   for (const int n : {5, 100, 1000})
-    family.add("Gauss-Legendre nodes and weights", "n = " + std::to_string(n), all, holds(),
+    family.add("Gauss-Legendre nodes and weights", "n = " + std::to_string(n), all_precisions, holds(),
                [n](const std::string& precision) {
                  return against_more_digits(precision, [n]<Scalar S>() { return nodes_in<S>(n); });
                });
   std::vector<std::pair<int, int>> methods{{12, 12}, {60, 40}};
   if (family.full()) methods.insert(methods.end(), {{200, 200}, {1000, 100}});
   for (const auto& [k, s] : methods)
-    family.add("coefficients of HBVM(k,s)", HbvmName{k, s}.text(), all, holds(),
+    family.add("coefficients of HBVM(k,s)", HbvmName{k, s}.text(), all_precisions, holds(),
                [k = k, s = s](const std::string& precision) {
                  return against_more_digits(precision, [k, s]<Scalar S>() { return coefficients_in<S>(k, s); });
                });

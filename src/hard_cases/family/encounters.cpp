@@ -3,23 +3,21 @@
 
 namespace hbvm::core {
 
-void add_encounters(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "encounters", collection);
-  const std::vector<std::string> all{"double", "quad", "mpfr:50"};
-  const auto& some = family.precisions();
+void add_encounters(const Family& family) {
+  const std::vector<std::string> some = family.precisions();
   const std::string diverges = "stage_equations_diverge";
   // Where no number of nodes will do, the run must say so, or stop.
   const Expected honest{true, {diverges, "refused"}, {"energy_lost"}, {}};
   for (const std::string j : {"1", "2", "3"})
     family.add_run(
-        "pendulum past a charge", "distance 10^-" + j, j == "1" || family.full() ? all : some, honest,
+        "pendulum past a charge", "distance 10^-" + j, j == "1" ? all_precisions : some, honest,
         [j] { return charge_below("10^(-" + j + ")"); }, {"hbvm:auto,3", "auto", "1/64", "4"}, energy);
   for (const std::string e : {"0.9", "0.99", "0.999"})
     for (const bool pericentre : {true, false}) {
       const std::string start = pericentre ? " from the pericentre" : " from the apocentre";
       family.add_run(
-          "Kepler" + start, "e = " + e, family.full() ? all : some, honest,
-          [e, pericentre] { return kepler(e, pericentre); }, {"hbvm:auto,3", "auto", "2*pi/1024", "2*pi"}, energy);
+          "Kepler" + start, "e = " + e, some, honest, [e, pericentre] { return kepler(e, pericentre); },
+          {"hbvm:auto,3", "auto", "2*pi/1024", "2*pi"}, energy);
       if (!pericentre && e == "0.99")
         family.add_run(
             "Kepler" + start, "e = " + e, {"mpfr:50"}, honest, [e] { return kepler(e, false); },
@@ -30,7 +28,7 @@ void add_encounters(std::vector<HardCase>& cases, Collection collection) {
     }
   for (const std::string v : {"1e-1", "1e-3", "1e-6"})
     family.add_run(
-        "two bodies nearly collide", "velocity " + v, v == "1e-6" || family.full() ? all : some, honest,
+        "two bodies nearly collide", "velocity " + v, v == "1e-6" ? all_precisions : some, honest,
         [v] { return near_collision(v); }, {"hbvm:auto,3", "auto", "1/1024", "3"}, energy);
 }
 

@@ -10,8 +10,8 @@ namespace {
 CaseResult growth(const RunRequest& request) {
   RunRequest start = request;
   start.until = Expression::parse("20");
-  const auto e_hid = [](const RunResult& r) { return evaluate<double>(Expression::parse(r.e_hid)); };
-  const RunResult whole = run(request, {});
+  const auto e_hid = [](const Run& r) { return evaluate<double>(Expression::parse(r.e_hid)); };
+  const Run whole = run(request, {});
   const double factor = e_hid(whole) / e_hid(run(start, {}));
   const double time = evaluate<double>(request.until) / evaluate<double>(start.until);
   CaseResult result;
@@ -24,15 +24,12 @@ CaseResult growth(const RunRequest& request) {
 
 }  // namespace
 
-void add_hidden(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "hidden constraint by parity of s", collection);
+void add_hidden(const Family& family) {
   for (int s = 1; s <= 4; ++s) {
     Expected expected = holds();
     if (s % 2 == 0) expected.warning = "even_s_drift";
     family.add_run(
-        "heavy_top", fmt::format("s = {}", s),
-        family.full() ? std::vector<std::string>{"double", "quad", "mpfr:50"} : family.precisions(), expected,
-        [] { return load_scene("heavy_top"); },
+        "heavy_top", fmt::format("s = {}", s), family.precisions(), expected, [] { return load_scene("heavy_top"); },
         {fmt::format("hbvm:{},{}", s, s), "auto", "1/10", family.full() ? "1280" : "640"}, growth);
   }
 }

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "hard_cases/family.hpp"
-#include "hard_cases/walk.hpp"
+#include "hard_cases/round_off_growth.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -22,8 +22,7 @@ struct LongRun {
 
 }  // namespace
 
-void add_long_runs(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "long runs", collection);
+void add_long_runs(const Family& family) {
   constexpr long most = 10'000'000, many = 1'000'000, some = 50'000;
   const Methods kepler{"hbvm:12,4", "hbvm:12,4", "hbvm:20,4"}, satellites{"hbvm:5,3", "hbvm:10,3", "hbvm:14,3"};
   std::vector<LongRun> runs;

@@ -28,10 +28,9 @@ CaseResult claims_hold(const std::string& strength, const std::string& precision
 
 }  // namespace
 
-void add_momenta(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "momenta under weak forces", collection);
+void add_momenta(const Family& family) {
   for (const std::string g : {"0", "1e-6", "1e-9", "1e-11", "1e-13", "1e-16", "1e-30"})
-    family.add("spring and a weak gravity", "strength " + g, {"double", "quad", "mpfr:50"}, holds(),
+    family.add("spring and a weak gravity", "strength " + g, all_precisions, holds(),
                [g](const std::string& precision) { return guarded([&] { return claims_hold(g, precision); }); });
 }
 

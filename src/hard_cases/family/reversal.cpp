@@ -4,9 +4,7 @@
 
 namespace hbvm::core {
 
-void add_reversal(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "there and back", collection);
-  const std::vector<std::string> all{"double", "quad", "mpfr:50"};
+void add_reversal(const Family& family) {
   std::vector<std::array<std::string, 4>> runs{{"kepler", "hbvm:12,4", "1/32", "2"},
                                                {"double_pendulum", "hbvm:3,3", "1/32", "1"},
                                                {"heavy_top", "hbvm:3,3", "1/32", "1"},
@@ -20,8 +18,8 @@ void add_reversal(std::vector<HardCase>& cases, Collection collection) {
   for (const auto& [scene, method, step, until] : runs)
     for (const std::string solver : {"auto", "newton"})
       family.add_run(
-          scene, "until " + until, all, holds(), [s = scene] { return load_scene(s); }, {method, solver, step, until},
-          reversal);
+          scene, "until " + until, all_precisions, holds(), [s = scene] { return load_scene(s); },
+          {method, solver, step, until}, reversal);
 }
 
 }  // namespace hbvm::core

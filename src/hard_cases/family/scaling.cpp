@@ -43,15 +43,13 @@ CaseResult bit_for_bit(const Powers& powers, const std::string& solver, const st
 
 }  // namespace
 
-void add_scaling(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "scaling by powers of two", collection);
-  const std::vector<std::string> all{"double", "quad", "mpfr:50"};
+void add_scaling(const Family& family) {
   for (const Powers& powers :
        {Powers{-33, 0, 0}, Powers{0, 40, 0}, Powers{0, 0, -20}, Powers{10, -30, 7}, Powers{0, -1100, 0}})
     for (const std::string solver : {"auto", "newton", "fixed-point", "paper"}) {
       if (!family.full() && solver == "paper") continue;
       const bool tiny = powers[1] < -1000;
-      for (const std::string& precision : all) {
+      for (const std::string& precision : all_precisions) {
         // Double has no such masses.
         const Expected expected = tiny && precision == "double" ? Expected{false, {"refused"}, {}, {}} : holds();
         // Newton's iteration looks for its start in double, which then does not hold the masses: the digits are right,

@@ -2,7 +2,7 @@
 
 #include "hard_cases/family.hpp"
 #include "hard_cases/scenes.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
@@ -18,7 +18,7 @@ CaseResult on_the_right_root(const RunRequest& request) {
   if (!result.failure.empty()) return result;
   const double e_H = evaluate<double>(Expression::parse(run(request, {}).e_H));
   const Assembled<double> scene = assemble<double>(request.scene);
-  const double size = Point<double>(scene.problem).energy_size(scene.q0, scene.p0);
+  const double size = StateEvaluator<double>(scene.problem).energy_size(scene.q0, scene.p0);
   double stiffness = 0;
   for (const SceneEffect& effect : request.scene.effects)
     if (effect.kind == "spring") stiffness = evaluate<double>(effect.numbers.at("stiffness"));
@@ -29,9 +29,7 @@ CaseResult on_the_right_root(const RunRequest& request) {
 
 }  // namespace
 
-void add_stiffness(std::vector<HardCase>& cases, Collection collection) {
-  const Family family(cases, "stiff springs", collection);
-  const std::vector<std::string> all{"double", "quad", "mpfr:50"};
+void add_stiffness(const Family& family) {
   // Sweeps have a limit, which is reached in seconds.
   const double seconds = family.full() ? 30 : 5;
   const Expected either = holds_or({"stage_equations_diverge"});
@@ -39,7 +37,7 @@ void add_stiffness(std::vector<HardCase>& cases, Collection collection) {
     for (int i = 3; i <= 9; ++i) {
       if (!family.full() && i % 3 != 0) continue;
       family.add_run(
-          "body on a spring", "stiffness " + k, all, either, [k] { return spring_pendulum(k); },
+          "body on a spring", "stiffness " + k, all_precisions, either, [k] { return spring_pendulum(k); },
           {"hbvm:2,2", "auto", fmt::format("2^(-{})", i), i == 3 ? "1" : "1/4"}, on_the_right_root, seconds);
     }
   for (const std::string solver : {"auto", "newton", "fixed-point"})
@@ -47,14 +45,14 @@ void add_stiffness(std::vector<HardCase>& cases, Collection collection) {
         "body on a spring", "stiffness 1e8", {"mpfr:50"}, either, [] { return spring_pendulum("1e8"); },
         {"hbvm:6,2", solver, "1/8", "1"}, on_the_right_root, seconds);
   family.add_run(
-      "spring on a pendulum", "stiffness 1e8", all, either, [] { return pendulum_with_spring("1e8"); },
+      "spring on a pendulum", "stiffness 1e8", all_precisions, either, [] { return pendulum_with_spring("1e8"); },
       {"hbvm:1,1", "auto", "1/32", "1"}, on_the_right_root, seconds);
   // Gauss methods are unconditionally stable: omega h from 1 to 1000.
   for (const std::string omega : {"1", "10", "100", "1000"})
     for (const std::string method : {"hbvm:1,1", "hbvm:3,3"})
       for (const std::string solver : {"auto", "newton"}) {
         if (!family.full() && omega != "1000") continue;
-        family.add_run("linear oscillator", "omega h = " + omega, all, holds(),
+        family.add_run("linear oscillator", "omega h = " + omega, all_precisions, holds(),
                        [omega] { return oscillator(omega + "^2"); }, {method, solver, "1", "64"});
       }
 }

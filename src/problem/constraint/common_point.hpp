@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "problem/constraint/gradient_shares.hpp"
+#include "problem/constraint/input.hpp"
 #include "problem/constraint/parts.hpp"
-#include "problem/constraint/use.hpp"
 #include "problem/constraint/value.hpp"
 
 namespace hbvm::core {
@@ -22,8 +22,8 @@ struct CommonPoint {
 
   static constexpr std::string_view kind = "ball_joint";
   static constexpr std::array<ConstraintKey, 1> keys{{{"between", ConstraintKey::Takes::pair}}};
-  static ConstraintParts<CommonPoint> from(const ConstraintUse<S>& use) {
-    return of(use.pair("between"), use.dimension);
+  static ConstraintParts<CommonPoint> from(const ConstraintInput<S>& input) {
+    return of(input.pair("between"), input.dimension);
   }
   /// All components.
   static ConstraintParts<CommonPoint> of(const Displacement<S>& x, Index dimension) {

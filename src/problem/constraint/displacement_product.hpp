@@ -3,7 +3,7 @@
 #include <array>
 
 #include "problem/constraint/gradient_shares.hpp"
-#include "problem/constraint/use.hpp"
+#include "problem/constraint/input.hpp"
 #include "problem/constraint/value.hpp"
 
 namespace hbvm::core {
@@ -18,8 +18,8 @@ struct DisplacementProduct {
   static constexpr std::array<ConstraintKey, 3> keys{{{"first", ConstraintKey::Takes::pair},
                                                       {"second", ConstraintKey::Takes::pair},
                                                       {"value", ConstraintKey::Takes::number}}};
-  static DisplacementProduct from(const ConstraintUse<S>& use) {
-    return {use.pair("first"), use.pair("second"), use.number("value")};
+  static DisplacementProduct from(const ConstraintInput<S>& input) {
+    return {input.pair("first"), input.pair("second"), input.number("value")};
   }
 
   std::set<Index> coordinates(Index dimension) const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "problem/constraint/gradient_target.hpp"
-#include "problem/constraint/use.hpp"
+#include "problem/constraint/input.hpp"
 #include "problem/constraint/value.hpp"
 
 namespace hbvm::core {
@@ -13,7 +13,7 @@ namespace hbvm::core {
 /// What a form of g says of itself, all of it: a constraint at most quadratic in q.
 ///
 ///     kind, keys          as a scene names it, and its keys besides
-///     from(use)           made of the values of the keys, of one form or as ConstraintParts; \throws InputError
+///     from(input)         made of the values of the keys, of one form or as ConstraintParts; \throws InputError
 ///     coordinates(d)      those that g depends on
 ///     value(d, q)         g with the size of its terms
 ///     gradient_size(d, r) an upper bound of the sum of the magnitudes in grad g where max |q_i| = r
@@ -25,12 +25,13 @@ namespace hbvm::core {
 ///     Gradient            evaluates grad g, and g, in lanes: begin writes what is constant, update what is not; it may
 ///                         have is_opposite(), if the second half of the columns can be the negatives of the first
 template <class F, class S>
-concept ConstraintForm = requires(const F& form, Index d, const Vector<S>& q, const S& r, const ConstraintUse<S>& use,
-                                  void (*add)(Index, Index, const S&), Lanes<const S> lanes,
-                                  const GradientTarget<S>& target, typename F::Gradient& gradient) {
+concept ConstraintForm = requires(const F& form, Index d, const Vector<S>& q, const S& r,
+                                  const ConstraintInput<S>& input, void (*add)(Index, Index, const S&),
+                                  Lanes<const S> lanes, const GradientTarget<S>& target,
+                                  typename F::Gradient& gradient) {
   { F::kind } -> std::convertible_to<std::string_view>;
   { *F::keys.begin() } -> std::convertible_to<ConstraintKey>;
-  F::from(use);
+  F::from(input);
   { form.coordinates(d) } -> std::same_as<std::set<Index>>;
   { form.value(d, q) } -> std::same_as<ConstraintValue<S>>;
   { form.gradient_size(d, r) } -> std::same_as<S>;

@@ -21,11 +21,11 @@ struct Hinge {
                                                       {"second_axis", ConstraintKey::Takes::vector, true}}};
   static constexpr bool in_space_only = true;
 
-  static ConstraintParts<CommonPoint<S>, DisplacementProduct<S>> from(const ConstraintUse<S>& use) {
-    const auto& [first, second] = use.frames.find("between")->second;
-    const Displacement<S>& x = use.pair("between");
-    const Vector<S> axis = unit(use.vector("axis"), "axis");
-    const Vector<S> n = use.has_vector("second_axis") ? unit(use.vector("second_axis"), "second_axis") : axis;
+  static ConstraintParts<CommonPoint<S>, DisplacementProduct<S>> from(const ConstraintInput<S>& input) {
+    const auto& [first, second] = input.frames.find("between")->second;
+    const Displacement<S>& x = input.pair("between");
+    const Vector<S> axis = unit(input.vector("axis"), "axis");
+    const Vector<S> n = input.has_vector("second_axis") ? unit(input.vector("second_axis"), "second_axis") : axis;
     ConstraintParts<CommonPoint<S>, DisplacementProduct<S>> parts;
     if (!x.blocks.empty())
       for (auto& [name, form] : CommonPoint<S>::of(x, 3)) parts.push_back({name, std::get<0>(form)});

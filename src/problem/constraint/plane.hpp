@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "problem/constraint/gradient_target.hpp"
-#include "problem/constraint/use.hpp"
+#include "problem/constraint/input.hpp"
 #include "problem/constraint/value.hpp"
 
 namespace hbvm::core {
@@ -22,8 +22,8 @@ struct Plane {
   static constexpr std::array<ConstraintKey, 3> keys{{{"body", ConstraintKey::Takes::body},
                                                       {"normal", ConstraintKey::Takes::vector},
                                                       {"offset", ConstraintKey::Takes::number}}};
-  static Plane from(const ConstraintUse<S>& use) {
-    return of(use.body("body"), use.vector("normal"), use.number("offset"));
+  static Plane from(const ConstraintInput<S>& input) {
+    return of(input.body("body"), input.vector("normal"), input.number("offset"));
   }
   /// n.x - offset, in the coordinates that x is made of.
   static Plane of(const Displacement<S>& x, const Vector<S>& n, const S& offset) {

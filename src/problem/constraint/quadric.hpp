@@ -21,11 +21,11 @@ struct Quadric {
                                                       {"b", ConstraintKey::Takes::vector},
                                                       {"c", ConstraintKey::Takes::number}}};
   /// Without A it is a plane, and treated so.
-  static std::variant<Quadric, Plane<S>> from(const ConstraintUse<S>& use) {
-    const Matrix<S>& A = use.matrix("A");
-    const Displacement<S>& x = use.body("body");
-    if (A == Matrix<S>::Zero(A.rows(), A.cols())) return Plane<S>::of(x, use.vector("b"), S(-use.number("c")));
-    return of(x, A, use.vector("b"), use.number("c"));
+  static std::variant<Quadric, Plane<S>> from(const ConstraintInput<S>& input) {
+    const Matrix<S>& A = input.matrix("A");
+    const Displacement<S>& x = input.body("body");
+    if (A == Matrix<S>::Zero(A.rows(), A.cols())) return Plane<S>::of(x, input.vector("b"), S(-input.number("c")));
+    return of(x, A, input.vector("b"), input.number("c"));
   }
   /// x^T A x + b^T x + c of a sum x of blocks, in the coordinates that it is made of.
   static Quadric of(const Displacement<S>& x, const Matrix<S>& A, const Vector<S>& b, const S& c) {

@@ -5,7 +5,7 @@
 #include "hbvm/error.hpp"
 #include "linear/constant_count.hpp"
 #include "problem/constraint/gradient_shares.hpp"
-#include "problem/constraint/use.hpp"
+#include "problem/constraint/input.hpp"
 #include "problem/constraint/value.hpp"
 
 namespace hbvm::core {
@@ -20,10 +20,10 @@ struct Rod {
   static constexpr std::string_view kind = "rod";
   static constexpr std::array<ConstraintKey, 2> keys{
       {{"between", ConstraintKey::Takes::pair}, {"length", ConstraintKey::Takes::number}}};
-  static Rod from(const ConstraintUse<S>& use) {
-    const S& length = use.number("length");
+  static Rod from(const ConstraintInput<S>& input) {
+    const S& length = input.number("length");
     if (!(length > 0)) throw InputError("the length of a rod must be positive");
-    return {use.pair("between"), S(length * length)};
+    return {input.pair("between"), S(length * length)};
   }
 
   std::set<Index> coordinates(Index dimension) const { return hbvm::core::coordinates(x, dimension); }

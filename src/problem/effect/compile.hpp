@@ -12,10 +12,4 @@ template <Scalar S>
 void compile(Trace<S>& trace, typename Trace<S>::Id U, std::size_t inputs, std::size_t parameters,
              const std::vector<std::vector<S>>& values, EffectTerm<S>& term);
 
-#define HBVM_DECLARE(S)                                                                       \
-  extern template void compile<S>(Trace<S>&, typename Trace<S>::Id, std::size_t, std::size_t, \
-                                  const std::vector<std::vector<S>>&, EffectTerm<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

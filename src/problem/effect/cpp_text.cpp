@@ -38,21 +38,7 @@ class Printer {
 
  private:
   /// Whether it is a function of the library, which the compiler does not do in several lanes at a time.
-  static bool is_call(Op op) {
-    switch (op) {
-      case Op::add:
-      case Op::subtract:
-      case Op::multiply:
-      case Op::negate:
-      case Op::sign:
-      case Op::reciprocal:
-      case Op::abs:
-      case Op::sqrt:
-        return false;
-      default:
-        return true;
-    }
-  }
+  static bool is_call(Op op) { return op > Op::sqrt; }
 
   std::string statement(const Instruction& i) const { return fmt::format("t{} = {};\n", i.result, operation(i)); }
   std::string outputs() const {
@@ -129,24 +115,10 @@ class Printer {
         return fmt::format("{0} > 0 ? 1 : {0} < 0 ? -1 : 0", a);
       case Op::reciprocal:
         return "1 / " + a;
-      case Op::abs:
-      case Op::sqrt:
-      case Op::sin:
-      case Op::cos:
-      case Op::exp:
-      case Op::log:
-      case Op::sinh:
-      case Op::cosh:
-      case Op::tanh:
-      case Op::atan:
-        break;
-      case Op::sinc:
-      case Op::sinhc:
-      case Op::atanhc:
-      case Op::atanc:
-        throw Error(std::string("no kernel is printed of ") + name_of(i.op));
+      default:
+        if (i.op >= Op::sinc) throw Error(std::string("no kernel is printed of ") + name_of(i.op));
+        return fmt::format("std::{}({})", name_of(i.op), a);
     }
-    return fmt::format("std::{}({})", name_of(i.op), a);
   }
 
   const Program<double>& program_;

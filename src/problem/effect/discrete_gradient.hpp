@@ -25,8 +25,4 @@ struct DiscreteGradient {
 template <Scalar S>
 DiscreteGradient<S> discrete_gradient(const EffectTerm<S>& term, Index inputs);
 
-#define HBVM_DECLARE(S) extern template DiscreteGradient<S> discrete_gradient<S>(const EffectTerm<S>&, Index);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

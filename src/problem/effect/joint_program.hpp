@@ -25,8 +25,4 @@ struct JointProgram {
 template <Scalar S>
 JointProgram<S> join(const std::vector<JointPart<S>>& parts, std::size_t inputs);
 
-#define HBVM_DECLARE(S) extern template JointProgram<S> join<S>(const std::vector<JointPart<S>>&, std::size_t);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -11,142 +11,107 @@ namespace hbvm::core {
 
 namespace {
 
-/// r = f(a)/a, whose limit at 0 is 1.
-template <Scalar S, class F>
-void set_ratio(S& r, const S& a, F f) {
-  if (a == 0)
-    r = 1;
-  else
-    r = f(a) / a;
-}
-template <class F>
-void set_ratio(Mpfr& r, const Mpfr& a, F f) {
-  if (mpfr_zero_p(raw(a)) != 0) {
-    mpfr_set_ui(raw(r), 1, MPFR_RNDN);
-    return;
+/// r = op(a), of one operand. f(a)/a has the limit 1 at 0.
+void apply(Op op, Mpfr& r, const Mpfr& a) {
+  const auto set = [&](auto f) { f(raw(r), raw(a), MPFR_RNDN); };
+  const auto set_ratio = [&](auto f) {
+    if (mpfr_zero_p(raw(a)) != 0) {
+      mpfr_set_ui(raw(r), 1, MPFR_RNDN);
+      return;
+    }
+    // r may be a.
+    Mpfr& value = scratch<Mpfr>();
+    f(raw(value), raw(a), MPFR_RNDN);
+    mpfr_div(raw(r), raw(value), raw(a), MPFR_RNDN);
+  };
+  switch (op) {
+    case Op::negate:
+      return set(mpfr_neg);
+    case Op::abs:
+      return set(mpfr_abs);
+    case Op::sign:
+      mpfr_set_si(raw(r), mpfr_sgn(raw(a)), MPFR_RNDN);
+      return;
+    case Op::reciprocal:
+      mpfr_ui_div(raw(r), 1, raw(a), MPFR_RNDN);
+      return;
+    case Op::sqrt:
+      return set(mpfr_sqrt);
+    case Op::sin:
+      return set(set_sin);
+    case Op::cos:
+      return set(set_cos);
+    case Op::exp:
+      return set(mpfr_exp);
+    case Op::log:
+      return set(mpfr_log);
+    case Op::sinh:
+      return set(mpfr_sinh);
+    case Op::cosh:
+      return set(mpfr_cosh);
+    case Op::tanh:
+      return set(mpfr_tanh);
+    case Op::atan:
+      return set(mpfr_atan);
+    case Op::sinc:
+      return set_ratio(set_sin);
+    case Op::sinhc:
+      return set_ratio(mpfr_sinh);
+    case Op::atanhc:
+      return set_ratio(mpfr_atanh);
+    case Op::atanc:
+      return set_ratio(mpfr_atan);
+    default:
+      return;
   }
-  // r may be a.
-  Mpfr& value = scratch<Mpfr>();
-  f(raw(value), raw(a), MPFR_RNDN);
-  mpfr_div(raw(r), raw(value), raw(a), MPFR_RNDN);
 }
 
 template <Scalar S>
-void apply(Op op, S& r, const S& a) {
-  if constexpr (std::same_as<S, Mpfr>) {
-    switch (op) {
-      case Op::negate:
-        mpfr_neg(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::abs:
-        mpfr_abs(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::sign:
-        mpfr_set_si(raw(r), mpfr_sgn(raw(a)), MPFR_RNDN);
-        break;
-      case Op::reciprocal:
-        mpfr_ui_div(raw(r), 1, raw(a), MPFR_RNDN);
-        break;
-      case Op::sqrt:
-        mpfr_sqrt(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::sin:
-        set_sin(raw(r), raw(a));
-        break;
-      case Op::cos:
-        set_cos(raw(r), raw(a));
-        break;
-      case Op::exp:
-        mpfr_exp(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::log:
-        mpfr_log(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::sinh:
-        mpfr_sinh(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::cosh:
-        mpfr_cosh(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::tanh:
-        mpfr_tanh(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::atan:
-        mpfr_atan(raw(r), raw(a), MPFR_RNDN);
-        break;
-      case Op::sinc:
-        set_ratio(r, a, set_sin);
-        break;
-      case Op::sinhc:
-        set_ratio(r, a, mpfr_sinh);
-        break;
-      case Op::atanhc:
-        set_ratio(r, a, mpfr_atanh);
-        break;
-      case Op::atanc:
-        set_ratio(r, a, mpfr_atan);
-        break;
-      default:
-        break;
-    }
-  } else {
-    using std::atan, std::atanh, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
-    switch (op) {
-      case Op::negate:
-        r = -a;
-        break;
-      case Op::abs:
-        r = magnitude(a);
-        break;
-      case Op::sign:
-        r = a > 0 ? 1 : a < 0 ? -1 : 0;
-        break;
-      case Op::reciprocal:
-        r = 1 / a;
-        break;
-      case Op::sqrt:
-        r = sqrt(a);
-        break;
-      case Op::sin:
-        r = sin(a);
-        break;
-      case Op::cos:
-        r = cos(a);
-        break;
-      case Op::exp:
-        r = exp(a);
-        break;
-      case Op::log:
-        r = log(a);
-        break;
-      case Op::sinh:
-        r = sinh(a);
-        break;
-      case Op::cosh:
-        r = cosh(a);
-        break;
-      case Op::tanh:
-        r = tanh(a);
-        break;
-      case Op::atan:
-        r = atan(a);
-        break;
-      case Op::sinc:
-        set_ratio(r, a, [](const S& x) { return S(sin(x)); });
-        break;
-      case Op::sinhc:
-        set_ratio(r, a, [](const S& x) { return S(sinh(x)); });
-        break;
-      case Op::atanhc:
-        set_ratio(r, a, [](const S& x) { return S(atanh(x)); });
-        break;
-      case Op::atanc:
-        set_ratio(r, a, [](const S& x) { return S(atan(x)); });
-        break;
-      default:
-        break;
-    }
+S value(Op op, const S& a) {
+  using std::atan, std::atanh, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
+  const auto ratio = [&](const S& f) { return a == 0 ? S(1) : S(f / a); };
+  switch (op) {
+    case Op::negate:
+      return -a;
+    case Op::abs:
+      return magnitude(a);
+    case Op::sign:
+      return a > 0 ? 1 : a < 0 ? -1 : 0;
+    case Op::reciprocal:
+      return 1 / a;
+    case Op::sqrt:
+      return sqrt(a);
+    case Op::sin:
+      return sin(a);
+    case Op::cos:
+      return cos(a);
+    case Op::exp:
+      return exp(a);
+    case Op::log:
+      return log(a);
+    case Op::sinh:
+      return sinh(a);
+    case Op::cosh:
+      return cosh(a);
+    case Op::tanh:
+      return tanh(a);
+    case Op::atan:
+      return atan(a);
+    case Op::sinc:
+      return ratio(sin(a));
+    case Op::sinhc:
+      return ratio(sinh(a));
+    case Op::atanhc:
+      return ratio(atanh(a));
+    case Op::atanc:
+      return ratio(atan(a));
+    default:
+      return a;
   }
+}
+template <Scalar S>
+void apply(Op op, S& r, const S& a) {
+  r = value(op, a);
 }
 
 /// |dz/da| of z = op(a).
@@ -203,6 +168,21 @@ void binary(Index lanes, S* r, const S* a, bool a_constant, const S* b, bool b_c
     for (Index i = 0; i < lanes; ++i) f(r[i], a[i], b[i]);
 }
 
+/// The numbers of an operand, one for each lane or a constant for all.
+template <Scalar S>
+const S* address(const Operand& x, const std::vector<S>& constants, const Matrix<S>& registers,
+                 const std::vector<const S*>& inputs) {
+  switch (x.bank) {
+    case Bank::input:
+      return inputs[x.index];
+    case Bank::constant:
+      return &constants[x.index];
+    case Bank::temporary:
+      break;
+  }
+  return registers.data() + registers.rows() * x.index;
+}
+
 }  // namespace
 
 std::uint32_t reuse_registers(std::vector<Instruction>& code, std::vector<Operand>& outputs) {
@@ -251,21 +231,10 @@ template <Scalar S>
 void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs, std::size_t first,
                      std::size_t end) const {
   const Index lanes = registers.rows();
-  const auto address = [&](const Operand& x) -> const S* {
-    switch (x.bank) {
-      case Bank::input:
-        return inputs[x.index];
-      case Bank::constant:
-        return &constants_[x.index];
-      case Bank::temporary:
-        break;
-    }
-    return registers.data() + lanes * x.index;
-  };
   for (std::size_t n = first; n < end; ++n) {
     const Instruction& i = instructions_[n];
     S* const r = registers.data() + lanes * i.result;
-    const S* const a = address(i.a);
+    const S* const a = address(i.a, constants_, registers, inputs);
     if (!is_binary(i.op)) {
       if (i.op == Op::reciprocal) {
         for (Index lane = 0; lane < lanes; ++lane) apply(Op::reciprocal, r[lane], a[lane]);
@@ -276,7 +245,7 @@ void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs, 
       }
       continue;
     }
-    const S* const b = address(i.b);
+    const S* const b = address(i.b, constants_, registers, inputs);
     const bool a_constant = i.a.bank == Bank::constant, b_constant = i.b.bank == Bank::constant;
     // Lambdas rather than function pointers: the loops over lanes are then inlined and vectorised.
     switch (i.op) {
@@ -296,16 +265,8 @@ void Program<S>::run(Matrix<S>& registers, const std::vector<const S*>& inputs, 
 template <Scalar S>
 const S& Program<S>::output(std::size_t i, Index lane, const Matrix<S>& registers,
                             const std::vector<const S*>& inputs) const {
-  const Operand& x = outputs_[i];
-  switch (x.bank) {
-    case Bank::input:
-      return inputs[x.index][lane];
-    case Bank::constant:
-      return constants_[x.index];
-    case Bank::temporary:
-      break;
-  }
-  return registers.data()[registers.rows() * x.index + lane];
+  const S* const lanes = address(outputs_[i], constants_, registers, inputs);
+  return is_constant(i) ? *lanes : lanes[lane];
 }
 
 template <Scalar S>

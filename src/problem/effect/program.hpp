@@ -73,8 +73,4 @@ class Program {
   std::uint32_t temporaries_ = 0;
 };
 
-#define HBVM_DECLARE(S) extern template class Program<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

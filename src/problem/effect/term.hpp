@@ -52,8 +52,4 @@ void displace(const EffectTerm<S>& term, Index dimension, Lanes<const S> q, S* o
 template <Scalar S>
 EffectTerm<double> in_double(const EffectTerm<S>& term);
 
-#define HBVM_DECLARE(S) extern template EffectTerm<double> in_double<S>(const EffectTerm<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -1,7 +1,6 @@
 #include "problem/effect/trace.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -88,35 +87,10 @@ typename Trace<S>::Id Trace<S>::multiply(Id a, Id b) {
 
 template <Scalar S>
 typename Trace<S>::Id Trace<S>::apply(Op function, Id a) {
-  using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
   if (is_constant(a)) {
-    const S x = nodes_[a].value;
-    switch (function) {
-      case Op::abs:
-        return constant(magnitude(x));
-      case Op::reciprocal:
-        return constant(S(1 / x));
-      case Op::sqrt:
-        return constant(S(sqrt(x)));
-      case Op::sin:
-        return constant(S(sin(x)));
-      case Op::cos:
-        return constant(S(cos(x)));
-      case Op::exp:
-        return constant(S(exp(x)));
-      case Op::log:
-        return constant(S(log(x)));
-      case Op::sinh:
-        return constant(S(sinh(x)));
-      case Op::cosh:
-        return constant(S(cosh(x)));
-      case Op::tanh:
-        return constant(S(tanh(x)));
-      case Op::atan:
-        return constant(S(atan(x)));
-      default:
-        break;
-    }
+    Matrix<S> result(1, 1);
+    Program<S>({nodes_[a].value}, {{function, {Bank::constant, 0}, {}, 0}}, {}, 1).run(result, {});
+    return constant(result(0, 0));
   }
   return operation(function, a, 0, nodes_[a].varies ? not_polynomial : 0);
 }
@@ -126,78 +100,61 @@ std::vector<typename Trace<S>::Id> Trace<S>::gradient(Id output, std::size_t inp
   const Id zero = constant(S(0));
   std::vector<Id> adjoint(output + 1, zero);
   adjoint[output] = constant(S(1));
-  // Nodes are numbered in the order of their computation; new ones, made on the way, come after `output`.
-  for (Id i = output + 1; i-- > 0;) {
+  // What operation i passes on to its operands of its adjoint y.
+  const auto differentiate = [&](Id i, Id y) {
     const Node node = nodes_[i];
-    const Id y = adjoint[i];
-    if (node.kind != Kind::operation || !node.varies || y == zero) continue;
     const auto pass = [&](Id operand, Id contribution) {
       if (nodes_[operand].varies) adjoint[operand] = add(adjoint[operand], contribution);
     };
     switch (node.op) {
       case Op::add:
         pass(node.a, y);
-        pass(node.b, y);
-        break;
+        return pass(node.b, y);
       case Op::subtract:
         pass(node.a, y);
-        pass(node.b, multiply(constant(S(-1)), y));
-        break;
+        return pass(node.b, multiply(constant(S(-1)), y));
       case Op::multiply:
-        if (node.a == node.b) {
-          pass(node.a, multiply(multiply(constant(S(2)), y), node.a));
-        } else {
-          pass(node.a, multiply(y, node.b));
-          pass(node.b, multiply(y, node.a));
-        }
-        break;
+        if (node.a == node.b) return pass(node.a, multiply(multiply(constant(S(2)), y), node.a));
+        pass(node.a, multiply(y, node.b));
+        return pass(node.b, multiply(y, node.a));
       case Op::negate:
-        pass(node.a, multiply(constant(S(-1)), y));
-        break;
+        return pass(node.a, multiply(constant(S(-1)), y));
       case Op::abs:
-        pass(node.a, multiply(y, apply(Op::sign, node.a)));
-        break;
+        return pass(node.a, multiply(y, apply(Op::sign, node.a)));
       case Op::sign:
-        break;              // constant but at 0
+        return;             // constant but at 0
       case Op::reciprocal:  // d(1/x) = -(1/x)^2 dx
-        pass(node.a, multiply(multiply(constant(S(-1)), y), multiply(i, i)));
-        break;
+        return pass(node.a, multiply(multiply(constant(S(-1)), y), multiply(i, i)));
       case Op::sqrt:  // d sqrt(x) = dx / (2 sqrt(x))
-        pass(node.a, multiply(multiply(constant(S(S(1) / 2)), y), apply(Op::reciprocal, i)));
-        break;
+        return pass(node.a, multiply(multiply(constant(S(S(1) / 2)), y), apply(Op::reciprocal, i)));
       case Op::sin:
-        pass(node.a, multiply(y, apply(Op::cos, node.a)));
-        break;
+        return pass(node.a, multiply(y, apply(Op::cos, node.a)));
       case Op::cos:
-        pass(node.a, multiply(multiply(constant(S(-1)), y), apply(Op::sin, node.a)));
-        break;
+        return pass(node.a, multiply(multiply(constant(S(-1)), y), apply(Op::sin, node.a)));
       case Op::exp:
-        pass(node.a, multiply(y, i));
-        break;
+        return pass(node.a, multiply(y, i));
       case Op::log:
-        pass(node.a, multiply(y, apply(Op::reciprocal, node.a)));
-        break;
+        return pass(node.a, multiply(y, apply(Op::reciprocal, node.a)));
       case Op::sinh:
-        pass(node.a, multiply(y, apply(Op::cosh, node.a)));
-        break;
+        return pass(node.a, multiply(y, apply(Op::cosh, node.a)));
       case Op::cosh:
-        pass(node.a, multiply(y, apply(Op::sinh, node.a)));
-        break;
+        return pass(node.a, multiply(y, apply(Op::sinh, node.a)));
       case Op::tanh: {  // d tanh(x) = dx / cosh(x)^2: 1 - tanh(x)^2 cancels
         const Id sech = apply(Op::reciprocal, apply(Op::cosh, node.a));
-        pass(node.a, multiply(y, multiply(sech, sech)));
-        break;
+        return pass(node.a, multiply(y, multiply(sech, sech)));
       }
       case Op::atan:  // d atan(x) = dx / (1 + x^2)
-        pass(node.a, multiply(y, apply(Op::reciprocal, add(constant(S(1)), multiply(node.a, node.a)))));
-        break;
+        return pass(node.a, multiply(y, apply(Op::reciprocal, add(constant(S(1)), multiply(node.a, node.a)))));
       case Op::sinc:
       case Op::sinhc:
       case Op::atanhc:
       case Op::atanc:
         throw Error(std::string("the derivative of ") + name_of(node.op) + " is not known");
     }
-  }
+  };
+  // Nodes are numbered in the order of their computation; new ones, made on the way, come after `output`.
+  for (Id i = output + 1; i-- > 0;)
+    if (nodes_[i].kind == Kind::operation && nodes_[i].varies && adjoint[i] != zero) differentiate(i, adjoint[i]);
   std::vector<Id> result;
   for (std::size_t i = 0; i < inputs; ++i) {
     const Id leaf_id = input(i);

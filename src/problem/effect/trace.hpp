@@ -110,8 +110,4 @@ class Traced {
   typename Trace<S>::Id id_;
 };
 
-#define HBVM_DECLARE(S) extern template class Trace<S>;
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
-
 }  // namespace hbvm::core

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "problem/effect/interaction.hpp"
-#include "problem/formula/use.hpp"
+#include "problem/formula/input.hpp"
 #include "scalar/expression_node.hpp"
 #include "scalar/literal.hpp"
 
@@ -23,13 +23,13 @@ class FormulaEvaluation {
   using Node = Expression::Node;
   using NodePtr = std::shared_ptr<const Node>;
 
-  FormulaEvaluation(const FormulaUse<S>& use, const std::vector<T>& inputs, const std::vector<T>& parameters)
-      : formula_(use.formula), constants_(use.constants) {
-    const auto d = static_cast<std::size_t>(use.dimension);
+  FormulaEvaluation(const FormulaInput<S>& input, const std::vector<T>& inputs, const std::vector<T>& parameters)
+      : formula_(input.formula), constants_(input.constants) {
+    const auto d = static_cast<std::size_t>(input.dimension);
     const auto difference = [&](std::size_t i) {
-      return use.arguments == 1 ? inputs[i] : T(inputs[i] - inputs[d + i]);
+      return input.arguments == 1 ? inputs[i] : T(inputs[i] - inputs[d + i]);
     };
-    for (const auto& [name, variable] : use.variables) {
+    for (const auto& [name, variable] : input.variables) {
       switch (variable.is) {
         case FormulaVariable::Is::input:
           values_.emplace(name, inputs[variable.index]);

@@ -133,13 +133,13 @@ struct Found {
 };
 
 /// None if g is not quadratic.
-std::unique_ptr<const Found> find(const FormulaUse<Mpfr>& use) {
-  const Index d = use.dimension;
-  const EffectTerm<Mpfr> term = make_term(use);
+std::unique_ptr<const Found> find(const FormulaInput<Mpfr>& input) {
+  const Index d = input.dimension;
+  const EffectTerm<Mpfr> term = make_term(input);
   if (term.degree < 0 || term.degree > 2) return nullptr;
   auto found = std::make_unique<Found>();
-  const std::vector<Displacement<Mpfr>>& x = use.instances.front().x;
-  found->g = by_displacements(term, use.arguments * d);
+  const std::vector<Displacement<Mpfr>>& x = input.instances.front().x;
+  found->g = by_displacements(term, input.arguments * d);
   found->length = as_length(found->g, d);
   if (found->length) {
     found->x = sum_of(*found->length, x, d);
@@ -167,12 +167,12 @@ Vector<S> rounded(const Vector<Mpfr>& x) {
 }  // namespace
 
 template <Scalar S>
-std::optional<ConstraintForms<S>> quadratic_form(const FormulaUse<S>& use) {
+std::optional<ConstraintForms<S>> quadratic_form(const FormulaInput<S>& input) {
   std::unique_ptr<const Found> found;
   {
     // For what cancels in sums of products; rounded to the digits of S below, once.
     const PrecisionScope more(4 * static_cast<unsigned>(digits10<S>()) + 20);
-    found = find(exactly(use));
+    found = find(exactly(input));
   }
   if (!found) return std::nullopt;
   if (found->length) {
@@ -193,7 +193,7 @@ std::optional<ConstraintForms<S>> quadratic_form(const FormulaUse<S>& use) {
   return quadric;
 }
 
-#define HBVM_DEFINE(S) template std::optional<ConstraintForms<S>> quadratic_form<S>(const FormulaUse<S>&);
+#define HBVM_DEFINE(S) template std::optional<ConstraintForms<S>> quadratic_form<S>(const FormulaInput<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

@@ -46,7 +46,7 @@ class Sampling {
 
   /// What the equations of an instance depend on, where its displacements can be any vectors: its parameters, and the
   /// T_a. Nothing where they cannot.
-  std::vector<Mpfr> signature(const FormulaUse<Mpfr>::Instance& instance) const {
+  std::vector<Mpfr> signature(const FormulaInput<Mpfr>::Instance& instance) const {
     std::vector<Mpfr> result = instance.parameters;
     std::set<Index> seen;
     for (const Displacement<Mpfr>& x : instance.x) {
@@ -162,19 +162,19 @@ void sample(const Sampling& sampling, Index instance, const Vector<Mpfr>& q, std
 }  // namespace
 
 template <Scalar S>
-EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<SpaceBlock>& blocks,
+EffectSymmetry<S> formula_symmetry(const FormulaInput<S>& input, const std::vector<SpaceBlock>& blocks,
                                    const Vector<S>& q) {
   EffectSymmetry<S> result;
   result.kind = Symmetry::computed;
-  result.acts.assign(use.instances.size(), true);
+  result.acts.assign(input.instances.size(), true);
   const auto digits = static_cast<unsigned>(digits10<S>());
   std::vector<std::vector<BigFloat>> conditions;
   std::size_t columns = 0;
   {
     const PrecisionScope many(2 * digits + 700);
-    const FormulaUse<Mpfr> exact = exactly(use);
+    const FormulaInput<Mpfr> exact = exactly(input);
     const EffectTerm<Mpfr> term = make_term(exact);
-    const Sampling sampling(term, blocks, use.dimension);
+    const Sampling sampling(term, blocks, input.dimension);
     columns = sampling.columns();
     Vector<Mpfr> start(q.size());
     for (Index j = 0; j < q.size(); ++j) start[j] = rounded_to<Mpfr>(raw(exactly(q[j])));
@@ -198,8 +198,8 @@ EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<S
   return result;
 }
 
-#define HBVM_DEFINE(S)                                                                                 \
-  template EffectSymmetry<S> formula_symmetry<S>(const FormulaUse<S>&, const std::vector<SpaceBlock>&, \
+#define HBVM_DEFINE(S)                                                                                   \
+  template EffectSymmetry<S> formula_symmetry<S>(const FormulaInput<S>&, const std::vector<SpaceBlock>&, \
                                                  const Vector<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "problem/formula/use.hpp"
+#include "problem/formula/input.hpp"
 #include "problem/problem.hpp"
 
 namespace hbvm::core {
@@ -16,12 +16,7 @@ namespace hbvm::core {
 /// near 0.
 /// \param blocks of the problem
 template <Scalar S>
-EffectSymmetry<S> formula_symmetry(const FormulaUse<S>& use, const std::vector<SpaceBlock>& blocks, const Vector<S>& q);
-
-#define HBVM_DECLARE(S)                                                                                       \
-  extern template EffectSymmetry<S> formula_symmetry<S>(const FormulaUse<S>&, const std::vector<SpaceBlock>&, \
-                                                        const Vector<S>&);
-HBVM_FOR_EACH_SCALAR(HBVM_DECLARE)
-#undef HBVM_DECLARE
+EffectSymmetry<S> formula_symmetry(const FormulaInput<S>& input, const std::vector<SpaceBlock>& blocks,
+                                   const Vector<S>& q);
 
 }  // namespace hbvm::core

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "hbvm/error.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/closed_form/recognition.hpp"
 #include "scalar/binary_exponent.hpp"
 #include "scalar/text.hpp"
@@ -48,7 +48,7 @@ ExactPoint ClosedForm::at(const Mpfr& t) const {
       throw IntegrationError("the closed form (" + name() + ") has no value at t = " + to_scientific(t, 6));
   }
   ExactPoint point{in_this_scope(inner.q), in_this_scope(inner.p), {}};
-  Point<Mpfr> here(problem_);
+  StateEvaluator<Mpfr> here(problem_);
   point.lambda = here.multiplier(point.q, point.p);
   return point;
 }

@@ -115,13 +115,8 @@ Mpfr carlson_rf(Mpfr x, Mpfr y, Mpfr z) {
   while (far > end * mean) {
     rounds.next();
     const Mpfr rx = sqrt(x), ry = sqrt(y), rz = sqrt(z), lambda = rx * ry + rx * rz + ry * rz;
-    x = (x + lambda) / 4;
-    y = (y + lambda) / 4;
-    z = (z + lambda) / 4;
-    mean = (mean + lambda) / 4;
-    far /= 4;
-    dx /= 4;
-    dy /= 4;
+    for (Mpfr* value : {&x, &y, &z, &mean}) *value = (*value + lambda) / 4;
+    for (Mpfr* difference : {&far, &dx, &dy}) *difference /= 4;
   }
   const Mpfr X = dx / mean, Y = dy / mean, Z = -X - Y, E2 = X * Y - Z * Z, E3 = X * Y * Z;
   return (1 - E2 / 10 + E3 / 14 + E2 * E2 / 24 - 3 * E2 * E3 / 44) / sqrt(mean);
@@ -138,15 +133,8 @@ Mpfr carlson_rj(Mpfr x, Mpfr y, Mpfr z, Mpfr p) {
     const Mpfr rx = sqrt(x), ry = sqrt(y), rz = sqrt(z), rp = sqrt(p), lambda = rx * ry + rx * rz + ry * rz;
     const Mpfr d = (rp + rx) * (rp + ry) * (rp + rz);
     sum += scale / d * carlson_rc(Mpfr(delta / (d * d)));
-    x = (x + lambda) / 4;
-    y = (y + lambda) / 4;
-    z = (z + lambda) / 4;
-    p = (p + lambda) / 4;
-    mean = (mean + lambda) / 4;
-    far /= 4;
-    dx /= 4;
-    dy /= 4;
-    dz /= 4;
+    for (Mpfr* value : {&x, &y, &z, &p, &mean}) *value = (*value + lambda) / 4;
+    for (Mpfr* difference : {&far, &dx, &dy, &dz}) *difference /= 4;
     delta /= 64;
     scale /= 4;
   }

@@ -31,35 +31,33 @@
   };
 
   for (const drawing of document.querySelectorAll(".drawing")) {
-    const data = drawing.querySelector("script"), svg = drawing.querySelector("svg");
-    if (!data || !svg) continue;
+    const data = drawing.querySelector("script"), picture = drawing.querySelector("img");
+    if (!data || !picture) continue;
     const figure = JSON.parse(data.textContent);
-    const mark = document.createElementNS("http://www.w3.org/2000/svg", "circle");
-    for (const [name, text] of Object.entries({ r: 6, fill: "none", stroke: "#b3005e", "stroke-width": 2, visibility: "hidden" }))
-      mark.setAttribute(name, text);
-    svg.append(mark);
+    const mark = document.createElement("span");
+    mark.className = "mark";
+    mark.hidden = true;
+    picture.after(mark);
     const hide = () => {
-      value.hidden = true;
-      mark.setAttribute("visibility", "hidden");
+      value.hidden = mark.hidden = true;
     };
     const show = (event) => {
-      const box = svg.getBoundingClientRect(), scale = figure.size[0] / box.width;
+      const box = picture.getBoundingClientRect(), scale = figure.size[0] / box.width;
       const found = nearest(figure, (event.clientX - box.left) * scale, (event.clientY - box.top) * scale);
       if (!found) return hide();
       const { panel, curve, point } = found;
       const lines = [curve.label, `${panel.x.label || "x"}: ${number(panel.x, point[0])}`,
                      `${panel.y.label || "y"}: ${number(panel.y, curve.value ?? point[1])}`];
       value.textContent = lines.filter((line) => line).join("\n");
-      value.hidden = false;
+      value.hidden = mark.hidden = false;
       const room = document.documentElement;
       value.style.left = `${Math.max(4, Math.min(event.clientX + 14, room.clientWidth - value.offsetWidth - 4))}px`;
       value.style.top = `${Math.max(4, Math.min(event.clientY + 14, room.clientHeight - value.offsetHeight - 4))}px`;
-      mark.setAttribute("cx", found.px);
-      mark.setAttribute("cy", found.py);
-      mark.setAttribute("visibility", "visible");
+      mark.style.left = `${found.px / scale}px`;
+      mark.style.top = `${found.py / scale}px`;
     };
-    svg.addEventListener("pointermove", show);
-    svg.addEventListener("pointerdown", show);
-    svg.addEventListener("pointerleave", hide);
+    picture.addEventListener("pointermove", show);
+    picture.addEventListener("pointerdown", show);
+    picture.addEventListener("pointerleave", hide);
   }
 })();

@@ -4,7 +4,7 @@
 
 #include "printing.hpp"
 #include "problem/effect/execution.hpp"
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
@@ -20,16 +20,16 @@ class DiscreteGradients : public ::testing::Test {
 
   static EffectTerm<S> term(const char* kind, const std::vector<std::pair<const char*, const char*>>& numbers,
                             const char* vector = nullptr) {
-    EffectUse<S> use{kind, d, {}, {}, {{}}};
-    for (const auto& [key, text] : numbers) use.numbers[key] = literal<S>(text);
-    if (vector) use.vectors[vector] = {S(1), S(-2), S(S(1) / 3)};
-    use.instances[0].x = {{{0, S(1)}}, {}};
-    use.instances[0].mass_matrix = Matrix<S>::Identity(d, d) * S(3);
-    use.instances[0].masses[0] = 3;
-    use.instances[0].masses[1] = 5;
-    use.instances[0].charges[0] = 2;
-    use.instances[0].charges[1] = -7;
-    return make_term(use);
+    EffectInput<S> input{kind, d, {}, {}, {{}}};
+    for (const auto& [key, text] : numbers) input.numbers[key] = literal<S>(text);
+    if (vector) input.vectors[vector] = {S(1), S(-2), S(S(1) / 3)};
+    input.instances[0].x = {{{0, S(1)}}, {}};
+    input.instances[0].mass_matrix = Matrix<S>::Identity(d, d) * S(3);
+    input.instances[0].masses[0] = 3;
+    input.instances[0].masses[1] = 5;
+    input.instances[0].charges[0] = 2;
+    input.instances[0].charges[1] = -7;
+    return make_term(input);
   }
   static std::vector<EffectTerm<S>> all() {
     return {term("central_gravity", {{"strength", "3/7"}}),

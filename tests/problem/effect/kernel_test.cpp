@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "problem/effect/use.hpp"
+#include "problem/effect/input.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 
 namespace hbvm::core {
 namespace {
 
-using Instance = EffectUse<double>::Instance;
+using Instance = EffectInput<double>::Instance;
 
 /// U(x) in every lane of a term, by its interpreted gradient program alone.
 Matrix<double> interpreted(const EffectTerm<double>& term, Index dimension, const Matrix<double>& q) {
@@ -30,6 +30,14 @@ Matrix<double> interpreted(const EffectTerm<double>& term, Index dimension, cons
           force(i, block.offset + j) +=
               block.weight * term.gradient.output(static_cast<std::size_t>(j), i, registers, inputs);
   }
+  return force;
+}
+
+/// The same of a potential, as it is evaluated.
+Matrix<double> evaluated(const Potential<double>& potential, const Matrix<double>& q) {
+  PotentialEvaluator<double> evaluator(potential, q.rows());
+  Matrix<double> force;
+  evaluator.varying_force(lanes(q), force);
   return force;
 }
 
@@ -61,7 +69,7 @@ Matrix<double> positions(Index lanes, Index m) {
   return q;
 }
 
-EffectUse<double> spring(double exponent, double rest_length, Index dimension) {
+EffectInput<double> spring(double exponent, double rest_length, Index dimension) {
   return {"spring",
           dimension,
           {{"stiffness", 1.3}, {"rest_length", rest_length}, {"exponent", exponent}},
@@ -72,7 +80,7 @@ EffectUse<double> spring(double exponent, double rest_length, Index dimension) {
 /// The compiled kernel does the interpreter's operations in its order: equal to the last bit.
 TEST(Kernel, IsTheProgram) {
   for (const Index d : {2, 3}) {
-    std::vector<EffectUse<double>> uses{
+    std::vector<EffectInput<double>> uses{
         {"central_gravity", d, {{"strength", 2.0}}, {}, {body(0, d, {}), body(d, d, {0.25, -3, 1})}},
         {"mutual_gravity", d, {{"strength", 0.1}}, {}, {pair(0, d, d), pair(2 * d, d, d)}},
         {"coulomb", d, {{"strength", 7.0}}, {}, {pair(0, d, d), pair(0, 2 * d, d)}},
@@ -92,28 +100,26 @@ TEST(Kernel, IsTheProgram) {
                       {{"axis", axis}},
                       {body(0, d, {}), body(d, d, {1, 2, 3})}});
     }
-    for (const EffectUse<double>& use : uses) {
-      const Potential<double> potential{d, 3 * d, {make_term(use)}};
-      ASSERT_NE(find_kernel(potential.terms[0].gradient, d), nullptr) << use.kind << " in " << d;
+    for (const EffectInput<double>& input : uses) {
+      const Potential<double> potential{d, 3 * d, {make_term(input)}};
+      ASSERT_NE(find_kernel(potential.terms[0].gradient, d), nullptr) << input.kind << " in " << d;
       for (const Index count : {1, 2, 5, 8, 35}) {
-        PotentialEvaluator<double> evaluator(potential, count);
         const Matrix<double> q = positions(count, 3 * d);
-        Matrix<double> force;
-        evaluator.varying_force(lanes(q), force);
-        EXPECT_EQ(force, interpreted(potential.terms[0], d, q)) << use.kind << " in " << d << ", lanes " << count;
+        EXPECT_EQ(evaluated(potential, q), interpreted(potential.terms[0], d, q))
+            << input.kind << " in " << d << ", lanes " << count;
       }
     }
   }
 }
 
-EffectUse<double> about_a_centre(std::string kind, Index d) {
-  EffectUse<double> use{std::move(kind), d, {{"strength", 1.2}}, {}, {body(0, d, {}), body(d, d, {0.25, -3, 1})}};
-  if (use.kind == "oblateness") {
-    use.numbers.insert({{"radius", 0.7}, {"J2", 0.01}});
-    use.vectors["axis"] = std::vector<double>(static_cast<std::size_t>(d), 0.0);
-    use.vectors["axis"].back() = 1;
+EffectInput<double> about_a_centre(std::string kind, Index d) {
+  EffectInput<double> input{std::move(kind), d, {{"strength", 1.2}}, {}, {body(0, d, {}), body(d, d, {0.25, -3, 1})}};
+  if (input.kind == "oblateness") {
+    input.numbers.insert({{"radius", 0.7}, {"J2", 0.01}});
+    input.vectors["axis"] = std::vector<double>(static_cast<std::size_t>(d), 0.0);
+    input.vectors["axis"].back() = 1;
   }
-  return use;
+  return input;
 }
 
 /// A program that calls functions has a step before the first, one between two, and one after the last.
@@ -123,7 +129,9 @@ TEST(Kernel, StepsAreWhatIsBetweenTheCallsOfFunctions) {
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
     return found;
   };
-  const auto steps = [](const EffectUse<double>& use) { return cpp_steps(make_term(use).gradient, use.dimension); };
+  const auto steps = [](const EffectInput<double>& input) {
+    return cpp_steps(make_term(input).gradient, input.dimension);
+  };
   EXPECT_EQ(steps(about_a_centre("central_gravity", 3)), "");
   const std::string sine = steps(about_a_centre("radial_cosine", 3)), power = steps(spring(2.75, 0.5, 2));
   EXPECT_EQ(count(sine, "for_each_lane("), 2);
@@ -168,7 +176,7 @@ TEST(Kernel, FieldsOfOneCentreHaveOneTogether) {
 /// Neither about one centre nor in one kernel: each by itself.
 TEST(Kernel, EffectsWithoutOneTogetherAreDoneApart) {
   for (const char* kind : {"trap", "radial_cosine"}) {
-    EffectUse<double> other{
+    EffectInput<double> other{
         kind, 2, {{"stiffness", 2.5}, {"exponent", 4.0}}, {}, {body(0, 2, {}), body(2, 2, {0.25, -3})}};
     if (kind == std::string("radial_cosine")) {
       other.numbers = {{"strength", 1.5}};
@@ -189,11 +197,8 @@ TEST(Kernel, EffectsWithoutOneTogetherAreDoneApart) {
 TEST(Kernel, ARareExponentIsInterpreted) {
   const Potential<double> potential{2, 6, {make_term(spring(7, 0.5, 2))}};
   EXPECT_EQ(find_kernel(potential.terms[0].gradient, 2), nullptr);
-  PotentialEvaluator<double> evaluator(potential, 3);
   const Matrix<double> q = positions(3, 6);
-  Matrix<double> force;
-  evaluator.varying_force(lanes(q), force);
-  EXPECT_EQ(force, interpreted(potential.terms[0], 2, q));
+  EXPECT_EQ(evaluated(potential, q), interpreted(potential.terms[0], 2, q));
 }
 
 /// A centre of a rigid body, of four blocks, has no site.

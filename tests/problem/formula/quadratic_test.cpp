@@ -19,14 +19,14 @@ class QuadraticForms : public ::testing::Test {
   std::optional<ConstraintForms<S>> form(const std::string& text) {
     using Is = FormulaVariable::Is;
     const Expression read = Expression::parse(text, Expression::Syntax::formula);
-    return quadratic_form(
-        FormulaUse<S>{read,
-                      quadratic_constants,
-                      2,
-                      2,
-                      {{"x1", {Is::input, 0}}, {"y1", {Is::input, 1}}, {"x2", {Is::input, 2}}, {"y2", {Is::input, 3}}},
-                      0,
-                      {{{{{{0, S(1)}}, {}}, second}, {}}}});
+    return quadratic_form(FormulaInput<S>{
+        read,
+        quadratic_constants,
+        2,
+        2,
+        {{"x1", {Is::input, 0}}, {"y1", {Is::input, 1}}, {"x2", {Is::input, 2}}, {"y2", {Is::input, 3}}},
+        0,
+        {{{{{{0, S(1)}}, {}}, second}, {}}}});
   }
   Displacement<S> second{{{4, S(1)}}, {}};
 

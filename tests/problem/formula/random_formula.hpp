@@ -1,5 +1,8 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -82,65 +85,30 @@ class RandomFormula {
       return;
     }
     for (int i = 0; i < 2; ++i) parts_.push_back(std::make_shared<RandomFormula>(random, depth - 1, names));
-    const std::string a = "(" + parts_[0]->text_ + ")", b = "(" + parts_[1]->text_ + ")";
-    switch (kind_) {
-      case Kind::add:
-        text_ = a + " + " + b;
-        break;
-      case Kind::subtract:
-        text_ = a + "-" + b;
-        break;
-      case Kind::multiply:
-        text_ = a + "*" + b;
-        break;
-      case Kind::divide:
-        text_ = a + "/(" + b + "^2 + 1)";
-        break;
-      case Kind::negate:
-        text_ = "-" + a + "*" + b;
-        break;
-      case Kind::power:
-        text_ = a + "^" + std::to_string(whole_ + 2) + "/" + std::to_string(1L << (whole_ + 2));
-        break;
-      case Kind::half_power:
-        text_ = "(1 + " + a + "^2)^(-" + std::to_string(whole_) + "-1/2)";
-        break;
-      case Kind::third_power:
-        text_ = "(2 + sin" + a + ")^(" + std::to_string(whole_) + "/3 + 1/3)";
-        break;
-      case Kind::root:
-        text_ = "sqrt(1 + " + a + "^2)";
-        break;
-      case Kind::sine:
-        text_ = "sin" + a;
-        break;
-      case Kind::cosine:
-        text_ = "cos " + a;
-        break;
-      case Kind::tangent:
-        text_ = "tan(sin" + a + ")";
-        break;
-      case Kind::exponential:
-        text_ = "exp(sin" + a + ")";
-        break;
-      case Kind::logarithm:
-        text_ = "log(2 + " + a + "^2)";
-        break;
-      case Kind::hyperbolic_sine:
-        text_ = "sinh(cos" + a + ")";
-        break;
-      case Kind::hyperbolic_cosine:
-        text_ = "cosh(sin" + a + ")";
-        break;
-      case Kind::hyperbolic_tangent:
-        text_ = "tanh" + a;
-        break;
-      case Kind::arc_tangent:
-        text_ = "atan" + a;
-        break;
-      case Kind::leaf:
-        break;
-    }
+    // In the order of the kinds.
+    constexpr std::array texts{"{a} + {b}",
+                               "{a}-{b}",
+                               "{a}*{b}",
+                               "{a}/({b}^2 + 1)",
+                               "-{a}*{b}",
+                               "{a}^{power}/{scale}",
+                               "(1 + {a}^2)^(-{whole}-1/2)",
+                               "(2 + sin{a})^({whole}/3 + 1/3)",
+                               "sqrt(1 + {a}^2)",
+                               "sin{a}",
+                               "cos {a}",
+                               "tan(sin{a})",
+                               "exp(sin{a})",
+                               "log(2 + {a}^2)",
+                               "sinh(cos{a})",
+                               "cosh(sin{a})",
+                               "tanh{a}",
+                               "atan{a}"};
+    static_assert(texts.size() == static_cast<std::size_t>(Kind::leaf));
+    text_ =
+        fmt::format(fmt::runtime(texts[static_cast<std::size_t>(kind_)]), fmt::arg("a", "(" + parts_[0]->text_ + ")"),
+                    fmt::arg("b", "(" + parts_[1]->text_ + ")"), fmt::arg("whole", whole_),
+                    fmt::arg("power", whole_ + 2), fmt::arg("scale", 1L << (whole_ + 2)));
   }
 
   const std::string& text() const { return text_; }

@@ -21,11 +21,11 @@ class FormulaSymmetry : public ::testing::Test {
   std::vector<std::string> kept(const std::string& text) {
     using Is = FormulaVariable::Is;
     const Expression read = Expression::parse(text, Expression::Syntax::formula);
-    FormulaUse<S> use{read, symmetry_constants, 3, 2};
+    FormulaInput<S> input{read, symmetry_constants, 3, 2};
     for (std::size_t i = 0; i < 6; ++i)
-      use.variables[std::string(1, "xyz"[i % 3]) + (i < 3 ? "1" : "2")] = {Is::input, i};
-    use.variables["r"] = {Is::distance, 0};
-    use.instances = {{{{{{0, S(1)}}, {}}, {{{3, S(1)}}, {}}}, {}}};
+      input.variables[std::string(1, "xyz"[i % 3]) + (i < 3 ? "1" : "2")] = {Is::input, i};
+    input.variables["r"] = {Is::distance, 0};
+    input.instances = {{{{{{0, S(1)}}, {}}, {{{3, S(1)}}, {}}}, {}}};
     Problem<S> problem;
     problem.dimension = 3;
     problem.mass.add_scalar(3, S(1));
@@ -35,8 +35,8 @@ class FormulaSymmetry : public ::testing::Test {
     problem.potential.m = 6;
     Vector<S> q(6);
     q << S(1), S(2), S(3), S(-1), S(1), S(2);
-    EffectTerm<S> term = make_term(use);
-    term.symmetry = formula_symmetry(use, problem.blocks, q);
+    EffectTerm<S> term = make_term(input);
+    term.symmetry = formula_symmetry(input, problem.blocks, q);
     problem.potential.terms.push_back(term);
     std::vector<std::string> names;
     for (const auto& component : conserved_momenta(problem)) names.push_back(component.name());

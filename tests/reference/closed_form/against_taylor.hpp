@@ -5,7 +5,7 @@
 #include <random>
 
 #include "printing.hpp"
-#include "problem/point.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
@@ -92,7 +92,7 @@ inline void expect_solves_equations(const std::string& toml, const std::vector<c
   const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(toml, "random"));
   const std::unique_ptr<ClosedForm> motion = closed_form_of(scene);
   ASSERT_TRUE(motion) << toml;
-  Point<Mpfr> point(scene.problem);
+  StateEvaluator<Mpfr> point(scene.problem);
   const Mpfr few = 10'000 * epsilon<Mpfr>(), H = point.energy(scene.q0, scene.p0);
   const ExactPoint start = motion->at(Mpfr(0));
   EXPECT_LE(distance(start.q, scene.q0), few);

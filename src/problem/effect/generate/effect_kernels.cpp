@@ -10,9 +10,9 @@
 #include <set>
 
 #include "hbvm/error.hpp"
+#include "problem/effect/input.hpp"
 #include "problem/effect/joint_program.hpp"
 #include "problem/effect/kernel.hpp"
-#include "problem/effect/use.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -58,37 +58,37 @@ class Generator {
   template <class Effect, class F>
   void for_each_term(F f) {
     for (const Index dimension : {2, 3}) {
-      EffectUse<double> use;
-      use.kind = Effect::kind;
-      use.dimension = dimension;
-      EffectUse<double>::Instance body;
+      EffectInput<double> input;
+      input.kind = Effect::kind;
+      input.dimension = dimension;
+      EffectInput<double>::Instance body;
       body.x.blocks.push_back({0, 1});
       body.mass_matrix = Matrix<double>::Identity(dimension, dimension);
-      use.instances = {body};
-      vary(use, Effect::keys.data(), Effect::keys.data() + Effect::keys.size(), f);
+      input.instances = {body};
+      vary(input, Effect::keys.data(), Effect::keys.data() + Effect::keys.size(), f);
     }
   }
 
   template <class F>
-  void vary(EffectUse<double>& use, const EffectKey* key, const EffectKey* end, const F& f) {
+  void vary(EffectInput<double>& input, const EffectKey* key, const EffectKey* end, const F& f) {
     if (key == end) {
       try {
-        const EffectTerm<double> term = make_term(use);
-        if (!term.constant_force) f(term, use.dimension);
+        const EffectTerm<double> term = make_term(input);
+        if (!term.constant_force) f(term, input.dimension);
       } catch (const InputError&) {
         // not a value this key takes
       }
     } else if (key->is_vector) {
-      const auto d = static_cast<std::size_t>(use.dimension);
+      const auto d = static_cast<std::size_t>(input.dimension);
       for (const int first : {0, 1}) {
-        use.vectors[std::string(key->name)] = std::vector<double>(d, first);
-        use.vectors[std::string(key->name)].back() = 1;
-        vary(use, key + 1, end, f);
+        input.vectors[std::string(key->name)] = std::vector<double>(d, first);
+        input.vectors[std::string(key->name)].back() = 1;
+        vary(input, key + 1, end, f);
       }
     } else {
       for (const int twice : shapes) {
-        use.numbers[std::string(key->name)] = static_cast<double>(twice) / 2;
-        vary(use, key + 1, end, f);
+        input.numbers[std::string(key->name)] = static_cast<double>(twice) / 2;
+        vary(input, key + 1, end, f);
       }
     }
   }

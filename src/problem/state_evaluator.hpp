@@ -1,0 +1,62 @@
+#pragma once
+
+#include "linear/lu.hpp"
+#include "problem/constraint_gradient.hpp"
+
+namespace hbvm::core {
+
+/// What a problem says at one state (q, p). Owns its storage; one a thread. The problem must outlive it.
+template <Scalar S>
+class StateEvaluator {
+ public:
+  explicit StateEvaluator(const Problem<S>& problem);
+
+  /// H = 1/2 p^T M^-1 p - U(q), (1).
+  S energy(const Vector<S>& q, const Vector<S>& p);
+  /// |T| + |U|, which the round-off of the energy is proportional to.
+  S energy_size(const Vector<S>& q, const Vector<S>& p);
+  /// g(q), (2).
+  const Vector<S>& constraints(const Vector<S>& q);
+  /// The greatest sum of the magnitudes of a constraint's terms.
+  S constraint_size(const Vector<S>& q) const;
+  /// grad g^T M^-1 p, (9).
+  const Vector<S>& hidden_constraints(const Vector<S>& q, const Vector<S>& p);
+
+  /// p - grad g (grad g^T M^-1 grad g)^-1 grad g^T M^-1 p: the nearest momentum, in the metric M^-1, that fulfils the
+  /// hidden constraints.
+  /// \throws IntegrationError if the Gram matrix grad g^T M^-1 grad g is singular at q
+  const Vector<S>& tangential(const Vector<S>& q, const Vector<S>& p);
+
+  /// The multiplier of Theorem 1 for an exact state,
+  /// (grad g^T M^-1 grad g)^-1 (nabla^2 g (M^-1 p, M^-1 p) + grad g^T M^-1 grad U).
+  /// \throws IntegrationError as tangential does
+  const Vector<S>& multiplier(const Vector<S>& q, const Vector<S>& p);
+  /// -grad g(q) lambda with that multiplier, where `force` is grad U(q), 1 x m.
+  const Vector<S>& constraint_force(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force);
+  /// The one that was computed last.
+  const Vector<S>& last_multiplier() const { return multiplier_; }
+
+  /// The two parts of p' = grad U(q) - grad g(q) lambda with that multiplier.
+  struct Forces {
+    Vector<S> applied;     ///< grad U
+    Vector<S> constraint;  ///< -grad g lambda
+  };
+  /// \throws IntegrationError as tangential does
+  const Forces& forces(const Vector<S>& q, const Vector<S>& p);
+
+ private:
+  /// multiplier_, where `force` is grad U(q).
+  void find_multiplier(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force);
+  /// x = (grad g^T M^-1 grad g)^-1 x at the q of the last gradient.
+  void solve_gram(Vector<S>& x);
+
+  const Problem<S>& problem_;
+  PotentialEvaluator<S> potential_;
+  ConstraintGradient<S> gradient_;
+  Lu<S> gram_;
+  Vector<S> U_, v_, acceleration_, g_, hidden_, tangential_, multiplier_;
+  Matrix<S> force_, row_, gram_matrix_;
+  Forces forces_;
+};
+
+}  // namespace hbvm::core
