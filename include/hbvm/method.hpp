@@ -28,8 +28,8 @@ MethodFacts method_facts(const std::string& method);
 /// A Runge-Kutta method as its author writes it: s x s, s and s exact numbers.
 struct Tableau {
   std::string name;
-  NumberRows A;
-  Numbers b, c;                    ///< c are the row sums of A if it is empty
+  NumberRows A = {};
+  Numbers b = {}, c = {};          ///< c are the row sums of A if it is empty
   std::optional<int> order = {};   ///< that its author claims
   std::optional<int> digits = {};  ///< to which its author gives the numbers that are decimals
 };

@@ -91,6 +91,7 @@ class Scene {
   const std::string& name() const { return name_; }
   /// As a scene file has it.
   std::string toml() const;
+  /// Reads the scene and makes its system, in 50 digits.
   /// \throws InputError with the line of toml() and what is wrong there
   void check() const;
 

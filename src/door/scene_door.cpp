@@ -3,6 +3,7 @@
 #include "door/door.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/scene.hpp"
+#include "scene/assemble.hpp"
 #include "scene/scene.hpp"
 
 namespace hbvm {
@@ -193,7 +194,13 @@ std::string Scene::toml() const {
   return text + tables_;
 }
 
-void Scene::check() const { core::scene_of(*this); }
+void Scene::check() const {
+  const core::Scene scene = core::scene_of(*this);
+  // So many digits that no number of a scene is lost.
+  constexpr int digits = 50;
+  const core::PrecisionScope scope(digits);
+  core::assemble<core::Mpfr>(scene);
+}
 
 Scene read_scene(const std::string& toml, const std::string& name) {
   Scene scene;

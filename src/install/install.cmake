@@ -14,6 +14,8 @@ set(library_flags ${BALL_LIBRARIES} ${HBVM_QUAD_LIBRARY})
 list(TRANSFORM library_flags PREPEND -l)
 list(JOIN library_flags " " library_flags)
 list(TRANSFORM HBVM_QUAD_DEFINITION PREPEND -D OUTPUT_VARIABLE quad_flag)
+# An installation may be made in any folder, and moved.
+file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(src/install/hbvm.pc.in ${made}/hbvm.pc @ONLY)
 install(FILES ${made}/hbvm.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

@@ -85,6 +85,9 @@ TEST(DoorScene, SaysWhatIsWrong) {
   core::expect_words(core::message_of([&] { scene.check(); }), {"nobody"});
   EXPECT_THROW(load_scene("no_such_scene"), InputError);
   EXPECT_THROW(read_scene("dimension = "), InputError);
+  // What only the numbers show.
+  const auto refusal = [](const Body& body) { return core::message_of([&] { Scene(2).body(body).check(); }); };
+  core::expect_words(refusal({.name = "a", .mass = -1, .position = {0, 0}}), {"'a'", "mass must be positive"});
 }
 
 TEST(DoorScene, KnowsThoseThatAreBuiltIn) {
