@@ -2,9 +2,9 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "folder_report/folder_report.hpp"
 #include "hbvm/version.hpp"
 #include "output_files.hpp"
-#include "report/folder_report.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {

@@ -63,7 +63,7 @@ TEST(FloatingLiterals, AreFoundByTheSearch) {
 TEST(FloatingLiterals, AreNotInGenericCode) {
   std::size_t files = 0;
   for (const Source& source : sources()) {
-    if (source.folder == "cli" || source.folder == "report") continue;
+    if (source.folder == "cli" || source.folder.ends_with("report")) continue;
     ++files;
     for (const Token& token : floating_literals(source.text))
       ADD_FAILURE() << source.place(token.line) << ": " << token.text;

@@ -14,7 +14,7 @@ const std::map<std::string, std::string>& exceptions() {
       {"audit/audit_figure",
        "thousands of steps with 50 digits, ten times over; interval_ladder_test holds its errors"},
       {"audit/sensitivity", "the floors it gives decide auditor_test, round_off_test and both ladders' tests"},
-      {"hard_cases/figures", "runs of 2^20 steps; measure_test and walk_test hold what it shows"},
+      {"hard_cases/figures", "runs of 2^20 steps; measure_test and round_off_growth_test hold what it shows"},
       {"study/conservation_study", "a kind of study: study_test runs one with right and wrong figures"},
       {"study/halving_study", "likewise"},
       {"study/long_run_study", "likewise"},

@@ -1,4 +1,4 @@
-#include "report/folder_report.hpp"
+#include "folder_report/folder_report.hpp"
 
 #include <gtest/gtest.h>
 

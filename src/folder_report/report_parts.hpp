@@ -4,7 +4,7 @@
 
 namespace hbvm::core {
 
-/// What a report's page is made of besides its contents, compiled in: the files of src/report/page.
+/// What a report's page is made of besides its contents, compiled in: the files of src/folder_report/page.
 extern const std::string_view report_style, report_script;
 
 }  // namespace hbvm::core

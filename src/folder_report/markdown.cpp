@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "html.hpp"
+#include "report/html.hpp"
 
 namespace hbvm::core {
 namespace {

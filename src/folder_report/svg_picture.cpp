@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "hbvm/error.hpp"
-#include "html.hpp"
+#include "report/html.hpp"
 
 namespace hbvm::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/json_facts.hpp"
+#include "folder_report/json_facts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/folder_report.hpp"
+#include "folder_report/folder_report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <set>
 #include <vector>
 
-#include "csv_table.hpp"
 #include "hbvm/error.hpp"
-#include "html.hpp"
 #include "json_facts.hpp"
 #include "markdown.hpp"
 #include "read_file.hpp"
+#include "report/csv_table.hpp"
 #include "report/csvw.hpp"
+#include "report/html.hpp"
 #include "report_parts.hpp"
 #include "svg_picture.hpp"
 

@@ -1,4 +1,4 @@
-#include "report/svg_picture.hpp"
+#include "folder_report/svg_picture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/markdown.hpp"
+#include "folder_report/markdown.hpp"
 
 #include <gtest/gtest.h>
 
