@@ -182,11 +182,11 @@ class FolderReport {
     if (shown < count)
       section += fmt::format("<p class=\"note\">{} of {} rows, from the first to the last.</p>\n", shown, count);
     section += "<div class=\"table\"><table>\n<thead><tr>";
-    for (std::size_t i = 0; i < csv.columns.size(); ++i) {
-      const auto meaning = description.columns.find(csv.columns[i]);
+    for (const std::string& column : csv.columns) {
+      const auto meaning = description.columns.find(column);
       section += meaning == description.columns.end()
-                     ? "<th>" + html(csv.columns[i]) + "</th>"
-                     : "<th title=\"" + html(meaning->second) + "\">" + html(csv.columns[i]) + "</th>";
+                     ? "<th>" + html(column) + "</th>"
+                     : "<th title=\"" + html(meaning->second) + "\">" + html(column) + "</th>";
     }
     section += "</tr></thead><tbody>\n";
     for (const std::size_t row : rows) {

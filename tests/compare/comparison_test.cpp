@@ -266,7 +266,7 @@ TEST(Comparison, RefusesWhatItCannotRead) {
         {"t,bob.x\n1,0\n2,0\n2.0,0\n", "theirs.csv:4: t is 2.0, which is not later than 2 in line 3"},
         {"t,bob.x\n2,0\n1,0\n", "theirs.csv:3: t is 1, which is not later than 2 in line 2"},
         {"t,bob.x\n-1,0\n", "no time in it is after the start"}})
-    expect_words(message_of([&] { compare_with_reference(request_of(csv)); }), {says});
+    expect_words(message_of([&, csv = csv] { compare_with_reference(request_of(csv)); }), {says});
 }
 
 TEST(Comparison, DrawsDigitsAgainstTime) {

@@ -102,7 +102,9 @@ TEST(Expression, UnknownFunctionsListThoseThereAre) {
        {std::pair("1 + atan2(y, x)", "column 5: 'atan2' is no function: did you mean 'atan'? There are sqrt, sin,"),
         {"abs(x)", "'abs' is no function; there are sqrt, sin, cos, tan, exp, log, sinh, cosh, tanh, atan"},
         {"mu(x + 1)", "if it is a name, a product is written mu*(...)"}})
-    expect_words(message_of<ExpressionError>([&] { Expression::parse(text, Expression::Syntax::formula); }), {words});
+    expect_words(
+        message_of<ExpressionError>([&, text = text] { Expression::parse(text, Expression::Syntax::formula); }),
+        {words});
   EXPECT_THROW(Expression::parse("k(x + 1)", Expression::Syntax::formula), ExpressionError);
 }
 
