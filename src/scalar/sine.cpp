@@ -19,6 +19,12 @@ bool set_by_ball(mpfr_ptr r, mpfr_srcptr a, void (*f)(arb_t, const arb_t, slong)
   return true;
 }
 
+void set_rounded(mpfr_ptr r, mpfr_srcptr a, void (*ball)(arb_t, const arb_t, slong),
+                 int (*rounded)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t)) {
+  if (!has_sine_in_reach(a)) return mpfr_set_nan(r);
+  if (!set_by_ball(r, a, ball)) rounded(r, a, MPFR_RNDN);
+}
+
 }  // namespace
 
 bool has_sine_in_reach(mpfr_srcptr a) {
@@ -26,14 +32,8 @@ bool has_sine_in_reach(mpfr_srcptr a) {
   return mpfr_regular_p(a) == 0 || mpfr_get_exp(a) <= greatest;
 }
 
-void set_sin(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t) {
-  if (!has_sine_in_reach(a)) return mpfr_set_nan(r);
-  if (!set_by_ball(r, a, arb_sin)) mpfr_sin(r, a, MPFR_RNDN);
-}
+void set_sin(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t) { set_rounded(r, a, arb_sin, mpfr_sin); }
 
-void set_cos(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t) {
-  if (!has_sine_in_reach(a)) return mpfr_set_nan(r);
-  if (!set_by_ball(r, a, arb_cos)) mpfr_cos(r, a, MPFR_RNDN);
-}
+void set_cos(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t) { set_rounded(r, a, arb_cos, mpfr_cos); }
 
 }  // namespace hbvm::core
