@@ -18,4 +18,34 @@ inline double elapsed_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// While one lives, the time of each part of this thread's steps is measured. It costs two readings of the clock a
+/// part.
+class MeasuredParts {
+ public:
+  MeasuredParts() : before_(on_) { on_ = true; }
+  ~MeasuredParts() { on_ = before_; }
+  MeasuredParts(const MeasuredParts&) = delete;
+
+  static bool on() { return on_; }
+
+ private:
+  static constinit inline thread_local bool on_ = false;
+  bool before_;
+};
+
+/// Adds the time for which it lives to `seconds`, where parts are measured.
+class PartTimer {
+ public:
+  [[gnu::always_inline]] explicit PartTimer(double& seconds)
+      : seconds_(MeasuredParts::on() ? &seconds : nullptr), before_(seconds_ ? elapsed_seconds() : 0) {}
+  [[gnu::always_inline]] ~PartTimer() {
+    if (seconds_) *seconds_ += elapsed_seconds() - before_;
+  }
+  PartTimer(const PartTimer&) = delete;
+
+ private:
+  double* seconds_;
+  double before_;
+};
+
 }  // namespace hbvm::core

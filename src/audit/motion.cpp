@@ -83,8 +83,7 @@ bool resolves(const Assembled<Mpfr>& scene, int log2_h) {
   State<Mpfr> state(scene.q0, scene.p0);
   CoefficientDecay<Mpfr> decay(scene.problem, s, h);
   for (int n = 0; n < steps; ++n) {
-    stepper.step(state, h);
-    decay.observe(stepper.solver().unknowns(), state.p);
+    decay.observe(stepper.step(state, h), state);
   }
   return 16 * decay.worst(state.q).ratio <= 1;
 }

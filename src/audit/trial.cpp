@@ -21,12 +21,14 @@ void Trial<S>::begin(const Laboratory::Start& start, const Mpfr& h) {
   h_ = rounded_to<S>(raw(h));
   state_.emplace(rounded<S>(start.q), rounded<S>(start.p));
   stepper_ = make_stepper_();
+  last_ = {};
 }
 
 template <Scalar S>
 long Trial<S>::step() {
   const PrecisionScope working(digits_);
-  return stepper_->step(*state_, h_);
+  last_ = stepper_->step(*state_, h_);
+  return last_.sweeps;
 }
 
 template <Scalar S>
@@ -46,12 +48,12 @@ void Trial<S>::state(Vector<Mpfr>& q, Vector<Mpfr>& p) const {
 
 template <Scalar S>
 void Trial<S>::multiplier(Vector<Mpfr>& lambda) const {
-  copy_exactly(lambda, stepper_->multiplier());
+  copy_exactly(lambda, *last_.multiplier);
 }
 
 template <Scalar S>
 void Trial<S>::unknowns(Matrix<Mpfr>* gamma, Matrix<Mpfr>* lambda) {
-  const StageUnknowns<S>& x = *stepper_->unknowns();
+  const StageUnknowns<S>& x = *last_.unknowns;
   if (gamma) copy_exactly(*gamma, x.gamma);
   if (!lambda) return;
   copy_exactly(*lambda, x.lambda);

@@ -38,7 +38,7 @@ class Trial {
   /// Coefficients of the last step and its multipliers at the s Gauss nodes, each if asked for; not for a method
   /// without polynomials.
   void unknowns(Matrix<Mpfr>* gamma, Matrix<Mpfr>* lambda);
-  bool has_polynomials() const { return stepper_ && stepper_->unknowns(); }
+  bool has_polynomials() const { return last_.unknowns; }
 
  private:
   unsigned digits_;
@@ -46,6 +46,7 @@ class Trial {
   StepperMaker<S> make_stepper_;
   std::unique_ptr<Stepper<S>> stepper_;
   std::optional<State<S>> state_;
+  StepResult<S> last_;
   bool coefficients_of_lambda_ = false;  ///< are its unknowns
   S h_ = 0;
 };

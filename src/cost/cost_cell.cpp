@@ -136,7 +136,7 @@ class CostRun {
   /// The first steps, with the time of each part.
   void account(CostMeasurement& m, long steps) {
     const auto made = stepper();
-    made->measure_time();
+    const MeasuredParts measured;
     State<S> state(assembled_.q0, assembled_.p0);
     const double before = thread_seconds(), elapsed_before = elapsed_seconds();
     for (long n = 0; n < steps; ++n) made->step(state, grid_.step());

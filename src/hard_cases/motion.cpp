@@ -126,23 +126,21 @@ void kick(const Problem<S>& problem, State<S>& state, long bits) {
 
 /// Kicks the state at the start and at every eighth of the run, then makes the step.
 template <Scalar S>
-class KickingStepper final : public Stepper<S> {
+class KickingStepper final : public ForwardingStepper<S> {
  public:
   KickingStepper(Stepper<S>& inner, long bits, long steps)
-      : inner_(inner), bits_(bits), every_(std::max(1L, steps / samples)) {}
+      : ForwardingStepper<S>(inner), bits_(bits), every_(std::max(1L, steps / samples)) {}
 
-  const Problem<S>& problem() const override { return inner_.problem(); }
-  long step(State<S>& state, const S& h) override {
-    if (bits_ > 0 && made_++ % every_ == 0) kick(problem(), state, bits_);
-    return inner_.step(state, h);
+  StepResult<S> step(State<S>& state, const S& h) override {
+    if (bits_ > 0 && made_++ % every_ == 0) kick(this->problem(), state, bits_);
+    return this->inner().step(state, h);
   }
-  const Vector<S>& multiplier() const override { return inner_.multiplier(); }
-  SolverCounts counts() const override { return inner_.counts(); }
-  void measure_time() override { inner_.measure_time(); }
-  void remember(Archive& archive) override { archive(inner_, made_); }
+  void remember(Archive& archive) override {
+    ForwardingStepper<S>::remember(archive);
+    archive(made_);
+  }
 
  private:
-  Stepper<S>& inner_;
   long bits_, every_, made_ = 0;
 };
 

@@ -17,7 +17,9 @@ CoefficientDecay<S>::CoefficientDecay(const Problem<S>& problem, int s, const S&
 }
 
 template <Scalar S>
-void CoefficientDecay<S>::observe(const StageUnknowns<S>& x, const Vector<S>& p1) {
+void CoefficientDecay<S>::observe(const StepResult<S>& step, const State<S>& end) {
+  if (!step.unknowns) return;
+  const StageUnknowns<S>& x = *step.unknowns;
   Index offset = 0;
   for (Body& body : bodies_) {
     set_zero(norm_);
@@ -33,7 +35,11 @@ void CoefficientDecay<S>::observe(const StageUnknowns<S>& x, const Vector<S>& p1
     set_zero(size_);
     for (Index j = offset; j < offset + dimension_; ++j) {
       raise_magnitude(body.force, x.psi(0, j));
-      set_difference(rest_, p1[j], x.gamma(0, j));
+      if (step.reversed)
+        set_negative(rest_, end.p[j]);
+      else
+        set(rest_, end.p[j]);
+      set_difference(rest_, rest_, x.gamma(0, j));
       for (Index i = 1; i < s_; ++i) subtract_product(rest_, P_at_1_[static_cast<std::size_t>(i)], x.gamma(i, j), t_);
       if (s_ > 1) {
         raise_magnitude(size_, rest_);

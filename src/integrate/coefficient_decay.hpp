@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "problem/problem.hpp"
-#include "solver/stage_equations.hpp"
+#include "integrate/observer.hpp"
 
 namespace hbvm::core {
 
@@ -21,15 +20,15 @@ namespace hbvm::core {
 /// would move the body by its position in a step. Bodies are blocks of `dimension` coordinates, each compared with its
 /// own.
 template <Scalar S>
-class CoefficientDecay {
+class CoefficientDecay final : public StepObserver<S> {
  public:
   /// The problem must outlive it.
   CoefficientDecay(const Problem<S>& problem, int s, const S& step);
 
-  /// The solution of a step, and the momentum where it ends. Allocates nothing.
-  void observe(const StageUnknowns<S>& x, const Vector<S>& p1);
+  /// Nothing of a step without polynomials. Allocates nothing.
+  void observe(const StepResult<S>& step, const State<S>& end) override;
 
-  void remember(Archive& archive) {
+  void remember(Archive& archive) override {
     for (Body& body : bodies_) archive(body.mean, body.force, body.varying, body.neglected);
     archive(before_, has_before_);
   }

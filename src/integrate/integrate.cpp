@@ -13,7 +13,8 @@ namespace hbvm::core {
 
 template <Scalar S>
 Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>& grid,
-                         const std::vector<Observer<S>*>& observers, Checkpoints* checkpoints) {
+                         const std::vector<Observer<S>*>& observers, Checkpoints* checkpoints,
+                         StepObserver<S>* each_step) {
   Integration<S> result;
   const auto show = [&](const Snapshot<S>& snapshot) {
     for (Observer<S>* const observer : observers) observer->observe(snapshot);
@@ -22,6 +23,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
   const auto contents = [&](Archive& archive) {
     archive(result.end.n, result.sweeps, result.cpu_seconds, result.elapsed_seconds, result.end.lambda, state, stepper);
     for (Observer<S>* const observer : observers) observer->remember(archive);
+    if (each_step) each_step->remember(archive);
   };
   if (checkpoints && checkpoints->resumes()) {
     checkpoints->load(contents);
@@ -45,12 +47,14 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     const double before = thread_seconds(), elapsed_before = elapsed_seconds();
     try {
       for (; made < block && n < grid.steps() && !stop_asked(); ++made) {
-        result.sweeps += stepper.step(state, grid.step());
+        const StepResult<S> step = stepper.step(state, grid.step());
+        result.sweeps += step.sweeps;
+        if (each_step) each_step->observe(step, state);
         Snapshot<S>& snapshot = snapshots[made];
         snapshot.n = ++n;
         snapshot.q = state.q;
         snapshot.p = state.p;
-        snapshot.lambda = stepper.multiplier();
+        snapshot.lambda = *step.multiplier;
       }
     } catch (const StageFailure& error) {
       failure.emplace(n + 1, to_text(grid.time(n)), error);
@@ -83,7 +87,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
 
 #define HBVM_DEFINE(S)                                                                                               \
   template Integration<S> integrate<S>(Stepper<S>&, State<S>&, const TimeGrid<S>&, const std::vector<Observer<S>*>&, \
-                                       Checkpoints*);
+                                       Checkpoints*, StepObserver<S>*);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

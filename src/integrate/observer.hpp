@@ -3,6 +3,7 @@
 #include "hbvm/error.hpp"
 #include "linear/matrix.hpp"
 #include "scalar/archive.hpp"
+#include "step/stepper.hpp"
 
 namespace hbvm::core {
 
@@ -23,6 +24,17 @@ class Observer {
   virtual void observe(const Snapshot<S>& snapshot) = 0;
   /// All that it gathered, for a run that goes on from a checkpoint.
   virtual void remember(Archive&) { throw InputError("--checkpoint: something that looks at this run cannot be kept"); }
+};
+
+/// Looks at every step as soon as it is made, with its polynomials.
+template <Scalar S>
+class StepObserver {
+ public:
+  virtual ~StepObserver() = default;
+  /// \param end the state in which the step ends
+  virtual void observe(const StepResult<S>& step, const State<S>& end) = 0;
+  /// As of an Observer.
+  virtual void remember(Archive& archive) = 0;
 };
 
 }  // namespace hbvm::core

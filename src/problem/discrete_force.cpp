@@ -36,7 +36,7 @@ void DiscreteForce<S>::evaluate(const Vector<S>& q0, const Vector<S>& q1, Matrix
   for (Index j = 0; j < force.cols(); ++j) set(force(0, j), constant_force_[j]);
   for (std::size_t t = 0, n = 0; t < potential_.terms.size(); ++t) {
     if (potential_.terms[t].constant_force) continue;
-    const double before = timed_ ? elapsed_seconds() : 0;
+    const PartTimer timer(counts_[t].seconds);
     ++counts_[t].calls;
     ++counts_[t].evaluations;
     const EffectTerm<S>& term = potential_.terms[t];
@@ -49,7 +49,6 @@ void DiscreteForce<S>::evaluate(const Vector<S>& q0, const Vector<S>& q1, Matrix
       for (Index j = 0; j < inputs; ++j)
         for (const auto& block : term.displacement(i, j / d).blocks)
           add_weighted(&force(0, block.offset + j % d), block.weight, &work.execution.output(j, i), Index{1}, t_);
-    if (timed_) counts_[t].seconds += elapsed_seconds() - before;
   }
 }
 

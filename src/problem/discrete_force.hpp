@@ -19,7 +19,6 @@ class DiscreteForce {
 
   /// How often that of each effect was evaluated, all of them anew.
   const std::vector<EffectCount>& counts() const { return counts_; }
-  void measure_time() { timed_ = true; }
 
  private:
   struct Work {
@@ -33,7 +32,6 @@ class DiscreteForce {
   std::deque<Work> work_;  ///< of the effects whose force is not constant, in turn
   std::vector<EffectCount> counts_;
   Vector<S> constant_force_;
-  bool timed_ = false;
   S t_ = 0;  // scratch
 };
 

@@ -131,8 +131,7 @@ void PotentialEvaluator<S>::join_gradients() {
 }
 
 template <Scalar S>
-void PotentialEvaluator<S>::measure_time() {
-  timed_ = true;
+void PotentialEvaluator<S>::take_apart() {
   for (Varying& own : varying_) {
     if (own.joint == nullptr || !own.joint->kernel) continue;
     own.joint = nullptr;
@@ -173,12 +172,12 @@ template <Scalar S>
 void PotentialEvaluator<S>::varying_force(Lanes<const S> q, Matrix<S>& force) {
   if (force.rows() != lanes_ || force.cols() != potential_.m) force.resize(lanes_, potential_.m);
   set_zero(force);
+  if (MeasuredParts::on()) take_apart();
   for (const Varying& own : varying_) {
-    const double before = timed_ ? elapsed_seconds() : 0;
+    const PartTimer timer(own.count->seconds);
     ++own.count->calls;
     own.count->evaluations += static_cast<std::uint64_t>(lanes_);
     add_force(own, q, force);
-    if (timed_) own.count->seconds += elapsed_seconds() - before;
   }
 }
 

@@ -13,7 +13,7 @@ namespace hbvm::core {
 
 /// How often the force of an effect ran. It has calls, evaluations at a node (each for all bodies or pairs it acts on),
 /// and the operations of one evaluation by its formula. Of these some are not done again where an effect before it has
-/// done them. `seconds` is measured if asked for.
+/// done them. `seconds` is measured while a MeasuredParts lives.
 struct EffectCount {
   std::uint64_t calls = 0, evaluations = 0;
   OperationCounts per_evaluation{}, done_before{};
@@ -59,8 +59,6 @@ class PotentialEvaluator {
 
   /// How often the force of each term was evaluated.
   const std::vector<EffectCount>& counts() const { return counts_; }
-  /// Also measure the time each takes; those of a kernel together are done one by one then.
-  void measure_time();
 
  private:
   struct Work {
@@ -89,6 +87,8 @@ class PotentialEvaluator {
 
   /// Joins the gradients of the terms that vary and act alike; those that have kernels if they have one together.
   void join_gradients();
+  /// Those with a kernel together are evaluated one by one from here on: each has a time of its own.
+  void take_apart();
   /// force += the gradient of a term.
   void add_force(const Varying& own, Lanes<const S> q, Matrix<S>& force);
   void displace_all(const EffectTerm<S>& term, Work& work, Lanes<const S> q);
@@ -98,7 +98,6 @@ class PotentialEvaluator {
 
   const Potential<S>& potential_;
   Index lanes_;
-  bool timed_ = false;
   std::deque<Work> work_;
   std::deque<Joint> joints_;
   std::vector<EffectCount> counts_;

@@ -54,7 +54,7 @@ double HbvmMotion::first_length() {
 }
 
 double HbvmMotion::room(double log2_h) const {
-  const Matrix<Mpfr>& gamma = stepper_.unknowns()->gamma;
+  const Matrix<Mpfr>& gamma = stepper_.solver().unknowns().gamma;
   const Index s = gamma.rows();
   const double bits = significand_bits<Mpfr>();
   double least = infinite;
@@ -78,7 +78,7 @@ double HbvmMotion::room(double log2_h) const {
 }
 
 bool HbvmMotion::is_bounded(const Vector<Mpfr>& q0, const Mpfr& h, double log2_h, double log2_rho) {
-  const Matrix<Mpfr>& gamma = stepper_.unknowns()->gamma;
+  const Matrix<Mpfr>& gamma = stepper_.solver().unknowns().gamma;
   const Index d = problem_.dimension;
   Matrix<Mpfr> v(gamma.rows(), gamma.cols());
   problem_.mass.velocity(lanes(gamma), lanes(v));
@@ -110,8 +110,8 @@ void HbvmMotion::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)
                    most_fall = 4, fall = double{1} / 2, most_trend = double{3} / 10;
   // As of a Taylor series: what forces may be beside the terms that are left out.
   constexpr double slack = 10;
-  const double log2_ellipse =
-      log2_rho_ - (slack - ForceBounds::allowed_bits) / static_cast<double>(2 * stepper_.unknowns()->gamma.rows());
+  const double log2_ellipse = log2_rho_ - (slack - ForceBounds::allowed_bits) /
+                                              static_cast<double>(2 * stepper_.solver().unknowns().gamma.rows());
   double last_length = -infinite;
   while (now_ < t) {
     const Mpfr left = t - now_, whole = power_of_two(log2_h_);

@@ -10,7 +10,7 @@
 namespace hbvm::core {
 namespace {
 
-class TaylorStepper final : public Stepper<Mpfr> {
+class TaylorStepper final : public CountingStepper<Mpfr> {
  public:
   explicit TaylorStepper(const Problem<Mpfr>& problem)
       : problem_(problem), multiplier_(Vector<Mpfr>::Zero(problem.nu())), effects_(problem.potential.terms.size()) {}
@@ -18,8 +18,8 @@ class TaylorStepper final : public Stepper<Mpfr> {
   const Problem<Mpfr>& problem() const override { return problem_; }
 
   /// \return steps of the series
-  long step(State<Mpfr>& state, const Mpfr& h) override {
-    const PartCall counted(series_, timed_);
+  StepResult<Mpfr> step(State<Mpfr>& state, const Mpfr& h) override {
+    const PartCall counted(series_);
     try {
       TaylorMotion motion(problem_, state.q, state.p, [] { end_if_asked("a step is made of many"); });
       motion.advance_to(h);
@@ -33,29 +33,22 @@ class TaylorStepper final : public Stepper<Mpfr> {
       set_zero(state.q_carry);
       set_zero(state.p_carry);
       if (problem_.nu() > 0) set(multiplier_, motion.lambda());
-      return static_cast<long>(steps);
+      return {static_cast<long>(steps), &multiplier_};
     } catch (const IntegrationError& error) {
       throw StageFailure(FailureCause::stage_equations_diverge,
                          std::string("from the start of the step, ") + error.what(), "inf", 0);
     }
   }
 
-  const Vector<Mpfr>& multiplier() const override { return multiplier_; }
-  /// The evaluations of an effect are coefficients of the series of its force.
-  SolverCounts counts() const override { return sum_of(earlier_, SolverCounts{effects_, {series_}}, problem_); }
-  void measure_time() override { timed_ = true; }
-  void remember(Archive& archive) override {
-    archive(multiplier_);
-    remember_counts(archive, earlier_);
-  }
-
  private:
+  /// The evaluations of an effect are coefficients of the series of its force.
+  SolverCounts own_counts() const override { return {effects_, {series_}}; }
+  void remember_own(Archive&) override {}
+
   const Problem<Mpfr>& problem_;
   Vector<Mpfr> multiplier_;
   std::vector<EffectCount> effects_;
   PartCount series_{"Taylor series"};
-  bool timed_ = false;
-  SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
 class TaylorMethod final : public MethodByTemplate<TaylorMethod> {

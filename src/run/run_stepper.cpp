@@ -61,10 +61,10 @@ RunStepper<S>::RunStepper(const Assembled<S>& scene, MethodPtr method, const S& 
 }
 
 template <Scalar S>
-long RunStepper<S>::step(State<S>& state, const S& h) {
-  const long sweeps = outer_->step(state, h);
+StepResult<S> RunStepper<S>::step(State<S>& state, const S& h) {
+  const StepResult<S> result = outer_->step(state, h);
   ++nodes_.step;
-  return sweeps;
+  return result;
 }
 
 #define HBVM_DEFINE(S) template class RunStepper<S>;

@@ -31,11 +31,8 @@ class RunStepper final : public Stepper<S> {
   RunStepper(const RunStepper&) = delete;
 
   const Problem<S>& problem() const override { return outer_->problem(); }
-  long step(State<S>& state, const S& h) override;
-  const Vector<S>& multiplier() const override { return outer_->multiplier(); }
-  const StageUnknowns<S>* unknowns() const override { return outer_->unknowns(); }
+  StepResult<S> step(State<S>& state, const S& h) override;
   SolverCounts counts() const override { return outer_->counts(); }
-  void measure_time() override { outer_->measure_time(); }
   void remember(Archive& archive) override { archive(*outer_, nodes_); }
 
   /// With k as chosen.

@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "integrate/coefficient_decay.hpp"
 #include "integrate/drift.hpp"
 #include "integrate/integrate.hpp"
-#include "integrate/watched_stepper.hpp"
 #include "run/account.hpp"
 #include "scene/assemble.hpp"
 #include "step/backward_stepper.hpp"
@@ -37,14 +37,12 @@ Simulated<S> simulate(const Assembled<S>& scene, Stepper<S>& stepper, const Time
                       CoefficientDecay<S>* decay = nullptr, const Course<S>& course = {}) {
   Drift<S> drift(scene.problem);
   observers.insert(observers.begin(), &drift);
-  if (account) stepper.measure_time();
+  std::optional<MeasuredParts> measured;
+  if (account) measured.emplace();
   State<S> state = course.start ? *course.start : State<S>(scene.q0, scene.p0);
-  std::optional<WatchedStepper<S>> watched;
-  if (decay) watched.emplace(stepper, *decay);
-  Stepper<S>& forward = decay ? static_cast<Stepper<S>&>(*watched) : stepper;
-  BackwardStepper<S> backward(forward);
-  Stepper<S>& used = grid.direction() == Direction::backward ? static_cast<Stepper<S>&>(backward) : forward;
-  Integration<S> integration = integrate<S>(used, state, grid, observers, course.checkpoints);
+  BackwardStepper<S> backward(stepper);
+  Stepper<S>& used = grid.direction() == Direction::backward ? static_cast<Stepper<S>&>(backward) : stepper;
+  Integration<S> integration = integrate<S>(used, state, grid, observers, course.checkpoints, decay);
   if (account) {
     *account = account_of(scene.problem, stepper.counts());
     balance(*account, integration.cpu_seconds, integration.elapsed_seconds);

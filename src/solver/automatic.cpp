@@ -11,10 +11,7 @@ Automatic<S>::Automatic(const Problem<S>& problem, const Hbvm<S>& method)
 template <Scalar S>
 StageSolver<S>& Automatic<S>::make(int which) {
   std::unique_ptr<StageSolver<S>>& solver = solvers_[static_cast<std::size_t>(which)];
-  if (!solver) {
-    solver = make_solver(which == 0 ? SolverKind::fixed_point : SolverKind::newton, problem_, method_);
-    if (timed_) solver->measure_time();
-  }
+  if (!solver) solver = make_solver(which == 0 ? SolverKind::fixed_point : SolverKind::newton, problem_, method_);
   return *solver;
 }
 
@@ -47,13 +44,6 @@ SolverCounts Automatic<S>::counts() const {
   for (const auto& solver : solvers_)
     if (solver) add_counts(sum, solver->counts(), problem_);
   return sum;
-}
-
-template <Scalar S>
-void Automatic<S>::measure_time() {
-  timed_ = true;
-  for (const auto& solver : solvers_)
-    if (solver) solver->measure_time();
 }
 
 template <Scalar S>

@@ -20,7 +20,6 @@ class Automatic final : public StageSolver<S> {
   const StageUnknowns<S>& unknowns() const override { return current().unknowns(); }
   const StepChange<S>& change() const override { return current().change(); }
   SolverCounts counts() const override;
-  void measure_time() override;
   void remember(Archive& archive) override;
 
  private:
@@ -32,7 +31,6 @@ class Automatic final : public StageSolver<S> {
   std::unique_ptr<StageSolver<S>> solvers_[2];
   int used_ = 0;  ///< 0: fixed point, 1: Newton
   long last_sweeps_ = 0;
-  bool timed_ = false;
 };
 
 }  // namespace hbvm::core

@@ -37,7 +37,7 @@ Continuation<S>::Continuation(const Hbvm<S>& method, std::vector<Index> body, In
 
 template <Scalar S>
 void Continuation<S>::keep(const StageUnknowns<S>& solution) {
-  const PartCall counted(part_, timed_);
+  const PartCall counted(part_);
   set(last_.gamma, solution.gamma);
   set(last_.psi, solution.psi);
   set(last_.zeta, solution.zeta);
@@ -96,7 +96,7 @@ void Continuation<S>::shift(Matrix<S>& x) {
 
 template <Scalar S>
 void Continuation<S>::predict(StageUnknowns<S>& x) {
-  const PartCall counted(part_, timed_);
+  const PartCall counted(part_);
   set(x.gamma, last_.gamma);
   set(x.psi, last_.psi);
   set(x.zeta, last_.zeta);

@@ -34,7 +34,6 @@ class Continuation {
   void predict(StageUnknowns<S>& x);
 
   const PartCount& part_count() const { return part_; }
-  void measure_time() { timed_ = true; }
   void remember(Archive& archive) {
     archive(known_, last_.gamma, last_.psi, last_.zeta, last_.lambda);
     if (known_) find_degree();
@@ -56,7 +55,7 @@ class Continuation {
   bool coefficients_known_;  ///< of lambda: they are its unknowns
   Matrix<S> coefficients_;   ///< s x nu
   Vector<S> x_;
-  bool known_ = false, timed_ = false;
+  bool known_ = false;
   PartCount part_{"continuation of the last step"};
 };
 

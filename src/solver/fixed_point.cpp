@@ -33,12 +33,6 @@ SolverCounts FixedPoint<S>::counts() const {
 }
 
 template <Scalar S>
-void FixedPoint<S>::measure_time() {
-  timed_ = true;
-  equations_.measure_time();
-}
-
-template <Scalar S>
 long FixedPoint<S>::solve(const StepStart<S>& start) {
   if (start.h != h_) {
     set(h_, start.h);
@@ -69,7 +63,7 @@ long FixedPoint<S>::solve(const StepStart<S>& start) {
   }
   if (doubtful || rule_.sweeps() > significand_bits<S>()) sweeps += check_root(sweeps);
   if (order_ == Order::newest) {
-    const PartCall counted(start_count_, timed_);
+    const PartCall counted(start_count_);
     extrapolation_.add(x_.gamma.data());
   }
   equations_.changes(x_, change_);
@@ -129,7 +123,7 @@ long FixedPoint<S>::iterate() {
     if (!sweep(papers || rule_.is_coarse()))
       throw StageFailure(FailureCause::near_singular_constraints,
                          "the linear system for the multipliers, (29), is singular", "0", rule_.sweeps() + 1);
-    const PartCall counted(increment_count_, timed_);
+    const PartCall counted(increment_count_);
     rule_.show_change(x_.gamma, gamma_before_);
     if (papers) rule_.show_change(x_.psi, psi_before_, &h_);
     if (rule_.is_coarse()) {

@@ -31,7 +31,6 @@ class FixedPoint final : public StageSolver<S> {
   const StageUnknowns<S>& unknowns() const override { return x_; }
   const StepChange<S>& change() const override { return change_; }
   SolverCounts counts() const override;
-  void measure_time() override;
   /// The multipliers are where those of the next step start from.
   void remember(Archive& archive) override { archive(h_, extrapolation_, x_.lambda, x_.zeta); }
 
@@ -56,7 +55,6 @@ class FixedPoint final : public StageSolver<S> {
   Vector<S> positions_;
   StepChange<S> change_;
   PartCount start_count_{"extrapolation"}, increment_count_{"increments and stopping rule"};
-  bool timed_ = false;
   S h_ = 0;  ///< of the last step
 };
 

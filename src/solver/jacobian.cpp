@@ -100,12 +100,12 @@ OperationCounts Jacobian<S>::assembly_operations() const {
 template <Scalar S>
 bool Jacobian<S>::factor(const StageEquations<S>& at, const Matrix<S>& lambda) {
   {
-    const PartCall counted = call(assembly);
+    const PartCall counted(parts_[assembly]);
     assemble(at, lambda);
     choose_scales(at.constraint_gradient());
     scale();
   }
-  const PartCall counted = call(factors);
+  const PartCall counted(parts_[factors]);
   return matrix_.factor();
 }
 
@@ -277,7 +277,7 @@ void Jacobian<S>::solve(StageResidual<S>& r) {
 
 template <Scalar S>
 void Jacobian<S>::solve_scaled(StageResidual<S>& r) {
-  const PartCall counted = call(corrections);
+  const PartCall counted(parts_[corrections]);
   const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) set(x_[of_coordinate(j) + i], r.momentum(i, j));

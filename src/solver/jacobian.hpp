@@ -53,7 +53,6 @@ class Jacobian {
   Index half_bandwidth() const { return matrix_.half_bandwidth(); }
   /// How often it was assembled, factored and solved with, and what each takes.
   const std::vector<PartCount>& part_counts() const { return parts_; }
-  void measure_time() { timed_ = true; }
   /// Operations of a new one, assembled and factored, and of a solution with it.
   std::uint64_t evaluation_cost() const { return (parts_[assembly].per_call + parts_[factors].per_call).total(); }
   std::uint64_t solution_cost() const { return parts_[corrections].per_call.total(); }
@@ -65,7 +64,6 @@ class Jacobian {
 
  private:
   enum Part { assembly, factors, corrections };
-  PartCall call(Part part) { return {parts_[part], timed_}; }
   /// Of second derivatives of U at the nodes only what joins them to the matrix.
   OperationCounts assembly_operations() const;
   /// block_ += factor sum_n X_in w_n I_nj.
@@ -95,7 +93,6 @@ class Jacobian {
   Matrix<S> block_, curved_, weighted_;
   Vector<S> at_nodes_;  ///< r
   std::vector<PartCount> parts_;
-  bool timed_ = false;
 };
 
 }  // namespace hbvm::core

@@ -142,10 +142,7 @@ long Newton<S>::solve(const StepStart<S>& start) {
 
 template <Scalar S>
 long Newton<S>::solve_in_full(const StepStart<S>& start) {
-  if (!full_) {
-    full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_);
-    if (timed_) full_->measure_time();
-  }
+  if (!full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_);
   const long sweeps = full_->solve(start);
   set(x_.gamma, full_->unknowns().gamma);
   set(x_.lambda, full_->unknowns().lambda);
@@ -157,7 +154,7 @@ long Newton<S>::solve_in_full(const StepStart<S>& start) {
 
 template <Scalar S>
 void Newton<S>::take_residual(const StageResidual<S>& r, long& exponent) {
-  const PartCall counted(rounding_count_, timed_);
+  const PartCall counted(rounding_count_);
   // Rows come to the size of velocities, as the Jacobian's are, so that no unit and no heavy body drowns a light one.
   const Jacobian<double>& jacobian = rounded_->jacobian();
   exponent = exponent_of_zero;
@@ -222,7 +219,7 @@ std::pair<long, bool> Newton<S>::refine(const StepStart<S>& from) {
     if (sweeps == 1 && !rounded_->refresh(evaluated.equations)) return {0, false};
     take_residual(evaluated.residual, exponent);
     rounded_->jacobian().solve_scaled(correction_);
-    const PartCall counted(update_count_, timed_);
+    const PartCall counted(update_count_);
     for (Index j = 0; j < x_.gamma.cols(); ++j) {
       double largest = 0;
       for (Index i = 0; i < method_.s; ++i) {
@@ -281,19 +278,6 @@ SolverCounts Newton<S>::counts() const {
     const std::vector<PartCount> in_double = rounded_->counts_in_double();
     sum.parts.insert(sum.parts.end(), in_double.begin(), in_double.end());
     return sum;
-  }
-}
-
-template <Scalar S>
-void Newton<S>::measure_time() {
-  timed_ = true;
-  if constexpr (std::same_as<S, double>) {
-    rounded_->measure_time();
-  } else {
-    equations_->measure_time();
-    for (Rung& rung : rungs_) rung.level->equations.measure_time();
-    if (rounded_) rounded_->measure_time_in_double();
-    if (full_) full_->measure_time();
   }
 }
 

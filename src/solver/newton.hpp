@@ -34,7 +34,6 @@ class Newton final : public StageSolver<S> {
   const StageUnknowns<S>& unknowns() const override { return x_; }
   const StepChange<S>& change() const override { return change_; }
   SolverCounts counts() const override;
-  void measure_time() override;
   void remember(Archive& archive) override;
 
  private:
@@ -92,7 +91,6 @@ class Newton final : public StageSolver<S> {
   Vector<S> positions_;
   StoppingRule<S> rule_;
   PartCount rounding_count_{"rounding of the residual to double"}, update_count_{"increments and stopping rule"};
-  bool timed_ = false;
   bool failed_in_double_ = false;
   S rate_ = 1, t_ = 0;  ///< rate_: at which corrections fell in the last step
 };

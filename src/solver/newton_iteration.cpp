@@ -53,12 +53,6 @@ NewtonIteration<S>::NewtonIteration(const Problem<S>& problem, const Hbvm<S>& me
 }
 
 template <Scalar S>
-void NewtonIteration<S>::measure_time() {
-  timed_ = true;
-  jacobian_.measure_time();
-}
-
-template <Scalar S>
 void NewtonIteration<S>::begin(const StepStart<S>& from, const S& h) {
   equations_.start({from.q, from.p, h, from.q_carry, from.p_carry});
   position_scale_.evaluate(from.q, h, positions_);
@@ -88,7 +82,7 @@ long NewtonIteration<S>::run() {
       updates_.clear();
     }
     jacobian_.solve(residual_);
-    const PartCall counted(increment_count_, timed_);
+    const PartCall counted(increment_count_);
     const Verdict verdict = find_correction();
     if (course_.begins()) {
       if (verdict == Verdict::not_finite)
@@ -115,7 +109,7 @@ long NewtonIteration<S>::run() {
 template <Scalar S>
 void NewtonIteration<S>::evaluate_residual(long sweep) {
   {
-    const PartCall counted(equations_count_, timed_);
+    const PartCall counted(equations_count_);
     equations_.residual(x_, residual_);
   }
   set(momentum_, residual_.momentum);

@@ -53,7 +53,6 @@ class NewtonIteration {
 
   const PartCount& equations_count() const { return equations_count_; }
   const PartCount& increment_count() const { return increment_count_; }
-  void measure_time();
   void remember(Archive& archive) {
     archive(usable_);
     if (usable_) archive(jacobian_);
@@ -90,7 +89,6 @@ class NewtonIteration {
   Vector<S> positions_;
   StoppingRule<S> rule_;
   PartCount equations_count_{"stage equations"}, increment_count_{"increments and stopping rule"};
-  bool timed_ = false;
   long max_sweeps_;
   NewtonCourse<S> course_;
   S t_ = 0;

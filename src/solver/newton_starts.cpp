@@ -35,12 +35,6 @@ void NewtonStarts<S>::clear() {
 }
 
 template <Scalar S>
-void NewtonStarts<S>::measure_time() {
-  timed_ = true;
-  continuation_.measure_time();
-}
-
-template <Scalar S>
 bool NewtonStarts<S>::continuation_is_nearer() const {
   // Errors of the momenta of some body, over their size.
   long continued = exponent_of_zero, extrapolated = exponent_of_zero;
@@ -80,7 +74,7 @@ void NewtonStarts<S>::set_constant(StageEquations<S>& equations, StageUnknowns<S
 
 template <Scalar S>
 void NewtonStarts<S>::keep(const StageUnknowns<S>& solution) {
-  const PartCall counted(count_, timed_);
+  const PartCall counted(count_);
   set(sequence_, solution.gamma);
   for (Index i = 0; i < solution.lambda.size(); ++i)
     set(sequence_[solution.gamma.size() + i], solution.lambda.data()[i]);

@@ -28,7 +28,6 @@ class NewtonStarts {
   void keep(const StageUnknowns<S>& solution);
 
   std::vector<PartCount> part_counts() const { return {count_, continuation_.part_count()}; }
-  void measure_time();
   void remember(Archive& archive) { archive(extrapolation_, continuation_); }
 
  private:
@@ -40,7 +39,6 @@ class NewtonStarts {
   Continuation<S> continuation_;
   Vector<S> sequence_;  ///< gamma and lambda, column by column
   PartCount count_{"extrapolation"};
-  bool timed_ = false;
 };
 
 }  // namespace hbvm::core

@@ -23,23 +23,13 @@ struct PartCount {
   void remember(Archive& archive) { archive(name, calls, per_call, seconds, in_double); }
 };
 
-/// Counts a call of a part, and measures it if asked to, for as long as it lives.
+/// Counts a call of a part and times it.
 class PartCall {
  public:
-  [[gnu::always_inline]] PartCall(PartCount& part, bool timed)
-      : part_(part), timed_(timed), before_(timed ? elapsed_seconds() : 0) {
-    ++part_.calls;
-  }
-  [[gnu::always_inline]] ~PartCall() {
-    if (timed_) part_.seconds += elapsed_seconds() - before_;
-  }
-  PartCall(const PartCall&) = delete;
-  PartCall& operator=(const PartCall&) = delete;
+  [[gnu::always_inline]] explicit PartCall(PartCount& part) : timer_(part.seconds) { ++part.calls; }
 
  private:
-  PartCount& part_;
-  bool timed_;
-  double before_;
+  PartTimer timer_;
 };
 
 }  // namespace hbvm::core

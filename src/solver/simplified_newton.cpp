@@ -96,18 +96,6 @@ std::vector<PartCount> SimplifiedNewton<S>::counts_in_double() const {
   return parts;
 }
 
-template <Scalar S>
-void SimplifiedNewton<S>::measure_time() {
-  iteration_.equations().measure_time();
-  measure_time_in_double();
-}
-
-template <Scalar S>
-void SimplifiedNewton<S>::measure_time_in_double() {
-  starts_.measure_time();
-  iteration_.measure_time();
-}
-
 #define HBVM_DEFINE(S) template class SimplifiedNewton<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

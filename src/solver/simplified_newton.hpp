@@ -31,10 +31,6 @@ class SimplifiedNewton {
   SolverCounts counts() const;
   /// The same in a step of more digits, the stage equations as one part.
   std::vector<PartCount> counts_in_double() const;
-  /// Also measure the time that takes.
-  void measure_time();
-  /// The same without the parts of the stage equations.
-  void measure_time_in_double();
 
   /// Evaluates the Jacobian at the solution, with positions, velocities and gradients rounded from those of more
   /// digits. \return false if it is singular

@@ -67,12 +67,6 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
 }
 
 template <Scalar S>
-void StageEquations<S>::measure_time() {
-  timed_ = true;
-  potential_.measure_time();
-}
-
-template <Scalar S>
 void StageEquations<S>::describe_parts() {
   const Index s = method_.s, k = method_.k, r = method_.r, m = problem_.m(), nu = problem_.nu();
   const bool coefficients = method_.has_coefficients_of_lambda();
@@ -168,7 +162,7 @@ void StageEquations<S>::start(const StepStart<S>& start) {
 
 template <Scalar S>
 void StageEquations<S>::move(const Matrix<S>& gamma) {
-  const PartCall counted = call(velocities);
+  const PartCall counted(parts_[velocities]);
   with_constant_count<S>(method_.s, [&]<class Stages>(Stages s) {
     problem_.mass.velocity(Lanes<const S, Stages>{gamma.data(), s}, Lanes<S, Stages>{velocity_.data(), s});
     S* __restrict const middle = middle_.data();
@@ -208,12 +202,12 @@ template <class Stages, class Nodes>
   if (potential_.has_varying_force()) {
     Matrix<S>& u = method_.k == method_.r ? u_ : u_hat_;
     {
-      const PartCall counted = call(quadrature_nodes);
+      const PartCall counted(parts_[quadrature_nodes]);
       I_hat_centred_.times_plus(k, s, u, h_velocity_, middle_);
     }
     potential_.varying_force(lanes(u), force_);
   }
-  const PartCall counted = call(projection);
+  const PartCall counted(parts_[projection]);
   if (potential_.has_varying_force())
     projection_hat_.times(s, k, psi, force_);
   else
@@ -231,10 +225,10 @@ template <class Stages, class Nodes>
 [[gnu::always_inline]] inline void StageEquations<S>::move_constraints(Stages s, Nodes r) {
   // For k = r the nodes of the forces, just computed, are the constraints'.
   if (method_.k != method_.r || !potential_.has_varying_force()) {
-    const PartCall counted = call(constraint_nodes);
+    const PartCall counted(parts_[constraint_nodes]);
     I_centred_.times_plus(r, s, u_, h_velocity_, middle_);
   }
-  const PartCall counted = call(gradients);
+  const PartCall counted(parts_[gradients]);
   gradient_.update(Lanes<const S, Nodes>{u_.data(), r}, static_cast<S*>(nullptr));
 }
 
@@ -248,14 +242,14 @@ bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Mat
     const Index* const position = order_.position.data();
     project_multipliers(s, r, lambda, zeta);
     {
-      const PartCall counted = call(right_hand_side);
+      const PartCall counted(parts_[right_hand_side]);
       set_momenta(s, psi, zeta, stage_);
       problem_.mass.velocity(Lanes<const S, Stages>{stage_.data(), s}, Lanes<S, Stages>{velocity_.data(), s});
       if (!is_one_node(s, r)) P_.times(r, s, w_, velocity_);
       hidden_constraints(r, is_one_node(s, r) ? velocity_ : w_, [&](Index a) { return rhs + position[a] * s; });
     }
     {
-      const PartCall counted = call(solution);
+      const PartCall counted(parts_[solution]);
       system_.solve(rhs_);
       HeldScratch<S> t = t_;
       const Held<S> inverse_h = inverse_h_;
@@ -280,7 +274,7 @@ template <class Stages, class Nodes>
     product<S>(block_, method_.projection, right_);
   };
   {
-    const PartCall counted = call(matrix);
+    const PartCall counted(parts_[matrix]);
     system_.set_zero();
     gradient_.for_each_own_coupling(r, coupling_.data(), [&](Index a, Index b, const auto& at) {
       const Index row = position[a] * s, column = position[b] * s;
@@ -294,7 +288,7 @@ template <class Stages, class Nodes>
         for (Index i = 0; i < s; ++i) set_product(system_.entry(row + i, column + j), at(i, j), method_.A(i, j));
     });
   }
-  const PartCall counted = call(factors);
+  const PartCall counted(parts_[factors]);
   return system_.factor();
 }
 
@@ -302,7 +296,7 @@ template <Scalar S>
 template <class Stages, class Nodes>
 [[gnu::always_inline]] inline void StageEquations<S>::project_multipliers(Stages s, Nodes r, const Matrix<S>& lambda,
                                                                           Matrix<S>& zeta) {
-  const PartCall counted = call(zetas);
+  const PartCall counted(parts_[zetas]);
   Matrix<S>& pull = is_one_node(s, r) ? zeta : w_;
   set_zero(pull);
   if (method_.has_coefficients_of_lambda()) P_.times(lambda_, lambda);
@@ -351,10 +345,10 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& residual
       project_multipliers(s, r, x.lambda, x.zeta);
     }
     {
-      const PartCall counted = call(gammas);
+      const PartCall counted(parts_[gammas]);
       set_momenta(s, x.psi, x.zeta, residual.momentum);
     }
-    const PartCall counted = call(constraint_residual);
+    const PartCall counted(parts_[constraint_residual]);
     set_difference(residual.momentum, x.gamma, residual.momentum);
     if (!constrained) return;
     P_.times(r, s, w_, velocity_);
@@ -365,7 +359,7 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& residual
 
 template <Scalar S>
 void StageEquations<S>::momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma) {
-  const PartCall counted = call(gammas);
+  const PartCall counted(parts_[gammas]);
   with_constant_count<S>(method_.s, [&](auto s) { set_momenta(s, psi, zeta, gamma); });
 }
 

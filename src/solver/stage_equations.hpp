@@ -118,8 +118,6 @@ class StageEquations {
   const std::vector<PartCount>& part_counts() const { return parts_; }
   /// What residual() takes, with all forces evaluated.
   OperationCounts residual_operations() const;
-  /// Also measure the time each takes.
-  void measure_time();
 
  private:
   using Parity = ParityMatrix<S>;
@@ -137,7 +135,6 @@ class StageEquations {
     gammas,
     constraint_residual
   };
-  PartCall call(Part part) { return {parts_[part], timed_}; }
   void describe_parts();
 
   /// Of one node values and coefficients are the same numbers: P and the weight are 1.
@@ -194,7 +191,6 @@ class StageEquations {
   Vector<S> rhs_;                    // s nu
   S half_, h_half_ = 0, inverse_h_ = 0, rest_, t_, x_, y_;  // the last three are scratch
   std::vector<PartCount> parts_;
-  bool timed_ = false;
 };
 
 }  // namespace hbvm::core

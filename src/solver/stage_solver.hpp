@@ -27,8 +27,6 @@ class StageSolver {
 
   /// What was done since construction.
   virtual SolverCounts counts() const = 0;
-  /// Also measure the time that effects and parts of the equations take.
-  virtual void measure_time() = 0;
 
   /// All that the next steps depend on to the last bit, beside problem, method, step and state; not the counts.
   virtual void remember(Archive& archive) = 0;

@@ -8,23 +8,16 @@ namespace hbvm::core {
 /// Steps back in time. H is even in p, so a step back is one of another stepper forward from (q, -p), with p reversed
 /// again. The multiplier is the same.
 template <Scalar S>
-class BackwardStepper final : public Stepper<S> {
+class BackwardStepper final : public ForwardingStepper<S> {
  public:
-  /// It must outlive this one.
-  explicit BackwardStepper(Stepper<S>& forward) : forward_(forward) {}
+  using ForwardingStepper<S>::ForwardingStepper;
 
-  const Problem<S>& problem() const override { return forward_.problem(); }
-
-  long step(State<S>& state, const S& h) override {
+  StepResult<S> step(State<S>& state, const S& h) override {
     const Reversal reversal(state);
-    return forward_.step(state, h);
+    StepResult<S> result = this->inner().step(state, h);
+    result.reversed = !result.reversed;
+    return result;
   }
-
-  const Vector<S>& multiplier() const override { return forward_.multiplier(); }
-  const StageUnknowns<S>* unknowns() const override { return forward_.unknowns(); }
-  SolverCounts counts() const override { return forward_.counts(); }
-  void measure_time() override { forward_.measure_time(); }
-  void remember(Archive& archive) override { archive(forward_); }
 
  private:
   /// For as long as it lives.
@@ -41,8 +34,6 @@ class BackwardStepper final : public Stepper<S> {
     }
     State<S>& state_;
   };
-
-  Stepper<S>& forward_;
 };
 
 }  // namespace hbvm::core

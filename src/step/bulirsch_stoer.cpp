@@ -77,7 +77,7 @@ class BulirschStoer final : public ReducedStepper<S> {
     return tries;
   }
 
-  void remember_own(Archive& archive) override { archive(h_, part_); }
+  void remember_parts(Archive& archive) override { archive(h_, part_); }
 
  private:
   using Number = OdeintNumber<S>;

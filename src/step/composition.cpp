@@ -75,18 +75,20 @@ Vector<S> composition_steps(int order) {
 
 template <Scalar S>
 CompositionStepper<S>::CompositionStepper(std::unique_ptr<Stepper<S>> inner, Vector<S> parts)
-    : inner_(std::move(inner)),
+    : ForwardingStepper<S>(std::move(inner)),
       parts_(std::move(parts)),
-      before_(Vector<S>::Zero(inner_->problem().m()), Vector<S>::Zero(inner_->problem().m())) {}
+      before_(Vector<S>::Zero(this->problem().m()), Vector<S>::Zero(this->problem().m())) {}
 
 template <Scalar S>
-long CompositionStepper<S>::step(State<S>& state, const S& h) {
+StepResult<S> CompositionStepper<S>::step(State<S>& state, const S& h) {
   copy_state(before_, state);
+  StepResult<S> result;
   long sweeps = 0;
   for (Index i = 0; i < parts_.size(); ++i) {
     set_product(h_, parts_[i], h);
     try {
-      sweeps += inner_->step(state, h_);
+      result = this->inner().step(state, h_);
+      sweeps += result.sweeps;
     } catch (const StageFailure& failure) {
       copy_state(state, before_);
       throw StageFailure(
@@ -95,7 +97,8 @@ long CompositionStepper<S>::step(State<S>& state, const S& h) {
           failure.increment(), sweeps + failure.sweeps());
     }
   }
-  return sweeps;
+  result.sweeps = sweeps;
+  return result;
 }
 
 MethodPtr composition_method(std::string_view arguments) {

@@ -19,21 +19,13 @@ inline constexpr int max_composition_order = 12;
 
 /// Makes a step of parts of these sizes, one after the other, by another stepper.
 template <Scalar S>
-class CompositionStepper final : public Stepper<S> {
+class CompositionStepper final : public ForwardingStepper<S> {
  public:
   CompositionStepper(std::unique_ptr<Stepper<S>> inner, Vector<S> parts);
 
-  const Problem<S>& problem() const override { return inner_->problem(); }
-  /// \return the sweeps of all parts
-  long step(State<S>& state, const S& h) override;
-  /// Of the last part.
-  const Vector<S>& multiplier() const override { return inner_->multiplier(); }
-  SolverCounts counts() const override { return inner_->counts(); }
-  void measure_time() override { inner_->measure_time(); }
-  void remember(Archive& archive) override { archive(*inner_); }
+  StepResult<S> step(State<S>& state, const S& h) override;
 
  private:
-  std::unique_ptr<Stepper<S>> inner_;
   Vector<S> parts_;
   State<S> before_;
   S h_ = 0;

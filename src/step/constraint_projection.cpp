@@ -43,13 +43,13 @@ void ConstraintProjection<S>::describe_parts() {
 
 template <Scalar S>
 void ConstraintProjection<S>::set_directions(const Vector<S>& q0) {
-  const PartCall counted = call(gradients);
+  const PartCall counted(parts_[gradients]);
   directions().update(lanes(q0));
 }
 
 template <Scalar S>
 void ConstraintProjection<S>::set_position(const Vector<S>& q) {
-  const PartCall counted = call(gradients);
+  const PartCall counted(parts_[gradients]);
   found().update(lanes(q));
 }
 
@@ -57,16 +57,16 @@ template <Scalar S>
 bool ConstraintProjection<S>::solve(ConstraintGradient<S>& left, const ConstraintGradient<S>& right, Matrix<S>& x) {
   const auto place = [&](Index a) { return order_.position[static_cast<std::size_t>(a)]; };
   {
-    const PartCall counted = call(matrix);
+    const PartCall counted(parts_[matrix]);
     system_.set_zero();
     left.for_each_coupling(right, &product_,
                            [&](const auto& pair) { set(system_.entry(place(pair.a), place(pair.b)), product_); });
   }
   {
-    const PartCall counted = call(factors);
+    const PartCall counted(parts_[factors]);
     if (!system_.factor()) return false;
   }
-  const PartCall counted = call(solution);
+  const PartCall counted(parts_[solution]);
   for (Index a = 0; a < x.size(); ++a) set(x_[place(a)], x.data()[a]);
   system_.solve(x_);
   for (Index a = 0; a < x.size(); ++a) set(x.data()[a], x_[place(a)]);
@@ -97,13 +97,13 @@ long ConstraintProjection<S>::find_position(const Vector<S>& free, const S& fact
   S last = 0, increment = 0, size = 0;
   for (bool converged = nu == 0, stagnant = false;;) {
     {
-      const PartCall counted = call(shifts);
+      const PartCall counted(parts_[shifts]);
       set_product(shift_, factor, lambda);
       set(q, free);
       directions().add_weighted_times(shift_, lanes(q));
     }
     {
-      const PartCall counted = call(gradients);
+      const PartCall counted(parts_[gradients]);
       found().update(lanes(std::as_const(q)), g_);
     }
     if (converged || (stagnant && is_round_off(q))) return iterations;
@@ -133,7 +133,7 @@ long ConstraintProjection<S>::find_position(const Vector<S>& free, const S& fact
 template <Scalar S>
 const Matrix<S>& ConstraintProjection<S>::make_tangential(Vector<S>& p) {
   {
-    const PartCall counted = call(tangential);
+    const PartCall counted(parts_[tangential]);
     problem_.mass.velocity(lanes(std::as_const(p)), lanes(v_));
     for (Index a = 0; a < mu_.size(); ++a) found().transposed_times(a, lanes(std::as_const(v_)), &mu_(0, a));
   }

@@ -31,11 +31,9 @@ class ConstraintProjection {
   void advance() { now_ = 1 - now_; }
 
   const std::vector<PartCount>& part_counts() const { return parts_; }
-  void measure_time() { timed_ = true; }
 
  private:
   enum Part { shifts, gradients, matrix, factors, solution, tangential };
-  PartCall call(Part part) { return {parts_[part], timed_}; }
   void describe_parts();
   /// x = (left^T M^-1 right)^-1 x. \return false if that is singular
   bool solve(ConstraintGradient<S>& left, const ConstraintGradient<S>& right, Matrix<S>& x);
@@ -52,7 +50,6 @@ class ConstraintProjection {
   Vector<S> v_, x_;
   S product_ = 0;  ///< of two gradients
   std::vector<PartCount> parts_;
-  bool timed_ = false;
 };
 
 }  // namespace hbvm::core

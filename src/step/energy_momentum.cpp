@@ -58,20 +58,13 @@ void EnergyMomentum<S>::describe_parts() {
 }
 
 template <Scalar S>
-SolverCounts EnergyMomentum<S>::counts() const {
-  return sum_of(earlier_, SolverCounts{force_.counts(), parts_}, problem_);
+SolverCounts EnergyMomentum<S>::own_counts() const {
+  return SolverCounts{force_.counts(), parts_};
 }
 
 template <Scalar S>
-void EnergyMomentum<S>::measure_time() {
-  timed_ = true;
-  force_.measure_time();
-}
-
-template <Scalar S>
-void EnergyMomentum<S>::remember(Archive& archive) {
-  archive(h_, extrapolation_, multiplier_);
-  this->remember_counts(archive, earlier_);
+void EnergyMomentum<S>::remember_own(Archive& archive) {
+  archive(h_, extrapolation_);
   if (!archive.reading()) return;
   set_product(half_, h_, one_half_);
 }
@@ -95,20 +88,20 @@ bool EnergyMomentum<S>::correct_multipliers() {
   constexpr long near = 3;
   if (rule_.sweeps() < near) {
     {
-      const PartCall counted = call(gradients);
+      const PartCall counted(parts_[gradients]);
       end_gradient_.update(lanes(std::as_const(q1_)), g_);
     }
     {
-      const PartCall counted = call(matrix);
+      const PartCall counted(parts_[matrix]);
       system_.set_zero();
       end_gradient_.for_each_coupling(middle_gradient_, &product_, [&](const auto& pair) {
         set(system_.entry(place(pair.a), place(pair.b)), product_);
       });
     }
-    const PartCall counted = call(factors);
+    const PartCall counted(parts_[factors]);
     if (!system_.factor()) return false;
   }
-  const PartCall counted = call(solution);
+  const PartCall counted(parts_[solution]);
   for (Index a = 0; a < lambda_.cols(); ++a) {
     S& x = x_[place(a)];
     middle_gradient_.transposed_times(a, lanes(std::as_const(V_)), &x);
@@ -125,14 +118,14 @@ bool EnergyMomentum<S>::correct_multipliers() {
 template <Scalar S>
 void EnergyMomentum<S>::sweep(const State<S>& state) {
   {
-    const PartCall counted = call(motion);
+    const PartCall counted(parts_[motion]);
     problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
     move(state.q);
   }
   force_.evaluate(state.q, q1_, F_);
   if (problem_.nu() > 0) {
     {
-      const PartCall counted = call(gradients);
+      const PartCall counted(parts_[gradients]);
       middle_gradient_.update(lanes(std::as_const(middle_)));
     }
     if (!correct_multipliers())
@@ -179,7 +172,7 @@ long EnergyMomentum<S>::solve(const State<S>& state) {
 }
 
 template <Scalar S>
-long EnergyMomentum<S>::step(State<S>& state, const S& h) {
+StepResult<S> EnergyMomentum<S>::step(State<S>& state, const S& h) {
   if (h != h_) {
     set(h_, h);
     set_product(half_, h, one_half_);
@@ -190,7 +183,7 @@ long EnergyMomentum<S>::step(State<S>& state, const S& h) {
   sums_.add_to(state, h_, V_, F_, sweeps);
   extrapolation_.add(sequence_.data());
   for (Index a = 0; a < multiplier_.size(); ++a) set(multiplier_[a], lambda_(0, a));
-  return sweeps;
+  return {sweeps, &multiplier_};
 }
 
 namespace {

@@ -26,23 +26,20 @@ namespace hbvm::core {
 /// and P anew. The iteration starts from the extrapolation of the last steps, and if that leads nowhere, once more from
 /// P = p_0. StoppingRule says when it ends, from the change of P.
 template <Scalar S>
-class EnergyMomentum final : public Stepper<S> {
+class EnergyMomentum final : public CountingStepper<S> {
  public:
   /// The problem must outlive it.
   explicit EnergyMomentum(const Problem<S>& problem);
 
   const Problem<S>& problem() const override { return problem_; }
-  /// \return sweeps \throws StageFailure; the state is then as it was
-  long step(State<S>& state, const S& h) override;
-  /// lambda of the last step, that of its middle.
-  const Vector<S>& multiplier() const override { return multiplier_; }
-  SolverCounts counts() const override;
-  void measure_time() override;
-  void remember(Archive& archive) override;
+  /// \return sweeps, and the multiplier of the middle
+  /// \throws StageFailure; the state is then as it was
+  StepResult<S> step(State<S>& state, const S& h) override;
 
  private:
   enum Part { motion, gradients, matrix, factors, solution };
-  PartCall call(Part part) { return {parts_[part], timed_}; }
+  SolverCounts own_counts() const override;
+  void remember_own(Archive& archive) override;
   void describe_parts();
   Index place(Index a) const { return order_.position[static_cast<std::size_t>(a)]; }
 
@@ -73,8 +70,6 @@ class EnergyMomentum final : public Stepper<S> {
   StoppingRule<S> rule_;
   Vector<S> multiplier_;
   std::vector<PartCount> parts_;
-  bool timed_ = false;
-  SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
 /// From no arguments. \throws InputError

@@ -19,18 +19,16 @@ template <Scalar S>
 Stepper<S>& HalvingStepper<S>::stepper(int depth) {
   while (static_cast<int>(steppers_.size()) <= depth) steppers_.emplace_back();
   std::unique_ptr<Stepper<S>>& made = steppers_[static_cast<std::size_t>(depth)];
-  if (!made) {
-    made = make_(depth);
-    if (timed_) made->measure_time();
-  }
+  if (!made) made = make_(depth);
   return *made;
 }
 
 template <Scalar S>
-long HalvingStepper<S>::step(State<S>& state, const S& h) {
+StepResult<S> HalvingStepper<S>::step(State<S>& state, const S& h) {
   if (h != parts_[0])
     for (int depth = 0; depth <= deepest; ++depth) parts_[static_cast<std::size_t>(depth)] = h / S(1L << depth);
   copy_state(before_, state);
+  StepResult<S> result;
   long sweeps = 0, substeps = 0;
   int smallest = 0;
   std::optional<StageFailure> first;
@@ -38,7 +36,8 @@ long HalvingStepper<S>::step(State<S>& state, const S& h) {
   constexpr long whole = 1L << deepest;
   for (long done = 0; done < whole;) {
     try {
-      sweeps += stepper(depth_).step(state, parts_[static_cast<std::size_t>(depth_)]);
+      result = stepper(depth_).step(state, parts_[static_cast<std::size_t>(depth_)]);
+      sweeps += result.sweeps;
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       if (!first) first = failure;
@@ -73,7 +72,8 @@ long HalvingStepper<S>::step(State<S>& state, const S& h) {
     log_.depth = std::max(log_.depth, smallest);
   }
   ++made_;
-  return sweeps;
+  result.sweeps = sweeps;
+  return result;
 }
 
 template <Scalar S>
@@ -82,13 +82,6 @@ SolverCounts HalvingStepper<S>::counts() const {
   for (const auto& stepper : steppers_)
     if (stepper) add_counts(sum, stepper->counts(), problem());
   return sum;
-}
-
-template <Scalar S>
-void HalvingStepper<S>::measure_time() {
-  timed_ = true;
-  for (const auto& stepper : steppers_)
-    if (stepper) stepper->measure_time();
 }
 
 template <Scalar S>

@@ -36,12 +36,8 @@ class HalvingStepper final : public Stepper<S> {
 
   const Problem<S>& problem() const override { return steppers_.front()->problem(); }
   /// \throws StageFailure of the whole step, if substeps of 2^-20 fail, too
-  long step(State<S>& state, const S& h) override;
-  const Vector<S>& multiplier() const override { return steppers_[static_cast<std::size_t>(last_)]->multiplier(); }
-  /// Of the last part of the step.
-  const StageUnknowns<S>* unknowns() const override { return steppers_[static_cast<std::size_t>(last_)]->unknowns(); }
+  StepResult<S> step(State<S>& state, const S& h) override;
   SolverCounts counts() const override;
-  void measure_time() override;
   void remember(Archive& archive) override;
 
   const HalvingLog& log() const { return log_; }
@@ -52,7 +48,6 @@ class HalvingStepper final : public Stepper<S> {
   Make make_;
   std::vector<std::unique_ptr<Stepper<S>>> steppers_;  ///< by depth
   std::vector<S> parts_;                               ///< of the last step: 2^-depth h
-  bool timed_ = false;
   State<S> before_;
   HalvingLog log_;
   // What it remembers from step to step.

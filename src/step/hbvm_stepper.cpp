@@ -18,11 +18,11 @@ HbvmStepper<S>::HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, So
 }
 
 template <Scalar S>
-long HbvmStepper<S>::step(State<S>& state, const S& h) {
+StepResult<S> HbvmStepper<S>::step(State<S>& state, const S& h) {
   const long sweeps = solver_->solve({state.q, state.p, h, &state.q_carry, &state.p_carry});
   const StageUnknowns<S>& x = solver_->unknowns();
   const StepChange<S>& change = solver_->change();
-  const PartCall counted(update_, timed_);
+  const PartCall counted(update_);
   HeldScratch<S> s = s_, t = t_;
   for (Index j = 0; j < problem_.m(); ++j) {
     add_compensated(state.q[j], state.q_carry[j], change.q[j], s, t);
@@ -33,20 +33,19 @@ long HbvmStepper<S>::step(State<S>& state, const S& h) {
     set_zero(multiplier_[a]);
     for (Index i = 0; i < method_.s; ++i) add_product(multiplier_[a], method_.lambda_at_1[i], x.lambda(i, a), t_);
   }
-  return sweeps;
+  return {sweeps, &multiplier_, &x};
 }
 
 template <Scalar S>
-SolverCounts HbvmStepper<S>::counts() const {
+SolverCounts HbvmStepper<S>::own_counts() const {
   SolverCounts now = solver_->counts();
   now.parts.push_back(update_);
-  return sum_of(now, earlier_, problem_);
+  return now;
 }
 
 template <Scalar S>
-void HbvmStepper<S>::remember(Archive& archive) {
-  archive(multiplier_, *solver_);
-  this->remember_counts(archive, earlier_);
+void HbvmStepper<S>::remember_own(Archive& archive) {
+  archive(*solver_);
 }
 
 #define HBVM_DEFINE(S) template class HbvmStepper<S>;

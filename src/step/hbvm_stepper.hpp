@@ -8,7 +8,7 @@ namespace hbvm::core {
 
 /// Steps of HBVM(k, s). Problem and method must outlive it.
 template <Scalar S>
-class HbvmStepper final : public Stepper<S> {
+class HbvmStepper final : public CountingStepper<S> {
  public:
   HbvmStepper(const Problem<S>& problem, const Hbvm<S>& method, SolverKind solver);
   /// The same, and keeps the method.
@@ -18,31 +18,22 @@ class HbvmStepper final : public Stepper<S> {
   }
 
   const Problem<S>& problem() const override { return problem_; }
-  StageSolver<S>& solver() { return *solver_; }
+  const StageSolver<S>& solver() const { return *solver_; }
 
-  /// Advances the state by (56), q1 = q0 + h M^-1 gamma_0, p1 = p0 + h (psi_0 - zeta_0).
-  long step(State<S>& state, const S& h) override;
-
-  /// The extrapolated multiplier (57) of the last step: sum_i l_i(1) lambda_i.
-  const Vector<S>& multiplier() const override { return multiplier_; }
-
-  const StageUnknowns<S>* unknowns() const override { return &solver_->unknowns(); }
-  SolverCounts counts() const override;
-  void measure_time() override {
-    timed_ = true;
-    solver_->measure_time();
-  }
-  void remember(Archive& archive) override;
+  /// Advances the state by (56), q1 = q0 + h M^-1 gamma_0, p1 = p0 + h (psi_0 - zeta_0). The multiplier is extrapolated
+  /// by (57): sum_i l_i(1) lambda_i.
+  StepResult<S> step(State<S>& state, const S& h) override;
 
  private:
+  SolverCounts own_counts() const override;
+  void remember_own(Archive& archive) override;
+
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
   std::shared_ptr<const Hbvm<S>> kept_method_;
   std::unique_ptr<StageSolver<S>> solver_;
   Vector<S> multiplier_;
   PartCount update_{"state and multiplier at the end"};
-  bool timed_ = false;
-  SolverCounts earlier_;  ///< those of a run that this one continues
   S s_, t_;
 };
 

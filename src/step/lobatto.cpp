@@ -135,23 +135,15 @@ void LobattoStepper<S>::describe_parts() {
 }
 
 template <Scalar S>
-SolverCounts LobattoStepper<S>::counts() const {
+SolverCounts LobattoStepper<S>::own_counts() const {
   SolverCounts now{potential_.counts(), parts_};
   now.parts.insert(now.parts.end(), projection_.part_counts().begin(), projection_.part_counts().end());
-  return sum_of(earlier_, now, problem_);
+  return now;
 }
 
 template <Scalar S>
-void LobattoStepper<S>::measure_time() {
-  timed_ = true;
-  potential_.measure_time();
-  projection_.measure_time();
-}
-
-template <Scalar S>
-void LobattoStepper<S>::remember(Archive& archive) {
-  archive(h_, extrapolation_, multiplier_);
-  this->remember_counts(archive, earlier_);
+void LobattoStepper<S>::remember_own(Archive& archive) {
+  archive(h_, extrapolation_);
 }
 
 template <Scalar S>
@@ -162,7 +154,7 @@ bool LobattoStepper<S>::correct_multipliers() {
   const Index s = method_->s();
   if (rule_.sweeps() < near) {
     {
-      const PartCall counted = call(matrix);
+      const PartCall counted(parts_[matrix]);
       system_.set_zero();
       gradient_.for_each_own_coupling(s, coupling_.data(), [&](Index a, Index b, const auto& at) {
         for (Index j = 0; j + 1 < s; ++j)
@@ -170,10 +162,10 @@ bool LobattoStepper<S>::correct_multipliers() {
             set_product(system_.entry(place(a) + i - 1, place(b) + j), at(i, j), method_->A_A_hat(i, j));
       });
     }
-    const PartCall counted = call(factors);
+    const PartCall counted(parts_[factors]);
     if (!system_.factor()) return false;
   }
-  const PartCall counted = call(solution);
+  const PartCall counted(parts_[solution]);
   for (Index a = 0; a < g_.cols(); ++a)
     for (Index i = 1; i < s; ++i) {
       S& r = rhs_[place(a) + i - 1];
@@ -189,7 +181,7 @@ bool LobattoStepper<S>::correct_multipliers() {
 template <Scalar S>
 bool LobattoStepper<S>::sweep(const State<S>& state) {
   {
-    const PartCall counted = call(stages);
+    const PartCall counted(parts_[stages]);
     problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
     product(Q_, method_->A, V_);
     scale_and_shift(Q_, h_, state.q);
@@ -197,7 +189,7 @@ bool LobattoStepper<S>::sweep(const State<S>& state) {
   potential_.force(lanes(std::as_const(Q_)), F_);
   if (problem_.nu() > 0) {
     {
-      const PartCall counted = call(gradients);
+      const PartCall counted(parts_[gradients]);
       gradient_.update(lanes(std::as_const(Q_)), g_);
     }
     if (!correct_multipliers()) return false;
@@ -250,7 +242,7 @@ long LobattoStepper<S>::solve(const State<S>& state) {
 template <Scalar S>
 void LobattoStepper<S>::update(State<S>& state, long sweeps) {
   {
-    const PartCall counted = call(sums);
+    const PartCall counted(parts_[sums]);
     problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
     stage_sums_.add_to(state, h_, V_, F_, sweeps);
   }
@@ -262,7 +254,7 @@ void LobattoStepper<S>::update(State<S>& state, long sweeps) {
 }
 
 template <Scalar S>
-long LobattoStepper<S>::step(State<S>& state, const S& h) {
+StepResult<S> LobattoStepper<S>::step(State<S>& state, const S& h) {
   if (h != h_) {
     set(h_, h);
     extrapolation_.clear();
@@ -275,7 +267,7 @@ long LobattoStepper<S>::step(State<S>& state, const S& h) {
     copy_state(state, before_);
     throw;
   }
-  return sweeps;
+  return {sweeps, &multiplier_};
 }
 
 namespace {

@@ -37,22 +37,19 @@ Lobatto<S> make_lobatto(int s);
 /// iteration starts from the extrapolation of the last steps, and if that leads nowhere, once more from P = p_0.
 /// StoppingRule says when it ends, from the change of P.
 template <Scalar S>
-class LobattoStepper final : public Stepper<S> {
+class LobattoStepper final : public CountingStepper<S> {
  public:
   /// The problem must outlive it.
   LobattoStepper(const Problem<S>& problem, std::shared_ptr<const Lobatto<S>> method);
 
   const Problem<S>& problem() const override { return problem_; }
-  long step(State<S>& state, const S& h) override;
-  /// lambda_s of the last step.
-  const Vector<S>& multiplier() const override { return multiplier_; }
-  SolverCounts counts() const override;
-  void measure_time() override;
-  void remember(Archive& archive) override;
+  /// \return sweeps, and lambda_s
+  StepResult<S> step(State<S>& state, const S& h) override;
 
  private:
   enum Part { stages, gradients, matrix, factors, solution, sums };
-  PartCall call(Part part) { return {parts_[part], timed_}; }
+  SolverCounts own_counts() const override;
+  void remember_own(Archive& archive) override;
   void describe_parts();
   Index place(Index a) const { return order_.position[static_cast<std::size_t>(a)] * (method_->s() - 1); }
 
@@ -85,8 +82,6 @@ class LobattoStepper final : public Stepper<S> {
   Vector<S> multiplier_;
   S t_ = 0;
   std::vector<PartCount> parts_;
-  bool timed_ = false;
-  SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
 /// From "S". \throws InputError

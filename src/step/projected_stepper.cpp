@@ -12,11 +12,11 @@ namespace hbvm::core {
 
 template <Scalar S>
 ProjectedStepper<S>::ProjectedStepper(std::unique_ptr<Stepper<S>> inner, OnEnergy on_energy)
-    : inner_(std::move(inner)),
+    : ForwardingStepper<S>(std::move(inner)),
       on_energy_(on_energy),
-      projection_(inner_->problem()),
-      energy_(inner_->problem()),
-      before_(Vector<S>::Zero(inner_->problem().m()), Vector<S>::Zero(inner_->problem().m())),
+      projection_(problem()),
+      energy_(problem()),
+      before_(Vector<S>::Zero(problem().m()), Vector<S>::Zero(problem().m())),
       p_(before_.p),
       v_(before_.p),
       made_q_(before_.p),
@@ -41,27 +41,21 @@ SolverCounts ProjectedStepper<S>::own_counts() const {
 
 template <Scalar S>
 SolverCounts ProjectedStepper<S>::counts() const {
-  return sum_of(inner_->counts(), own_counts(), problem());
-}
-
-template <Scalar S>
-void ProjectedStepper<S>::measure_time() {
-  timed_ = true;
-  inner_->measure_time();
-  projection_.measure_time();
+  return sum_of(ForwardingStepper<S>::counts(), own_counts(), problem());
 }
 
 template <Scalar S>
 void ProjectedStepper<S>::remember(Archive& archive) {
   SolverCounts own = own_counts();
-  archive(*inner_, own, made_q_, made_p_, H_, started_);
+  ForwardingStepper<S>::remember(archive);
+  archive(own, made_q_, made_p_, H_, started_);
   if (archive.reading()) earlier_ = std::move(own);
 }
 
 template <Scalar S>
 void ProjectedStepper<S>::take_energy(const State<S>& state) {
   if (started_ && state.q == made_q_ && state.p == made_p_) return;
-  const PartCall counted(scaling_, timed_);
+  const PartCall counted(scaling_);
   energy_.evaluate_energy(state.q, state.p);
   set(H_, energy_.H());
   started_ = true;
@@ -81,7 +75,7 @@ void ProjectedStepper<S>::project(State<S>& state) {
 
 template <Scalar S>
 void ProjectedStepper<S>::restore(State<S>& state) {
-  const PartCall counted(scaling_, timed_);
+  const PartCall counted(scaling_);
   energy_.evaluate_energy(state.q, state.p);
   problem().mass.velocity(lanes(std::as_const(state.p)), lanes(v_));
   S T = 0;
@@ -105,20 +99,20 @@ void ProjectedStepper<S>::restore(State<S>& state) {
 }
 
 template <Scalar S>
-long ProjectedStepper<S>::step(State<S>& state, const S& h) {
+StepResult<S> ProjectedStepper<S>::step(State<S>& state, const S& h) {
   if (on_energy_ == OnEnergy::restore) take_energy(state);
   copy_state(before_, state);
-  const long sweeps = inner_->step(state, h);
+  const StepResult<S> result = this->inner().step(state, h);
   try {
     project(state);
     if (on_energy_ == OnEnergy::restore) restore(state);
   } catch (const StageFailure& failure) {
     copy_state(state, before_);
-    throw StageFailure(failure.cause(), failure.what(), failure.increment(), sweeps);
+    throw StageFailure(failure.cause(), failure.what(), failure.increment(), result.sweeps);
   }
   set(made_q_, state.q);
   set(made_p_, state.p);
-  return sweeps;
+  return result;
 }
 
 namespace {

@@ -22,18 +22,14 @@ enum class OnEnergy {
 ///
 /// H_0 is the energy of the state that the first step began with: what rounding does to H does not add up.
 template <Scalar S>
-class ProjectedStepper final : public Stepper<S> {
+class ProjectedStepper final : public ForwardingStepper<S> {
  public:
   ProjectedStepper(std::unique_ptr<Stepper<S>> inner, OnEnergy on_energy);
 
-  const Problem<S>& problem() const override { return inner_->problem(); }
   /// \throws StageFailure as the other does, if the gradients of the constraints are linearly dependent, or if no
   /// scaling of p restores H. The state is then as it was
-  long step(State<S>& state, const S& h) override;
-  /// Of the step that was projected.
-  const Vector<S>& multiplier() const override { return inner_->multiplier(); }
+  StepResult<S> step(State<S>& state, const S& h) override;
   SolverCounts counts() const override;
-  void measure_time() override;
   void remember(Archive& archive) override;
 
  private:
@@ -43,7 +39,7 @@ class ProjectedStepper final : public Stepper<S> {
   void project(State<S>& state);
   void restore(State<S>& state);
 
-  std::unique_ptr<Stepper<S>> inner_;
+  using ForwardingStepper<S>::problem;
   OnEnergy on_energy_;
   ConstraintProjection<S> projection_;
   EnergyTerms<S> energy_;
@@ -53,7 +49,7 @@ class ProjectedStepper final : public Stepper<S> {
   Vector<S> made_q_, made_p_;  ///< the end of the last step
   S H_ = 0;                    ///< to be kept from there on
   S s_ = 0, t_ = 0, change_ = 0;
-  bool started_ = false, timed_ = false;
+  bool started_ = false;
   SolverCounts earlier_;  ///< own ones of a run that this one continues
 };
 

@@ -35,13 +35,11 @@ RaisingStepper<S>::RaisingStepper(const Problem<S>& problem, HbvmName name, Solv
 
 template <Scalar S>
 auto RaisingStepper<S>::make_nodes(int k, int r) const -> std::unique_ptr<Nodes> {
-  auto nodes = std::make_unique<Nodes>(problem_, HbvmName{k, s_, r}, solver_);
-  if (timed_) nodes->stepper.measure_time();
-  return nodes;
+  return std::make_unique<Nodes>(problem_, HbvmName{k, s_, r}, solver_);
 }
 
 template <Scalar S>
-long RaisingStepper<S>::step(State<S>& state, const S& h) {
+StepResult<S> RaisingStepper<S>::step(State<S>& state, const S& h) {
   set(h_, h);
   copy_state(before_, state);
   // The state need not be that after its last step, if others make steps, too.
@@ -49,7 +47,8 @@ long RaisingStepper<S>::step(State<S>& state, const S& h) {
   if (!started_) set(first_H_, H_);
   started_ = true;
   if (raises_r_ && made_ == 0) drift_.start(state.q);
-  long sweeps = nodes_->stepper.step(state, h_);
+  nodes_->last = nodes_->stepper.step(state, h_);
+  long sweeps = nodes_->last.sweeps;
   if (raises_r_) sweeps += keep_constraints(state);
   ++made_;
   set(change_, H_);
@@ -63,7 +62,7 @@ long RaisingStepper<S>::step(State<S>& state, const S& h) {
   else if (since_ >= interval || exceeds_records(false))
     sweeps += examine(state, Look::usual);
   copy_state(after_, state);
-  return sweeps;
+  return {sweeps, nodes_->last.multiplier, nodes_->last.unknowns};
 }
 
 template <Scalar S>
@@ -183,7 +182,8 @@ long RaisingStepper<S>::examine(State<S>& state, Look look) {
     std::unique_ptr<Nodes> next = make_nodes(next_k, r());
     copy_state(repeated, before_);
     try {
-      sweeps += next->stepper.step(repeated, h_);
+      next->last = next->stepper.step(repeated, h_);
+      sweeps += next->last.sweeps;
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       break;
@@ -242,7 +242,8 @@ long RaisingStepper<S>::keep_constraints(State<S>& state) {
     std::unique_ptr<Nodes> more = make_nodes(k(), next);
     copy_state(repeated, before_);
     try {
-      sweeps += more->stepper.step(repeated, h_);
+      more->last = more->stepper.step(repeated, h_);
+      sweeps += more->last.sweeps;
     } catch (const StageFailure& failure) {
       sweeps += failure.sweeps();
       break;
@@ -290,12 +291,6 @@ void RaisingStepper<S>::wait() {
 template <Scalar S>
 SolverCounts RaisingStepper<S>::counts() const {
   return sum_of(past_, nodes_->stepper.counts(), problem_);
-}
-
-template <Scalar S>
-void RaisingStepper<S>::measure_time() {
-  timed_ = true;
-  nodes_->stepper.measure_time();
 }
 
 template <Scalar S>

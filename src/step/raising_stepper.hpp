@@ -66,11 +66,8 @@ class RaisingStepper final : public Stepper<S> {
                  OnShortage on_shortage = OnShortage::keep, Raises raises = Raises::k);
 
   const Problem<S>& problem() const override { return problem_; }
-  long step(State<S>& state, const S& h) override;
-  const Vector<S>& multiplier() const override { return nodes_->stepper.multiplier(); }
-  const StageUnknowns<S>* unknowns() const override { return nodes_->stepper.unknowns(); }
+  StepResult<S> step(State<S>& state, const S& h) override;
   SolverCounts counts() const override;
-  void measure_time() override;
   void remember(Archive& archive) override;
 
   int k() const { return nodes_->method.k; }
@@ -82,6 +79,7 @@ class RaisingStepper final : public Stepper<S> {
     Hbvm<S> method;
     HbvmStepper<S> stepper;
     QuadratureDefect<S> defect;
+    StepResult<S> last;
     Nodes(const Problem<S>& problem, HbvmName name, SolverKind solver);
   };
 
@@ -118,7 +116,6 @@ class RaisingStepper final : public Stepper<S> {
   SolverKind solver_;
   NodeLog& log_;
   OnShortage on_shortage_;
-  bool timed_ = false;
   std::unique_ptr<Nodes> nodes_;
   SolverCounts past_;  ///< of nodes given up
   S epsilon_, nine_eighths_;

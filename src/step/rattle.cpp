@@ -28,23 +28,15 @@ Rattle<S>::Rattle(const Problem<S>& problem)
 }
 
 template <Scalar S>
-SolverCounts Rattle<S>::counts() const {
+SolverCounts Rattle<S>::own_counts() const {
   SolverCounts now{potential_.counts(), {kicks_}};
   now.parts.insert(now.parts.end(), projection_.part_counts().begin(), projection_.part_counts().end());
-  return sum_of(earlier_, now, problem_);
+  return now;
 }
 
 template <Scalar S>
-void Rattle<S>::measure_time() {
-  timed_ = true;
-  potential_.measure_time();
-  projection_.measure_time();
-}
-
-template <Scalar S>
-void Rattle<S>::remember(Archive& archive) {
-  archive(lambda_, multiplier_);
-  this->remember_counts(archive, earlier_);
+void Rattle<S>::remember_own(Archive& archive) {
+  archive(lambda_);
   if (archive.reading()) started_ = false;
 }
 
@@ -58,7 +50,7 @@ void Rattle<S>::arrive(const Vector<S>& q) {
 
 template <Scalar S>
 void Rattle<S>::kick_and_drift(const State<S>& state) {
-  const PartCall counted(kicks_, timed_);
+  const PartCall counted(kicks_);
   for (Index j = 0; j < p_.size(); ++j) {
     set_product(p_[j], half_, force_(0, j));
     set_sum(p_[j], p_[j], state.p[j]);
@@ -84,7 +76,7 @@ void Rattle<S>::kick_back() {
 }
 
 template <Scalar S>
-long Rattle<S>::step(State<S>& state, const S& h) {
+StepResult<S> Rattle<S>::step(State<S>& state, const S& h) {
   if (h != h_) {
     set(h_, h);
     set_product(half_, h, one_half_);
@@ -116,7 +108,7 @@ long Rattle<S>::step(State<S>& state, const S& h) {
   state.p.swap(p_);
   projection_.advance();
   started_ = true;
-  return iterations;
+  return {iterations, &multiplier_};
 }
 
 namespace {

@@ -13,24 +13,20 @@ namespace hbvm::core {
 /// lambda is found by Newton's iteration to round-off from that of the last step, mu by a linear solve. The force at
 /// the end of a step serves the next one.
 template <Scalar S>
-class Rattle final : public Stepper<S> {
+class Rattle final : public CountingStepper<S> {
  public:
   /// The problem must outlive it.
   explicit Rattle(const Problem<S>& problem);
 
   const Problem<S>& problem() const override { return problem_; }
 
-  /// \return Newton iterations for the positions
+  /// \return Newton iterations for the positions, and mu
   /// \throws StageFailure if they do not converge; the state is then as it was
-  long step(State<S>& state, const S& h) override;
-
-  /// mu of the last step.
-  const Vector<S>& multiplier() const override { return multiplier_; }
-  SolverCounts counts() const override;
-  void measure_time() override;
-  void remember(Archive& archive) override;
+  StepResult<S> step(State<S>& state, const S& h) override;
 
  private:
+  SolverCounts own_counts() const override;
+  void remember_own(Archive& archive) override;
   /// The force at the state, and the directions in which it is constrained, unless they are there.
   void arrive(const Vector<S>& q);
   /// p_ = p_0 + h/2 grad U(q_0) and free_ = q_0 + h M^-1 p_, where q_1 were without constraints.
@@ -45,9 +41,8 @@ class Rattle final : public Stepper<S> {
   Matrix<S> force_, lambda_, pull_;  // 1 x m and 1 x nu
   Vector<S> free_, q_, p_, v_, multiplier_;
   Vector<S> arrived_;  ///< where force_ and the directions are
-  bool started_ = false, timed_ = false;
+  bool started_ = false;
   PartCount kicks_{"half kicks and drift"};
-  SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
 /// From no arguments. \throws InputError

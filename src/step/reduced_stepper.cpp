@@ -23,21 +23,15 @@ ReducedEquations<S>::ReducedEquations(const Problem<S>& problem)
 }
 
 template <Scalar S>
-void ReducedEquations<S>::measure_time() {
-  timed_ = true;
-  potential_.measure_time();
-}
-
-template <Scalar S>
 void ReducedEquations<S>::evaluate(const Vector<S>& q, const Vector<S>& p) {
   potential_.force(lanes(q), force_);
   {
-    const PartCall counted(parts_[velocities], timed_);
+    const PartCall counted(parts_[velocities]);
     problem_.mass.velocity(lanes(p), lanes(velocity_));
     for (Index j = 0; j < total_.size(); ++j) set(total_[j], force_(0, j));
   }
   if (problem_.nu() > 0) {
-    const PartCall counted(parts_[pulls], timed_);
+    const PartCall counted(parts_[pulls]);
     try {
       const Vector<S>& pull = point_.constraint_force(q, p, force_);
       for (Index j = 0; j < total_.size(); ++j) set_sum(total_[j], total_[j], pull[j]);
@@ -66,15 +60,9 @@ ReducedStepper<S>::ReducedStepper(const Problem<S>& problem)
       before_(dq_, dq_) {}
 
 template <Scalar S>
-SolverCounts ReducedStepper<S>::counts() const {
-  return sum_of(earlier_, equations_.counts(), problem_);
-}
-
-template <Scalar S>
-void ReducedStepper<S>::remember(Archive& archive) {
-  archive(multiplier_, q0_, p0_, velocity_, force_, started_);
-  remember_own(archive);
-  this->remember_counts(archive, earlier_);
+void ReducedStepper<S>::remember_own(Archive& archive) {
+  archive(q0_, p0_, velocity_, force_, started_);
+  remember_parts(archive);
 }
 
 template <Scalar S>
@@ -100,7 +88,7 @@ void ReducedStepper<S>::arrive(const Vector<S>& q, const Vector<S>& p) {
 }
 
 template <Scalar S>
-long ReducedStepper<S>::step(State<S>& state, const S& h) {
+StepResult<S> ReducedStepper<S>::step(State<S>& state, const S& h) {
   long parts = 0;
   copy_state(before_, state);
   try {
@@ -118,7 +106,7 @@ long ReducedStepper<S>::step(State<S>& state, const S& h) {
     throw StageFailure(failure.cause(), failure.what(), failure.increment(), std::max(parts, failure.sweeps()));
   }
   if (problem_.nu() > 0) set(multiplier_, equations_.multiplier());
-  return parts;
+  return {parts, &multiplier_};
 }
 
 #define HBVM_DEFINE(S)                \

@@ -22,7 +22,6 @@ class ReducedEquations {
   const Vector<S>& multiplier() const { return point_.last_multiplier(); }
 
   SolverCounts counts() const { return {potential_.counts(), parts_}; }
-  void measure_time();
 
  private:
   enum Part { velocities, pulls };
@@ -33,33 +32,28 @@ class ReducedEquations {
   Matrix<S> force_;  // 1 x m
   Vector<S> velocity_, total_;
   std::vector<PartCount> parts_;
-  bool timed_ = false;
 };
 
 /// Steps of a method for the index-reduced equations, as an ordinary differential equation in the changes of q and p
 /// since the step began. The changes carry no round-off of q and p themselves, and are added with compensation. What is
 /// evaluated at the end of a step, its multiplier among it, begins the next one.
 template <Scalar S>
-class ReducedStepper : public Stepper<S> {
+class ReducedStepper : public CountingStepper<S> {
  public:
   /// The problem must outlive it.
   explicit ReducedStepper(const Problem<S>& problem);
 
   const Problem<S>& problem() const override { return problem_; }
-  /// \return what advance does \throws StageFailure; the state is then as it was
-  long step(State<S>& state, const S& h) override;
-  /// That of the state the step ends with.
-  const Vector<S>& multiplier() const override { return multiplier_; }
-  SolverCounts counts() const override;
-  void measure_time() override { equations_.measure_time(); }
-  void remember(Archive& archive) override;
+  /// \return the parts that advance() tells, and the multiplier of the state the step ends with
+  /// \throws StageFailure; the state is then as it was
+  StepResult<S> step(State<S>& state, const S& h) override;
 
  protected:
   /// Sets dq_ and dp_ to the changes over a step from the state it begins with. \return the parts it was tried in
   /// \throws StageFailure
   virtual long advance(const S& h) = 0;
   /// What else it remembers.
-  virtual void remember_own(Archive&) {}
+  virtual void remember_parts(Archive&) {}
 
   /// At the start.
   const Vector<S>& start_q() const { return q0_; }
@@ -72,6 +66,8 @@ class ReducedStepper : public Stepper<S> {
   Vector<S> dq_, dp_;
 
  private:
+  SolverCounts own_counts() const override { return equations_.counts(); }
+  void remember_own(Archive& archive) override;
   void arrive(const Vector<S>& q, const Vector<S>& p);
 
   const Problem<S>& problem_;
@@ -80,7 +76,6 @@ class ReducedStepper : public Stepper<S> {
   State<S> before_;
   bool started_ = false;
   S s_ = 0, t_ = 0;
-  SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
 }  // namespace hbvm::core

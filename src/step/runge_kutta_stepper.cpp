@@ -73,29 +73,21 @@ void RungeKuttaStepper<S>::describe_parts() {
 }
 
 template <Scalar S>
-SolverCounts RungeKuttaStepper<S>::counts() const {
+SolverCounts RungeKuttaStepper<S>::own_counts() const {
   SolverCounts now{potential_.counts(), parts_};
   if (projection_)
     now.parts.insert(now.parts.end(), projection_->part_counts().begin(), projection_->part_counts().end());
-  return sum_of(earlier_, now, problem_);
+  return now;
 }
 
 template <Scalar S>
-void RungeKuttaStepper<S>::measure_time() {
-  timed_ = true;
-  potential_.measure_time();
-  if (projection_) projection_->measure_time();
-}
-
-template <Scalar S>
-void RungeKuttaStepper<S>::remember(Archive& archive) {
+void RungeKuttaStepper<S>::remember_own(Archive& archive) {
   archive(h_, extrapolation_);
-  this->remember_counts(archive, earlier_);
 }
 
 template <Scalar S>
 void RungeKuttaStepper<S>::stages_in_turn(const State<S>& state) {
-  const PartCall counted = call(stages);
+  const PartCall counted(parts_[stages]);
   const Index s = A_.rows(), m = problem_.m();
   const auto stage = [&](Index i, const Vector<S>& base, const Matrix<S>& slopes, Vector<S>& x) {
     for (Index j = 0; j < m; ++j) {
@@ -144,7 +136,7 @@ long RungeKuttaStepper<S>::solve(const State<S>& state) {
 
 template <Scalar S>
 void RungeKuttaStepper<S>::sweep(const State<S>& state) {
-  const PartCall counted = call(stages);
+  const PartCall counted(parts_[stages]);
   problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
   product(Q_, A_, V_);
   scale_and_shift(Q_, h_, state.q);
@@ -168,7 +160,7 @@ long RungeKuttaStepper<S>::iterate(const State<S>& state) {
 
 template <Scalar S>
 void RungeKuttaStepper<S>::add_constraint_force(const Vector<S>& Q, const Vector<S>& P, Matrix<S>& force, Index row) {
-  const PartCall counted = call(pulls);
+  const PartCall counted(parts_[pulls]);
   for (Index j = 0; j < force.cols(); ++j) set(lane_(0, j), force(row, j));
   try {
     const Vector<S>& pull = point_->constraint_force(Q, P, lane_);
@@ -196,7 +188,7 @@ void RungeKuttaStepper<S>::settle(State<S>& state) {
 }
 
 template <Scalar S>
-long RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
+StepResult<S> RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
   if (h != h_) {
     set(h_, h);
     extrapolation_.clear();
@@ -209,7 +201,7 @@ long RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
   if (point_) copy_state(before_, state);
   try {
     {
-      const PartCall counted = call(sums);
+      const PartCall counted(parts_[sums]);
       stage_sums_.add_to(state, h_, V_, F_, sweeps);
     }
     settle(state);
@@ -217,7 +209,7 @@ long RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
     if (point_) copy_state(state, before_);
     throw;
   }
-  return sweeps;
+  return {sweeps, &multiplier_};
 }
 
 #define HBVM_DEFINE(S) template class RungeKuttaStepper<S>;

@@ -33,7 +33,7 @@ enum class OnConstraints {
 ///
 /// StoppingRule says when the iteration ends, from the change of P; it fails as FixedPoint does.
 template <Scalar S>
-class RungeKuttaStepper final : public Stepper<S> {
+class RungeKuttaStepper final : public CountingStepper<S> {
  public:
   /// The problem must outlive it.
   /// \throws InputError if A is not s x s
@@ -43,19 +43,14 @@ class RungeKuttaStepper final : public Stepper<S> {
   const Problem<S>& problem() const override { return problem_; }
   bool is_explicit() const { return explicit_; }
 
-  /// \return sweeps over the stages: 1 if the method is explicit
+  /// \return sweeps over the stages, 1 if the method is explicit, and the multiplier of the state the step ends with
   /// \throws StageFailure if the iteration fails or anything is not finite; the state is then as it was
-  long step(State<S>& state, const S& h) override;
-
-  /// That of the state the step ends with.
-  const Vector<S>& multiplier() const override { return multiplier_; }
-  SolverCounts counts() const override;
-  void measure_time() override;
-  void remember(Archive& archive) override;
+  StepResult<S> step(State<S>& state, const S& h) override;
 
  private:
   enum Part { stages, sums, pulls };
-  PartCall call(Part part) { return {parts_[part], timed_}; }
+  SolverCounts own_counts() const override;
+  void remember_own(Archive& archive) override;
   void describe_parts();
 
   void stages_in_turn(const State<S>& state);
@@ -88,8 +83,6 @@ class RungeKuttaStepper final : public Stepper<S> {
   Matrix<S> pull_, lane_;  // 1 x nu, 1 x m
   State<S> before_;        ///< where a step with constraints began
   std::vector<PartCount> parts_;
-  bool timed_ = false;
-  SolverCounts earlier_;  ///< those of a run that this one continues
 };
 
 }  // namespace hbvm::core

@@ -57,7 +57,7 @@ StepCost cost_of_steps(const Assembled<S>& scene, const S& h, long steps, Make&&
     for (int i = 0; i < 2; ++i) stepper.step(state, h);
     long sweeps = 0;
     const double before = thread_seconds();
-    for (long i = 0; i < steps; ++i) sweeps += stepper.step(state, h);
+    for (long i = 0; i < steps; ++i) sweeps += stepper.step(state, h).sweeps;
     const double time = (thread_seconds() - before) / static_cast<double>(steps);
     if (run == 0 || time < best.seconds) best = {time, static_cast<double>(sweeps) / static_cast<double>(steps)};
   }

@@ -160,24 +160,22 @@ TYPED_TEST(Memory, OfAnIntegrationIsComplete) {
 }
 
 /// A stepper whose third step a signal ends half-way.
-class EndedWithinAStep final : public Stepper<double> {
+class EndedWithinAStep final : public ForwardingStepper<double> {
  public:
-  explicit EndedWithinAStep(Stepper<double>& whole) : whole_(whole) {}
-  const Problem<double>& problem() const override { return whole_.problem(); }
-  long step(State<double>& state, const double& h) override {
-    if (++steps_ < 3) return whole_.step(state, h);
+  using ForwardingStepper::ForwardingStepper;
+  StepResult<double> step(State<double>& state, const double& h) override {
+    if (++steps_ < 3) return inner().step(state, h);
     state.q[0] += 1;
     interruption = SIGTERM;
     end_if_asked("half-way");
-    return 0;
+    return {};
   }
-  const Vector<double>& multiplier() const override { return whole_.multiplier(); }
-  SolverCounts counts() const override { return whole_.counts(); }
-  void measure_time() override {}
-  void remember(Archive& archive) override { archive(steps_, whole_); }
+  void remember(Archive& archive) override {
+    ForwardingStepper::remember(archive);
+    archive(steps_);
+  }
 
  private:
-  Stepper<double>& whole_;
   long steps_ = 0;
 };
 

@@ -1,8 +1,8 @@
 #include "integrate/coefficient_decay.hpp"
 
 #include "integrate/runs.hpp"
-#include "integrate/watched_stepper.hpp"
 #include "printing.hpp"
+#include "step/backward_stepper.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -14,8 +14,7 @@ struct Watched {
   Watched(const Scene& text, int s, const char* step, const char* until)
       : run(text, 2 * s, s, step, until), decay(run.scene.problem, s, run.grid.step()) {}
   typename CoefficientDecay<S>::Worst operator()() {
-    WatchedStepper<S> stepper(run.stepper, decay);
-    integrate<S>(stepper, run.state, run.grid, {});
+    run({}, &decay);
     return decay.worst(run.state.q);
   }
 };
@@ -30,7 +29,7 @@ TEST(CoefficientDecay, ComparesTheNeglectedCoefficientWithThoseThatVary) {
   for (const int s : {2, 3, 5}) {
     Watched<Mpfr> one(load_scene("double_pendulum"), s, "1/8", "1/8");
     const double ratio = one().ratio;
-    const StageUnknowns<Mpfr>& x = *one.run.stepper.unknowns();
+    const StageUnknowns<Mpfr>& x = one.run.stepper.solver().unknowns();
     double expected = 0;
     for (Index offset : {0, 2}) {
       const auto size = [&](const auto& row) { return max_norm(Vector<Mpfr>(row.segment(offset, 2))); };
@@ -60,6 +59,19 @@ const std::string free_beside_bound =
     "[[body]]\nname = \"heavy\"\nmass = 1\nposition = [0, 10]\nvelocity = [1, 0]\n"
     "[[body]]\nname = \"light\"\nmass = \"light\"\nposition = [\"1/2\", 0]\nvelocity = [0, \"sqrt(3)\"]\n"
     "[[effect]]\nkind = \"central_gravity\"\ncenter = \"sun\"\nstrength = 1\non = [\"light\"]\n";
+
+/// The way back from (q, p) is the way from (q, -p).
+TEST(CoefficientDecay, OfARunBackIsThatOfTheReversedOne) {
+  for (const int s : {1, 2, 3}) {
+    Watched<double> reversed(load_scene("double_pendulum"), s, "1/8", "2"),
+        back(load_scene("double_pendulum"), s, "1/8", "2");
+    reversed.run.state.p = -reversed.run.state.p;
+    BackwardStepper<double> stepper(back.run.stepper);
+    integrate<double>(stepper, back.run.state, back.run.grid, {}, nullptr, &back.decay);
+    EXPECT_EQ(back.decay.worst(back.run.state.q).ratio, reversed().ratio) << s;
+    EXPECT_GT(reversed.decay.worst(back.run.state.q).ratio, 0) << s;
+  }
+}
 
 TEST(CoefficientDecay, OfALightBodyIsNotHiddenByAHeavyOne) {
   for (const int s : {1, 2}) {

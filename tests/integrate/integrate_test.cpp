@@ -33,8 +33,9 @@ TEST(Integrate, ShowsTheStatesThatSingleStepsGive) {
   long sweeps = 0;
   for (std::size_t n = 0; n < recorder.seen.size(); ++n) {
     if (n > 0) {
-      sweeps += again.step();
-      EXPECT_EQ(recorder.seen[n].lambda, again.stepper.multiplier());
+      const StepResult<double> step = again.step();
+      sweeps += step.sweeps;
+      EXPECT_EQ(recorder.seen[n].lambda, *step.multiplier);
     }
     EXPECT_EQ(recorder.seen[n].q, again.state.q);
     EXPECT_EQ(recorder.seen[n].p, again.state.p);

@@ -35,9 +35,9 @@ struct SceneRun {
         state(scene.q0, scene.p0) {}
   SceneRun(const SceneRun&) = delete;
 
-  long step() { return stepper.step(state, grid.step()); }
-  Integration<S> operator()(const std::vector<Observer<S>*>& observers) {
-    return integrate<S>(stepper, state, grid, observers);
+  StepResult<S> step() { return stepper.step(state, grid.step()); }
+  Integration<S> operator()(const std::vector<Observer<S>*>& observers, StepObserver<S>* each_step = nullptr) {
+    return integrate<S>(stepper, state, grid, observers, nullptr, each_step);
   }
 };
 

@@ -1,5 +1,6 @@
 #include "problem/discrete_force.hpp"
 
+#include "clock.hpp"
 #include "linear/product.hpp"
 #include "printing.hpp"
 #include "scalar/random_values.hpp"
@@ -41,7 +42,7 @@ TEST(DiscreteForce, CountsWhatItEvaluates) {
   const Assembled<double> scene = assemble<double>(load_scene("modified_pendulum"));
   const Potential<double>& potential = scene.problem.potential;
   DiscreteForce<double> force(potential);
-  force.measure_time();
+  const MeasuredParts measured;
   Matrix<double> D = Matrix<double>::Zero(1, scene.problem.m());
   for (int n = 0; n < 3; ++n) force.evaluate(scene.q0, scene.q0, D);
   const PotentialEvaluator<double> plain(potential, 1);

@@ -28,7 +28,7 @@ struct Motion {
   S h;
 
   Motion(SolverKind kind, const S& step) : stepper(scene.problem, method, kind), h(step) {}
-  long step() { return stepper.step(state, h); }
+  long step() { return stepper.step(state, h).sweeps; }
 };
 
 /// q^2 + p^2, which the midpoint rule keeps.

@@ -46,8 +46,9 @@ TEST(EnergyMomentum, HasItsOrders) {
     const auto end = [&](const char* method, long steps) {
       const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
       State<Mpfr> state(scene.q0, scene.p0);
-      for (long n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / (2 * steps)));
-      return std::pair(state, Vector<Mpfr>(stepper->multiplier()));
+      StepResult<Mpfr> last;
+      for (long n = 0; n < steps; ++n) last = stepper->step(state, Mpfr(Mpfr(1) / (2 * steps)));
+      return std::pair(state, *last.multiplier);
     };
     StateEvaluator<Mpfr> point(scene.problem);
     const State<Mpfr> exact = end("hbvm:10,10", 16).first;
@@ -97,7 +98,7 @@ TEST(EnergyMomentum, CountsWhatItDid) {
   EnergyMomentum<double> stepper(scene.problem);
   State<double> state(scene.q0, scene.p0);
   long sweeps = 0;
-  for (int n = 0; n < 10; ++n) sweeps += stepper.step(state, 0.05);
+  for (int n = 0; n < 10; ++n) sweeps += stepper.step(state, 0.05).sweeps;
   const SolverCounts counts = stepper.counts();
   EXPECT_EQ(static_cast<long>(counts.effects[0].evaluations), sweeps);
   EXPECT_EQ(calls_of(counts, "midpoint and momenta"), sweeps);

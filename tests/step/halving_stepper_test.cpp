@@ -18,17 +18,15 @@ class Marching final : public Stepper<double> {
       : problem_(problem), fails_(std::move(fails)), tried_(tried), multiplier_(1) {}
 
   const Problem<double>& problem() const override { return problem_; }
-  long step(State<double>& state, const double& size) override {
+  StepResult<double> step(State<double>& state, const double& size) override {
     tried_.push_back(size);
     if (fails_(state.q[0], size))
       throw StageFailure(FailureCause::precision_exhausted, "a step of " + std::to_string(size), "1", 10);
     state.q[0] += size;
     multiplier_[0] = size;
-    return 1;
+    return {1, &multiplier_};
   }
-  const Vector<double>& multiplier() const override { return multiplier_; }
   SolverCounts counts() const override { return {}; }
-  void measure_time() override {}
   void remember(Archive&) override {}
 
  private:
@@ -51,7 +49,7 @@ class Halving : public ::testing::Test {
 
 TEST_F(Halving, LeavesStepsThatSucceedAlone) {
   HalvingStepper<double> halving = stepper([](double, double) { return false; });
-  for (int n = 0; n < 5; ++n) EXPECT_EQ(halving.step(state, 1), 1);
+  for (int n = 0; n < 5; ++n) EXPECT_EQ(halving.step(state, 1).sweeps, 1);
   EXPECT_EQ(tried, std::vector<double>(5, 1));
   EXPECT_EQ(halving.log().steps, 0);
   EXPECT_EQ(halving.log().substeps, 0);
@@ -70,7 +68,7 @@ TEST_F(Halving, IsEndedByASignalBetweenParts) {
   tried.clear();
   EXPECT_THROW(in_vain.step(state, 1), Interrupted);
   EXPECT_EQ(tried, std::vector<double>{1});
-  EXPECT_EQ(whole.step(state, 1), 1);
+  EXPECT_EQ(whole.step(state, 1).sweeps, 1);
   interruption = 0;
 }
 
@@ -92,16 +90,16 @@ TEST_F(Halving, DividesOneThatFailsAndReturnsToTheWhole) {
 
 TEST_F(Halving, SweepsOfFailuresCount) {
   HalvingStepper<double> halving = stepper([](double, double size) { return size > 1.0 / 2; });
-  EXPECT_EQ(halving.step(state, 1), 12);
+  EXPECT_EQ(halving.step(state, 1).sweeps, 12);
 }
 
 TEST_F(Halving, TheMultiplierIsThatOfTheLastSubstep) {
   // The second half of the step can be made whole.
   HalvingStepper<double> halving = stepper([](double t, double size) { return t < 1.0 / 2 && size > 1.0 / 8; });
-  halving.step(state, 1);
+  const double multiplier = (*halving.step(state, 1).multiplier)[0];
   EXPECT_EQ(state.q[0], 1);
-  EXPECT_EQ(halving.multiplier()[0], tried.back());
-  EXPECT_GT(halving.multiplier()[0], 1.0 / 8);
+  EXPECT_EQ(multiplier, tried.back());
+  EXPECT_GT(multiplier, 1.0 / 8);
 }
 
 /// Where every whole step fails, one in about a thousand attempts is in vain.
@@ -151,10 +149,10 @@ TEST_F(Halving, IsKeptWithAllThatItRemembers) {
       reading.expect_end();
     }
     tried.clear();
-    const long sweeps = whole.step(state, 1);
+    const long sweeps = whole.step(state, 1).sweeps;
     const std::vector<double> expected = tried;
     tried.clear();
-    EXPECT_EQ(part->step(resumed, 1), sweeps);
+    EXPECT_EQ(part->step(resumed, 1).sweeps, sweeps);
     EXPECT_EQ(tried, expected) << n;
     EXPECT_EQ(resumed.q[0], state.q[0]);
     kept = {};
@@ -170,19 +168,16 @@ TEST_F(Halving, IsKeptWithAllThatItRemembers) {
 template <Scalar S>
 class NeverMade final : public Stepper<S> {
  public:
-  explicit NeverMade(const Problem<S>& problem) : problem_(problem), multiplier_(Vector<S>::Zero(problem.nu())) {}
+  explicit NeverMade(const Problem<S>& problem) : problem_(problem) {}
   const Problem<S>& problem() const override { return problem_; }
-  long step(State<S>&, const S&) override {
+  StepResult<S> step(State<S>&, const S&) override {
     throw StageFailure(FailureCause::stage_equations_diverge, "too long", "1", 1);
   }
-  const Vector<S>& multiplier() const override { return multiplier_; }
   SolverCounts counts() const override { return {}; }
-  void measure_time() override {}
   void remember(Archive&) override {}
 
  private:
   const Problem<S>& problem_;
-  Vector<S> multiplier_;
 };
 
 template <class S>
@@ -202,12 +197,13 @@ TYPED_TEST(HalvingOfAPendulum, IsTheMethodWithSmallerSteps) {
   State<S> state(scene.q0, scene.p0), expected = state;
   HbvmStepper<S> half(scene.problem, method, SolverKind::fixed_point);
   for (int n = 0; n < 4; ++n) {
-    halving.step(state, h);
-    for (int i = 0; i < 2; ++i) half.step(expected, S(h / 2));
+    const StepResult<S> divided = halving.step(state, h);
+    StepResult<S> last;
+    for (int i = 0; i < 2; ++i) last = half.step(expected, S(h / 2));
     EXPECT_EQ(state.q, expected.q);
     EXPECT_EQ(state.p, expected.p);
     EXPECT_EQ(state.p_carry, expected.p_carry);
-    EXPECT_EQ(halving.multiplier(), half.multiplier());
+    EXPECT_EQ(*divided.multiplier, *last.multiplier);
   }
 }
 

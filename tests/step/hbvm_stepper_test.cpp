@@ -27,7 +27,7 @@ TEST(Step, ReturnsTheSweepsOfItsSolver) {
   HbvmStepper<double> stepper(scene.problem, method, SolverKind::paper);
   State<double> state(scene.q0, scene.p0);
   const auto solver = make_solver(SolverKind::paper, scene.problem, method);
-  EXPECT_EQ(stepper.step(state, 0.1), solver->solve({scene.q0, scene.p0, 0.1}));
+  EXPECT_EQ(stepper.step(state, 0.1).sweeps, solver->solve({scene.q0, scene.p0, 0.1}));
 }
 
 using CompensatedUpdate = CompensatedSum;
@@ -52,8 +52,7 @@ TEST_F(CompensatedUpdate, LosesNothingOfAConstantForceBesideAConstraint) {
     Quad p_sum[2] = {0, 0}, q_sum[2] = {0, 0}, p_size = 0, q_size = 0;
     for (int i = 0; i < n; ++i) {
       const Quad q0[2] = {q(0), q(1)}, p0[2] = {p(0), p(1)};
-      stepper.step(state, step);
-      const Quad lambda = stepper.multiplier()[0], gravity[2] = {0, Quad(-0.1)};
+      const Quad lambda = (*stepper.step(state, step).multiplier)[0], gravity[2] = {0, Quad(-0.1)};
       for (int j = 0; j < 2; ++j) {
         const Quad tension = (q0[j] + q(j)) * lambda;  // grad g = 2 q at the middle of the step
         p_sum[j] += p(j) - p0[j] - Quad(step) * (gravity[j] - tension);

@@ -52,7 +52,7 @@ struct Raised {
       snapshot.p = state.p;
     }
   }
-  long step() { return stepper.step(state, h); }
+  long step() { return stepper.step(state, h).sweeps; }
   bool conserved(long steps) const { return drift.e_H() <= scale.round_off(steps); }
 };
 

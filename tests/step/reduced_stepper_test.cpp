@@ -61,10 +61,11 @@ TYPED_TEST(Reduced, StepsAddChangesAndEvaluateOnceEach) {
     const Vector<S> q = state.q, p = state.p;
     Vector<S> v(q.size());
     scene.problem.mass.velocity(lanes(p), lanes(v));
-    EXPECT_EQ(euler.step(state, h), 3);
+    const StepResult<S> step = euler.step(state, h);
+    EXPECT_EQ(step.sweeps, 3);
     EXPECT_LE(distance(state.q, Vector<S>(q + h * v)), 8 * epsilon<S>());
     EXPECT_LE(distance(state.p, Vector<S>(p + h * (forces.applied + forces.constraint))), 64 * epsilon<S>());
-    EXPECT_EQ(euler.multiplier(), point.multiplier(state.q, state.p));
+    EXPECT_EQ(*step.multiplier, point.multiplier(state.q, state.p));
   }
   // One before the first step, and one at the end of each.
   const auto counts = euler.counts();

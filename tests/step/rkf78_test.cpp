@@ -20,8 +20,9 @@ TEST(Rkf78, HasOrder8) {
     const auto end = [&](const char* method, long steps) {
       const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
       State<Mpfr> state(scene.q0, scene.p0);
-      for (long n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / (2 * steps)));
-      return std::pair(state, Vector<Mpfr>(stepper->multiplier()));
+      StepResult<Mpfr> last;
+      for (long n = 0; n < steps; ++n) last = stepper->step(state, Mpfr(Mpfr(1) / (2 * steps)));
+      return std::pair(state, *last.multiplier);
     };
     const State<Mpfr> exact = end("hbvm:16,16", 8).first;
     const Vector<Mpfr> p = point.tangential(exact.q, exact.p), lambda = point.multiplier(exact.q, p);
@@ -62,7 +63,7 @@ TEST(Rkf78, CountsItsEvaluations) {
   const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
   const auto rkf = parse_method("rkf78")->make_stepper(scene.problem, SolverKind::automatic);
   State<double> state(scene.q0, scene.p0);
-  for (int n = 0; n < 10; ++n) EXPECT_EQ(rkf->step(state, 0.05), 1);
+  for (int n = 0; n < 10; ++n) EXPECT_EQ(rkf->step(state, 0.05).sweeps, 1);
   EXPECT_EQ(rkf->counts().effects[0].evaluations, 131U);
 }
 
