@@ -5,10 +5,8 @@
 #include "method/perturbation.hpp"
 #include "printing.hpp"
 #include "problem/state_evaluator.hpp"
-#include "scalar/literal.hpp"
-#include "scene/scene.hpp"
+#include "reference/scene_tables.hpp"
 #include "step/hbvm_stepper.hpp"
-#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -31,25 +29,40 @@ RouteRun by_hbvm(const Assembled<Mpfr>& scene) {
   return hbvm_route({scene, instants(), [](double) {}}, working - 3);
 }
 
+/// What runs are refused with that do not agree.
+Disagreement disagreement_of(const Agreement& agreement) {
+  EXPECT_FALSE(agreement.holds());
+  try {
+    agreement.require();
+  } catch (const Disagreement& found) {
+    return found;
+  }
+  throw Error("the routes agree");
+}
+
 /// That the routes differ, at some time and in some component, is said with what each has there.
 void expect_found(const Scene& text, const RouteRun& taylor, const RouteRun& hbvm, long least, long most) {
   const Agreement agreement(assemble<Mpfr>(text), times(), {{"taylor", taylor}, {"hbvm", hbvm}}, wanted);
-  EXPECT_FALSE(agreement.holds());
   EXPECT_GE(agreement.digits(), least);
   EXPECT_LE(agreement.digits(), most);
-  try {
-    agreement.require();
-    FAIL() << "the routes agree";
-  } catch (const Disagreement& found) {
-    const std::string message = found.what();
-    EXPECT_TRUE(found.t == "1/2" || found.t == "2") << found.t;
-    ASSERT_EQ(found.values.size(), 2u);
-    EXPECT_EQ(found.values[0].route, "taylor");
-    EXPECT_EQ(found.values[1].route, "hbvm");
-    EXPECT_NE(found.values[0].number, found.values[1].number) << message;
-    expect_words(message, {"t = " + found.t, found.component + " is ", found.values[0].number + " by taylor",
-                           found.values[1].number + " by hbvm", std::string("nothing is given out")});
-  }
+  const Disagreement found = disagreement_of(agreement);
+  const std::string message = found.what();
+  EXPECT_TRUE(found.t == "1/2" || found.t == "2") << found.t;
+  ASSERT_EQ(found.values.size(), 2u);
+  EXPECT_EQ(found.values[0].route, "taylor");
+  EXPECT_EQ(found.values[1].route, "hbvm");
+  EXPECT_NE(found.values[0].number, found.values[1].number) << message;
+  expect_words(message, {"t = " + found.t, found.component + " is ", found.values[0].number + " by taylor",
+                         found.values[1].number + " by hbvm", std::string("nothing is given out")});
+}
+
+/// The same if either route has a wrong scene, and nothing if neither has.
+void expect_found(const Scene& text, const Assembled<Mpfr>& right, const Assembled<Mpfr>& wrong, long least,
+                  long most) {
+  expect_found(text, by_taylor(wrong), by_hbvm(right), least, most);
+  expect_found(text, by_taylor(right), by_hbvm(wrong), least, most);
+  const Agreement agreement(right, times(), {{"taylor", by_taylor(right)}, {"hbvm", by_hbvm(right)}}, wanted);
+  EXPECT_TRUE(agreement.holds()) << text.name;
 }
 
 class RoutesAgreement : public ::testing::Test {
@@ -91,19 +104,14 @@ TEST_F(RoutesAgreement, FindsTheNumberThatDiffers) {
       Mpfr& x = number(runs[which].run.points[1]);
       x += change;
       const Agreement agreement(scene_, times(), runs, wanted);
-      EXPECT_FALSE(agreement.holds());
       EXPECT_GE(agreement.digits(), 23);
       EXPECT_LE(agreement.digits(), 25);
-      try {
-        agreement.require();
-        FAIL() << component;
-      } catch (const Disagreement& found) {
-        EXPECT_EQ(found.t, "2");
-        EXPECT_EQ(found.component, component);
-        ASSERT_EQ(found.values.size(), 3u);
-        for (std::size_t other = 0; other < 3; ++other)
-          EXPECT_EQ(found.values[other].number == found.values[which].number, other == which);
-      }
+      const Disagreement found = disagreement_of(agreement);
+      EXPECT_EQ(found.t, "2");
+      EXPECT_EQ(found.component, component);
+      ASSERT_EQ(found.values.size(), 3u);
+      for (std::size_t other = 0; other < 3; ++other)
+        EXPECT_EQ(found.values[other].number == found.values[which].number, other == which);
     };
     expect("q_1", [](ExactPoint& at) -> Mpfr& { return at.q[0]; });
     expect("q_2", [](ExactPoint& at) -> Mpfr& { return at.q[1]; });
@@ -116,17 +124,11 @@ TEST_F(RoutesAgreement, FindsTheNumberThatDiffers) {
 TEST_F(RoutesAgreement, FindsAnEnergyThatIsNotConserved) {
   Assembled<Mpfr> other = assemble<Mpfr>(text_);
   other.p0 *= 1 + literal<Mpfr>("1e-25");
-  const Agreement agreement(other, times(), {{"taylor", run_}, {"hbvm", run_}}, wanted);
-  EXPECT_FALSE(agreement.holds());
-  try {
-    agreement.require();
-    FAIL();
-  } catch (const Disagreement& found) {
-    EXPECT_EQ(found.component, "H");
-    ASSERT_EQ(found.values.size(), 3u);
-    EXPECT_EQ(found.values.back().route, "start");
-    expect_words(found.what(), {" at the start"});
-  }
+  const Disagreement found = disagreement_of({other, times(), {{"taylor", run_}, {"hbvm", run_}}, wanted});
+  EXPECT_EQ(found.component, "H");
+  ASSERT_EQ(found.values.size(), 3u);
+  EXPECT_EQ(found.values.back().route, "start");
+  expect_words(found.what(), {" at the start"});
 }
 
 TEST_F(RoutesAgreement, RefusesWhatIsNoNumber) {
@@ -167,21 +169,17 @@ TEST(RoutesAgreementTeeth, FindsAForceLawThatIsOff) {
     ASSERT_EQ(wrong.problem.potential.terms.size(), 1u) << key;
     // The coefficient of the gradient, which the series are made of.
     wrong.problem.potential.terms[0].gradient_coefficients *= 1 + literal<Mpfr>("1e-30");
-    expect_found(text, by_taylor(wrong), by_hbvm(right), 27, 32);
-    expect_found(text, by_taylor(right), by_hbvm(wrong), 27, 32);
-    const Agreement agreement(right, times(), {{"taylor", by_taylor(right)}, {"hbvm", by_hbvm(right)}}, wanted);
-    EXPECT_TRUE(agreement.holds()) << name;
+    expect_found(text, right, wrong, 27, 32);
   }
 }
 
 /// A sign of a constraint's second derivative. The value is wrong, too, but not at the start.
 TEST(RoutesAgreementTeeth, FindsASignOfASecondDerivative) {
   const PrecisionScope scope(working);
-  const Scene text = read_scene(
-      "dimension = 2\nbody = [{ name = \"bead\", mass = 1, position = [1, 0], velocity = [0, 1] }]\n"
-      "constraint = [{ kind = \"quadric\", body = \"bead\", A = [[1, \"1/8\"], [\"1/8\", 1]], b = [0, \"-1/4\"], c = "
-      "-1 }]\neffect = [{ kind = \"uniform_gravity\", acceleration = [0, -1] }]\n",
-      "bead");
+  const Scene text =
+      read_scene("dimension = 2\n" + body("bead", "1", "[1, 0]", "[0, 1]") +
+                     quadric("bead", "[[1, \"1/8\"], [\"1/8\", 1]]", "[0, \"-1/4\"]", "-1") + field("[0, -1]"),
+                 "bead");
   const Assembled<Mpfr> right = assemble<Mpfr>(text);
   Assembled<Mpfr> wrong = assemble<Mpfr>(text);
   auto* const form = std::get_if<Quadric<Mpfr>>(&wrong.problem.constraints.at(0).form);
@@ -189,9 +187,7 @@ TEST(RoutesAgreementTeeth, FindsASignOfASecondDerivative) {
   form->A(0, 1) = -form->A(0, 1);
   form->A(1, 0) = -form->A(1, 0);
   form->b[1] = -form->b[1];
-  expect_found(text, by_taylor(wrong), by_hbvm(right), -3, 3);
-  expect_found(text, by_taylor(right), by_hbvm(wrong), -3, 3);
-  EXPECT_TRUE(Agreement(right, times(), {{"taylor", by_taylor(right)}, {"hbvm", by_hbvm(right)}}, wanted).holds());
+  expect_found(text, right, wrong, -3, 3);
 }
 
 /// One coefficient of the method, any of them, off by 1e-25.

@@ -1,22 +1,13 @@
 #include "reference/compute_reference.hpp"
 
-#include "hbvm/error.hpp"
 #include "printing.hpp"
 #include "reference/agreement.hpp"
+#include "reference/closed_form/rigid_scenes.hpp"
 #include "reference/known_motion.hpp"
-#include "scalar/literal.hpp"
-#include "words.hpp"
+#include "reference/request_of.hpp"
 
 namespace hbvm::core {
 namespace {
-
-ReferenceRequest request_of(const char* scene, const std::vector<const char*>& times, int digits) {
-  ReferenceRequest request;
-  request.scene = load_scene(scene);
-  for (const char* t : times) request.times.push_back(Expression::parse(t));
-  request.digits = digits;
-  return request;
-}
 
 /// Every digit but the last is that of the closed form, and the last is off by one half. As many are there as were
 /// asked for after the leading one of the greatest component, and no more.
@@ -88,13 +79,11 @@ TEST(ReferenceSolution, TakesClosedFormsWhereTheyAreKnown) {
 }
 
 TEST(ReferenceSolution, RefusesWhatItCannotGive) {
-  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {}, 20)), InputError);
-  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"0"}, 20)), InputError);
-  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"2", "1"}, 20)), InputError);
-  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1"}, 0)), InputError);
-  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1e400"}, 20)), InputError);
-  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1", "1e30"}, 20)), InputError);
-  EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1"}, most_reference_digits + 1)), InputError);
+  for (const std::vector<const char*>& times :
+       {std::vector<const char*>{}, {"0"}, {"2", "1"}, {"1e400"}, {"1", "1e30"}})
+    EXPECT_THROW(compute_reference(request_of("simple_pendulum", times, 20)), InputError);
+  for (const int digits : {0, most_reference_digits + 1})
+    EXPECT_THROW(compute_reference(request_of("simple_pendulum", {"1"}, digits)), InputError);
   EXPECT_THROW(parse_route("euler"), InputError);
 }
 
@@ -120,34 +109,23 @@ TEST(ReferenceSolution, KnowsItsSceneByWhatItSays) {
 /// chosen at points alone passed by them, and both routes agreed on the motion without them.
 TEST(ReferenceSolution, SeesForcesBetweenThePoints) {
   struct Case {
-    const char *toml, *t, *q_1;
+    std::string toml;
+    const char *t, *q_1;
     int digits;
   };
-  const std::string at_rest =
-      "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [1, 0], velocity = [0, 0] }]\n";
-  const std::string wide =
-      at_rest + "[[effect]]\nkind = \"formula\"\nU = \"-x^2/2 - y^2/2 - exp(-((x - 0.2)/1e-3)^2)/4\"\n";
-  const std::string narrow =
-      at_rest + "[[effect]]\nkind = \"formula\"\nU = \"-x^2/2 - y^2/2 - exp(-((x - 0.2)/1e-5)^2)/4\"\n";
-  const std::string grains =
-      "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [-2, 0], velocity = [1, 0] },\n"
-      "{ name = \"b\", mass = 1, position = [2, \"1/50\"], velocity = [-1, 0] }]\n"
-      "[[effect]]\nkind = \"formula\"\nbetween = [\"a\", \"b\"]\nU = \"-exp(-200*r)/r\"\n";
-  const std::string wall =
-      "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\n"
-      "body = [{ name = \"a\", mass = 1, position = [\"-0.6\", \"-0.8\"], velocity = [0, 0] }]\n"
-      "constraint = [{ kind = \"rod\", between = [\"o\", \"a\"], length = 1 }]\n"
-      "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, \"-9.81\"]\n"
-      "[[effect]]\nkind = \"formula\"\nU = \"-exp((x - 0.05)/0.001)\"\n";
-  for (const Case& c : {Case{wide.c_str(), "3", "-0.98989641182588406", 17},
-                        {narrow.c_str(), "3", "-0.98999153801451", 14},
-                        {grains.c_str(), "4", "1.3458191561146427323", 19},
-                        {wall.c_str(), "2", "-0.535628851862", 12}}) {
-    ReferenceRequest request;
-    request.scene = read_scene(c.toml, "short_range");
-    request.times = {Expression::parse(c.t)};
-    request.digits = c.digits;
-    const Reference found = compute_reference(request);
+  const std::string at_rest = body("a", "1", "[1, 0]", "[0, 0]"),
+                    wide = at_rest + formula("-x^2/2 - y^2/2 - exp(-((x - 0.2)/1e-3)^2)/4"),
+                    narrow = at_rest + formula("-x^2/2 - y^2/2 - exp(-((x - 0.2)/1e-5)^2)/4"),
+                    grains = body("a", "1", "[-2, 0]", "[1, 0]") + body("b", "1", "[2, \"1/50\"]", "[-1, 0]") +
+                             effect("formula", "between = [\"a\", \"b\"]\nU = \"-exp(-200*r)/r\""),
+                    wall = point("o", "[0, 0]") + body("a", "1", "[\"-0.6\", \"-0.8\"]", "[0, 0]") +
+                           rod("o", "a", "1") + field("[0, \"-9.81\"]") + formula("-exp((x - 0.05)/0.001)");
+  for (const Case& c : {Case{wide, "3", "-0.98989641182588406", 17},
+                        {narrow, "3", "-0.98999153801451", 14},
+                        {grains, "4", "1.3458191561146427323", 19},
+                        {wall, "2", "-0.535628851862", 12}}) {
+    const Scene scene = read_scene("dimension = 2\n" + c.toml, "short_range");
+    const Reference found = compute_reference(request_of(scene, {c.t}, c.digits));
     const PrecisionScope scope(40);
     EXPECT_LE(magnitude(Mpfr(literal<Mpfr>(found.times[0].q[0]) - literal<Mpfr>(c.q_1))),
               pow(Mpfr(10), -c.digits) * 6 / 10)
@@ -199,36 +177,24 @@ TEST(ReferenceSolution, NeedsTwoRoutes) {
 
 /// A body that tumbles end over end: two components of its angular momentum are 0 but for rounding, in some route.
 TEST(ReferenceSolution, MeasuresWhatVanishesByItsVector) {
-  ReferenceRequest request;
-  request.scene = read_scene(R"(dimension = 3
-[[rigid_body]]
-name = "b"
-position = [0, 0, 0]
-velocity = [0, 0, 0]
-mass = 1
-center = [0, 0, 0]
-second_moment = [[1, 0, 0], [0, 1, 0], [0, 0, 2]]
-directors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-angular_velocity = [1, 0, 0]
-)",
-                             "tumbling");
-  request.times = {Expression::parse("3")};
-  request.digits = 10;
-  const Reference found = compute_reference(request);
+  const RigidScene tumbling{.position = "[0, 0, 0]",
+                            .velocity = "[0, 0, 0]",
+                            .mass = "1",
+                            .second_moment = "[[1, 0, 0], [0, 1, 0], [0, 0, 2]]",
+                            .directors = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+                            .omega = "[1, 0, 0]"};
+  const Reference found = compute_reference(request_of(read_scene(tumbling.text(), "tumbling"), {"3"}, 10));
   EXPECT_GT(found.times[0].agreed, 10);
   EXPECT_EQ(found.routes.size(), 3u);
 }
 
 /// What would take years is refused before it begins, with what it would take.
 TEST(ReferenceSolution, RefusesWhatCannotEnd) {
-  for (const bool only_taylor : {false, true}) {
-    ReferenceRequest request = request_of("double_pendulum", {"5"}, only_taylor ? 5000 : 3000);
-    if (only_taylor) {
-      request.only = Route::taylor;
-      request.times = {Expression::parse("5000")};
-    }
+  const ReferenceRequest both_routes = request_of("double_pendulum", {"5"}, 3000);
+  ReferenceRequest one_route = request_of("double_pendulum", {"5000"}, 5000);
+  one_route.only = Route::taylor;
+  for (const ReferenceRequest& request : {both_routes, one_route})
     expect_words(message_of([&] { compute_reference(request); }), {"would take about", "--force"});
-  }
 }
 
 }  // namespace

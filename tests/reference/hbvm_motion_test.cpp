@@ -1,12 +1,9 @@
 #include "reference/hbvm_motion.hpp"
 
-#include "hbvm/error.hpp"
 #include "method/hbvm.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
-#include "scalar/literal.hpp"
-#include "scene/assemble.hpp"
-#include "words.hpp"
+#include "reference/scene_tables.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -14,10 +11,8 @@ namespace {
 constexpr unsigned walk_digits = 40;
 
 /// A particle on a line in the field -U'(x).
-Scene particle(const std::string& U, const std::string& velocity = "0") {
-  return read_scene("dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [1, 0], velocity = [" + velocity +
-                        ", 0] }]\n[[effect]]\nkind = \"formula\"\nU = \"" + U + "\"\n",
-                    "particle");
+Scene particle(const std::string& U) {
+  return read_scene("dimension = 2\n" + body("a", "1", "[1, 0]", "[0, 0]") + formula(U), "particle");
 }
 
 struct Walked {

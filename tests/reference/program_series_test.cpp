@@ -12,13 +12,14 @@ namespace hbvm::core {
 namespace {
 
 using T = Traced<Mpfr>;
+using Function = std::function<T(const T&, const T&, const T&)>;
 
 /// A function of two inputs and one parameter, as a program and its series where the inputs are polynomials of t.
 class Formula {
  public:
   static constexpr Index order = 24;
 
-  explicit Formula(const std::function<T(const T&, const T&, const T&)>& f) {
+  explicit Formula(const Function& f) {
     Trace<Mpfr> trace;
     const T x(trace, trace.input(0)), y(trace, trace.input(1)), c(trace, trace.parameter(0));
     compiled_ = trace.compile({f(x, y, c).id()}, 2, 1);
@@ -66,7 +67,7 @@ class Formula {
 /// With t = 2^-20 the 24 terms leave about 2^-500 of what they are the series of.
 TEST(ProgramSeries, SumsToTheValueOfTheProgram) {
   const PrecisionScope digits(140);
-  const std::vector<std::pair<const char*, std::function<T(const T&, const T&, const T&)>>> formulas{
+  const std::vector<std::pair<const char*, Function>> formulas{
       {"sum", [](const T& x, const T& y, const T& c) { return x + y - c; }},
       {"product", [](const T& x, const T& y, const T& c) { return c * x * y; }},
       {"square", [](const T& x, const T&, const T& c) { return x * x * c + x; }},
@@ -99,22 +100,20 @@ TEST(ProgramSeries, SumsToTheValueOfTheProgram) {
 
 TEST(ProgramSeries, RefusesWhereThereIsNone) {
   const PrecisionScope digits(30);
-  const std::vector<std::function<T(const T&, const T&, const T&)>> formulas{
-      [](const T& x, const T&, const T&) { return 1 / (x - x * x / x); },
-      [](const T& x, const T&, const T&) { return sqrt(x - 3); },
-      [](const T& x, const T&, const T&) { return log(x - 3); },
-      [](const T& x, const T&, const T&) { return abs(x - x * x / x); }};
-  for (const auto& f : formulas) {
-    const Formula formula(f);
-    // The difference may be rounding, which is refused for its sign or taken for what it is.
+  const Function sure[] = {[](const T& x, const T&, const T&) { return sqrt(x - 3); },
+                           [](const T& x, const T&, const T&) { return log(x - 3); }};
+  for (const Function& f : sure)
+    expect_words(message_of<IntegrationError>([&] { Formula(f).series(); }), {"no Taylor series"});
+  // The difference may be rounding, which is refused for its sign or taken for what it is.
+  const Function perhaps[] = {[](const T& x, const T&, const T&) { return 1 / (x - x * x / x); },
+                              [](const T& x, const T&, const T&) { return abs(x - x * x / x); }};
+  for (const Function& f : perhaps) {
     try {
-      static_cast<void>(formula.series());
+      Formula(f).series();
     } catch (const IntegrationError& error) {
       expect_words(error.what(), {"no Taylor series"});
     }
   }
-  EXPECT_THROW(Formula([](const T& x, const T&, const T&) { return sqrt(x - 3); }).series(), IntegrationError);
-  EXPECT_THROW(Formula([](const T& x, const T&, const T&) { return log(x - 3); }).series(), IntegrationError);
 }
 
 }  // namespace

@@ -64,11 +64,12 @@ class RandomScene {
     for (std::size_t j = 0; j < a.size(); ++j) out.push_back(difference(a[j], b[j]));
     return out;
   }
-  std::vector<std::string> spin() {
-    std::vector<std::string> w;
-    for (int i = 0; i < 3; ++i) w.push_back(fmt::format("{}/T", fraction()));
-    return w;
+  std::vector<std::string> fractions(int n, const std::string& unit) {
+    std::vector<std::string> x;
+    for (int i = 0; i < n; ++i) x.push_back(fraction() + unit);
+    return x;
   }
+  std::vector<std::string> spin() { return fractions(3, "/T"); }
   /// w x r; in the plane w is the third component.
   std::vector<std::string> turned(const std::vector<std::string>& w, const std::vector<std::string>& r) const {
     if (d_ == 2) return {"-(" + w[2] + ")*" + r[1], "(" + w[2] + ")*" + r[0]};
@@ -97,11 +98,11 @@ class RandomScene {
     const std::vector<std::string> parent = from_origin ? origin : bodies_.back().x;
     switch (pick(6)) {
       case 0:  // free
-        for (int j = 0; j < d_; ++j) b.v.push_back(fraction() + "*L/T");
+        b.v = fractions(d_, "*L/T");
         break;
       case 1: {  // on a surface
         const std::vector<std::string> normal = surface(b);
-        for (int j = 0; j < d_; ++j) b.v.push_back(fraction() + "*L/T");
+        b.v = fractions(d_, "*L/T");
         const std::string along = dot(normal, b.v) + "/" + dot(normal, normal);
         for (std::size_t j = 0; j < size(); ++j) b.v[j] = "(" + b.v[j] + " - " + along + "*" + normal[j] + ")";
         break;
@@ -170,18 +171,22 @@ class RandomScene {
     constraints_ +=
         "[[attachment]]\nname = \"tip\"\nof = \"bar\"\nat = " + list(std::vector<std::string>(size(), "L/3")) +
         "\ncharge = 1\n";
-    const std::string head = fmt::format(
-        "[[rigid_body]]\nname = \"bar\"\nfixed_at = {}\nmass = \"{}*M\"\ncenter = {}\n",
-        list(d_ == 2 ? std::vector<std::string>{"-L", "2*L"} : std::vector<std::string>{"-L", "2*L", "0"}), 1 + pick(3),
-        list(d_ == 2 ? std::vector<std::string>{"L/4", "0"} : std::vector<std::string>{"L/4", "0", "L/9"}));
+    const auto bar = [mass = 1 + pick(3)](const char* fixed_at, const char* center, const std::string& rest) {
+      return fmt::format("[[rigid_body]]\nname = \"bar\"\nfixed_at = {}\nmass = \"{}*M\"\ncenter = {}\n{}", fixed_at,
+                         mass, center, rest);
+    };
     if (d_ == 2)
-      return head +
-             "second_moment = [[\"M*L^2\", 0], [0, \"M*L^2/2\"]]\ndirectors = [[\"3/5\", \"4/5\"], [\"-4/5\", "
-             "\"3/5\"]]\nangular_velocity = \"" +
-             fraction() + "/T\"\n";
-    return head + "second_moment = [[\"M*L^2\", 0, 0], [0, \"M*L^2/2\", 0], [0, 0, \"2*M*L^2\"]]\n" +
-           "directors = [[\"4/9\", \"4/9\", \"7/9\"], [\"1/9\", \"-8/9\", \"4/9\"], [\"8/9\", \"-1/9\", \"-4/9\"]]\n" +
-           "angular_velocity = " + list(spin()) + "\n";
+      return bar("[\"-L\", \"2*L\"]", "[\"L/4\", 0]",
+                 "second_moment = [[\"M*L^2\", 0], [0, \"M*L^2/2\"]]\n"
+                 "directors = [[\"3/5\", \"4/5\"], [\"-4/5\", \"3/5\"]]\n"
+                 "angular_velocity = \"" +
+                     fraction() + "/T\"\n");
+    return bar(
+        "[\"-L\", \"2*L\", 0]", "[\"L/4\", 0, \"L/9\"]",
+        "second_moment = [[\"M*L^2\", 0, 0], [0, \"M*L^2/2\", 0], [0, 0, \"2*M*L^2\"]]\n"
+        "directors = [[\"4/9\", \"4/9\", \"7/9\"], [\"1/9\", \"-8/9\", \"4/9\"], [\"8/9\", \"-1/9\", \"-4/9\"]]\n"
+        "angular_velocity = " +
+            list(spin()) + "\n");
   }
 
   std::string effects() {
@@ -190,11 +195,7 @@ class RandomScene {
       out += fmt::format("[[effect]]\nkind = \"{}\"\n{}", kind, keys);
     };
     const std::string pair = fmt::format("between = [[\"{}\", \"{}\"]]\n", bodies_.front().name, bodies_.back().name);
-    if (pick(2) == 0) {
-      std::vector<std::string> a;
-      for (int j = 0; j < d_; ++j) a.push_back(fraction() + "*L/T^2");
-      add("uniform_gravity", "acceleration = " + list(a) + "\n");
-    }
+    if (pick(2) == 0) add("uniform_gravity", "acceleration = " + list(fractions(d_, "*L/T^2")) + "\n");
     if (pick(4) == 0)
       add("central_gravity", fmt::format("center = \"sun\"\nstrength = \"{}/4*L^3/T^2\"\n", 1 + pick(6)));
     if (pick(4) == 0) add("mutual_gravity", fmt::format("strength = \"{}/8*L^3/T^2/M\"\n", 1 + pick(3)));
@@ -210,10 +211,9 @@ class RandomScene {
     if (pick(6) == 0) add("lennard_jones", "depth = \"M*L^2/T^2/100\"\ndiameter = \"L/2\"\n" + pair);
     if (pick(6) == 0) add("radial_cosine", "center = \"o\"\nstrength = \"M*L^2/T^2/(1 + L^2)\"\n");
     if (pick(6) == 0)
-      add("oblateness", fmt::format("center = \"sun\"\nstrength = \"L^3/T^2\"\nradius = \"L/2\"\nJ2 = \"1/10\"\naxis = "
-                                    "{}\n",
-                                    list(d_ == 2 ? std::vector<std::string>{"3/5", "4/5"}
-                                                 : std::vector<std::string>{"2/7", "3/7", "6/7"})));
+      add("oblateness",
+          std::string("center = \"sun\"\nstrength = \"L^3/T^2\"\nradius = \"L/2\"\nJ2 = \"1/10\"\naxis = ") +
+              (d_ == 2 ? "[\"3/5\", \"4/5\"]\n" : "[\"2/7\", \"3/7\", \"6/7\"]\n"));
     return out;
   }
 

@@ -4,7 +4,7 @@
 #include <mutex>
 
 #include "printing.hpp"
-#include "reference/compute_reference.hpp"
+#include "reference/request_of.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -31,16 +31,7 @@ struct KeptLegs {
 };
 
 /// Uneven masses and lengths, and long enough for some legs; two times in one of them.
-ReferenceRequest request() {
-  ReferenceRequest r{.scene = load_scene("charged_double_pendulum"),
-                     .times = {},
-                     .digits = 15,
-                     .only = {},
-                     .progress = {},
-                     .keeper = {}};
-  for (const char* t : {"1/7", "1/3", "40"}) r.times.push_back(Expression::parse(t));
-  return r;
-}
+ReferenceRequest request() { return request_of("charged_double_pendulum", {"1/7", "1/3", "40"}, 15); }
 
 std::vector<std::string> numbers(const Reference& reference) {
   std::vector<std::string> all;

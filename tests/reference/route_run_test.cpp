@@ -1,8 +1,8 @@
 #include "reference/route_run.hpp"
 
 #include "printing.hpp"
+#include "reference/scene_tables.hpp"
 #include "reference/taylor.hpp"
-#include "scalar/literal.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -58,18 +58,11 @@ TEST(Routes, KnowHowErrorsGrow) {
 /// A change is one of each body's own size. In SI units a kick in parts of the Earth's momentum would send a satellite
 /// out of the solar system.
 TEST(Routes, KnowHowErrorsOfUnevenMassesGrow) {
-  const Scene scene = read_scene(R"(dimension = 2
-body = [
-  { name = "planet", mass = 5.9e24, position = [0, 0], velocity = [0, -12] },
-  { name = "moon", mass = 7.4e22, position = [3.8e8, 0], velocity = [0, 1000] },
-  { name = "satellite", mass = 800, position = [0, 4.2e7], velocity = [-3060, 0] },
-]
-[[effect]]
-kind = "mutual_gravity"
-strength = "6.67e-11"
-)",
-                                 "uneven");
-  const MotionNature nature = nature_of(scene, {Expression::parse("86400")}, [](double) {});
+  const std::string uneven = "dimension = 2\n" + body("planet", "5.9e24", "[0, 0]", "[0, -12]") +
+                             body("moon", "7.4e22", "[3.8e8, 0]", "[0, 1000]") +
+                             body("satellite", "800", "[0, 4.2e7]", "[-3060, 0]") +
+                             effect("mutual_gravity", "strength = \"6.67e-11\"");
+  const MotionNature nature = nature_of(read_scene(uneven, "uneven"), {Expression::parse("86400")}, [](double) {});
   EXPECT_LT(nature.digits_lost, 3);
   EXPECT_LT(nature.steps, 100);
 }

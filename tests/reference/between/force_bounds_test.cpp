@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "printing.hpp"
-#include "scalar/literal.hpp"
+#include "reference/scene_tables.hpp"
 #include "scene/assemble.hpp"
 
 namespace hbvm::core {
@@ -13,11 +13,8 @@ namespace {
 class Oscillator {
  public:
   explicit Oscillator(const std::string& U)
-      : scene_(
-            assemble<Mpfr>(read_scene("dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [1, 0], velocity = "
-                                      "[0, 0] }]\n[[effect]]\nkind = \"formula\"\nU = \"-x^2/2 - y^2/2" +
-                                          U + "\"\n",
-                                      "oscillator"))),
+      : scene_(assemble<Mpfr>(read_scene(
+            "dimension = 2\n" + body("a", "1", "[1, 0]", "[0, 0]") + formula("-x^2/2 - y^2/2" + U), "oscillator"))),
         bounds_(scene_.problem) {
     bounds_.start(scene_.q0, scene_.p0);
     Mpfr term = 1;
@@ -71,10 +68,8 @@ TEST(ForceBounds, SeeWhatTheStartDoesNotFeel) {
 TEST(ForceBounds, ComparesBodiesWithThemselves) {
   const auto two = [](const char* mass) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(
-        read_scene(std::string("dimension = 2\nbody = [{ name = \"a\", mass = ") + mass +
-                       ", position = [1, 0], velocity = [0, 1] },\n { name = \"b\", mass = 1, position = [5, 0], "
-                       "velocity = [1, 0] }]\n"
-                       "[[effect]]\nkind = \"formula\"\non = [\"a\"]\nU = \"m*exp(-((x - 1.01)*1000)^2)\"\n",
+        read_scene("dimension = 2\n" + body("a", mass, "[1, 0]", "[0, 1]") + body("b", "1", "[5, 0]", "[1, 0]") +
+                       effect("formula", "on = [\"a\"]\nU = \"m*exp(-((x - 1.01)*1000)^2)\""),
                    "two"));
     ForceBounds bounds(scene.problem);
     bounds.start(scene.q0, scene.p0);

@@ -32,6 +32,17 @@ double radius(const Ball& ball) {
   return result;
 }
 
+Loop circle(const std::vector<Mpfr>& series, double log2_radius) {
+  return circle_of([&series](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; },
+                   static_cast<Index>(series.size()) - 1, log2_radius);
+}
+
+Ball enclosed(const Loop& loop, const std::complex<double>& at, double half_width = 0) {
+  Ball ball;
+  LoopEnclosure(loop).enclose(at, half_width, ball);
+  return ball;
+}
+
 /// exp on the circle of radius 3, from its series in a unit of 1/2. Each arc's ball holds the values on the arc, also
 /// at its ends, and is not much wider than they are.
 TEST(Loop, EnclosesASeriesOnACircle) {
@@ -39,12 +50,10 @@ TEST(Loop, EnclosesASeriesOnACircle) {
   constexpr Index order = 60;
   std::vector<Mpfr> series{Mpfr(1)};
   for (Index n = 1; n <= order; ++n) series.push_back(series.back() / (2 * n));
-  const Loop loop =
-      circle_of([&](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; }, order, std::log2(6.0));
+  const Loop loop = circle(series, std::log2(6.0));
   for (const double half : {0.2, 0.05, 0.001})
     for (double middle = half; middle < std::numbers::pi; middle += 0.3) {
-      Ball ball;
-      LoopEnclosure(loop).enclose(std::polar(1.0, middle), half, ball);
+      const Ball ball = enclosed(loop, std::polar(1.0, middle), half);
       double widest = 0;
       const std::complex<double> centre = std::exp(std::polar(3.0, middle));
       for (const double part : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
@@ -73,20 +82,16 @@ TEST(Loop, EnclosesAStepOnAnEllipse) {
       for (Index j = 0; j < 4; ++j) x += y[static_cast<std::size_t>(j)] * integrals(0, j);
       return approximately(x);
     };
-    Ball ball;
-    LoopEnclosure(loop).enclose(1, 0, ball);
-    EXPECT_TRUE(holds(ball, exact(1), 1e-13)) << rho;
-    EXPECT_FALSE(holds(ball, exact(1) + 1e-9)) << rho;
-    LoopEnclosure(loop).enclose(-1, 0, ball);
-    EXPECT_TRUE(holds(ball, exact(-1), 1e-12)) << rho;
-    EXPECT_FALSE(holds(ball, exact(-1) + 1e-9)) << rho;
+    for (const double sign : {1, -1}) {
+      const Ball ball = enclosed(loop, sign);
+      EXPECT_TRUE(holds(ball, exact(sign), sign > 0 ? 1e-13 : 1e-12)) << rho;
+      EXPECT_FALSE(holds(ball, exact(sign) + 1e-9)) << rho;
+    }
   }
   // int_0^c P_1 = sqrt 3 (c^2 - c).
   const double rho = 4, height = (rho - 1 / rho) / 4;
   const Loop loop = ellipse_of(Mpfr(0), {Mpfr(0), Mpfr(1)}, std::log2(rho));
-  Ball ball;
-  LoopEnclosure(loop).enclose({0, 1}, 0, ball);
-  EXPECT_TRUE(holds(ball, -std::sqrt(3.0) * (height * height + 0.25), 1e-12));
+  EXPECT_TRUE(holds(enclosed(loop, {0, 1}), -std::sqrt(3.0) * (height * height + 0.25), 1e-12));
 }
 
 /// Sums and products of loops hold those of the values. Of cos^2 + sin^2 on a wide circle hardly more than 1 is left,
@@ -102,18 +107,14 @@ TEST(Loop, IsAddedAndMultiplied) {
     term /= n + 1;
   }
   const double radius_of_circle = 5;
-  const auto circle = [&](const std::vector<Mpfr>& series) {
-    return circle_of([&](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; }, order,
-                     std::log2(radius_of_circle));
-  };
-  const Loop c = circle(cosine), s = circle(sine), far(literal<Mpfr>("3*2^-80"));
+  const double log2_radius = std::log2(radius_of_circle);
+  const Loop c = circle(cosine, log2_radius), s = circle(sine, log2_radius), far(literal<Mpfr>("3*2^-80"));
   // Rounding of doubles beside the sum of the terms, e^5, and its square.
   const double rounding = 1e-11 * std::exp(radius_of_circle), of_squares = rounding * std::exp(radius_of_circle);
   for (const double angle : {0.0, 0.7, 1.6, 3.1}) {
     const std::complex<double> at = std::polar(1.0, angle), t = radius_of_circle * at;
     const auto expect = [&](const Loop& loop, const std::complex<double>& value, double widest) {
-      Ball ball;
-      LoopEnclosure(loop).enclose(at, 0, ball);
+      const Ball ball = enclosed(loop, at);
       EXPECT_TRUE(holds(ball, value, 1e-13 * std::abs(value))) << angle << " " << value;
       EXPECT_LE(radius(ball), widest) << angle;
     };
@@ -130,8 +131,7 @@ TEST(Loop, IsAddedAndMultiplied) {
   const double rho = 6;
   const Loop x = ellipse_of(literal<Mpfr>("0"), {Mpfr(1)}, std::log2(rho));
   const std::complex<double> w = std::polar(rho, 1.2), value = 0.5 + (w + 1.0 / w) / 4.0;
-  Ball ball;
-  LoopEnclosure(x * x - x).enclose(std::polar(1.0, 1.2), 0, ball);
+  const Ball ball = enclosed(x * x - x, std::polar(1.0, 1.2));
   EXPECT_TRUE(holds(ball, value * value - value, 1e-13));
   EXPECT_LE(radius(ball), 1e-12);
 }
@@ -140,9 +140,7 @@ TEST(Loop, IsAddedAndMultiplied) {
 TEST(Loop, HasAnyExponent) {
   const PrecisionScope scope(40);
   const std::vector<Mpfr> series{literal<Mpfr>("2^-5000"), literal<Mpfr>("2^-5001")};
-  const Loop loop = circle_of([&](Index n) -> const Mpfr& { return series[static_cast<std::size_t>(n)]; }, 1, 1);
-  Ball ball;
-  LoopEnclosure(loop).enclose(1, 0, ball);
+  Ball ball = enclosed(circle(series, 1), 1);
   acb_mul_2exp_si(raw(ball), raw(ball), 5000);
   EXPECT_TRUE(holds(ball, 2));
   EXPECT_FALSE(holds(ball, 2.001));

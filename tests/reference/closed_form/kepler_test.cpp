@@ -6,16 +6,17 @@ namespace {
 constexpr const char* kepler_name = "Kepler";
 
 std::string planet(int dimension, const std::string& position, const std::string& velocity, const std::string& mass,
-                   const std::string& effect, const std::string& center = "") {
+                   const std::string& effects, const std::string& center = "") {
   const std::string origin = center.empty() ? dimension == 2 ? "[0, 0]" : "[0, 0, 0]" : center;
-  return "dimension = " + std::to_string(dimension) + "\n[[point]]\nname = \"sun\"\ncharge = -2\nposition = " + origin +
-         "\n[[body]]\nname = \"planet\"\ncharge = \"3/7\"\nmass = " + mass + "\nposition = " + position +
-         "\nvelocity = " + velocity + "\n" + effect;
+  return "dimension = " + std::to_string(dimension) + "\n" + point("sun", origin, "charge = -2\n") +
+         body("planet", mass, position, velocity, "charge = \"3/7\"\n") + effects;
 }
 
-std::string sun(const std::string& strength) {
-  return "[[effect]]\nkind = \"central_gravity\"\ncenter = \"sun\"\nstrength = \"" + strength + "\"\n";
+std::string sun(const std::string& strength, const std::string& center = "sun") {
+  return effect("central_gravity", "center = \"" + center + "\"\nstrength = \"" + strength + "\"");
 }
+
+std::string coulomb(const std::string& strength) { return effect("coulomb", "strength = " + strength); }
 
 TEST(Kepler, EllipsesAndHyperbolasInAnyUnits) {
   Fractions random(21);
@@ -42,55 +43,45 @@ TEST(Kepler, OfNearlyRadialOrbits) {
   for (const char* speed : {"1e-6", "1e-10"})
     expect_follows_taylor(planet(2, "[1, 0]", "[0, \"" + std::string(speed) + "\"]", "1", sun("1")), kepler_name,
                           {"1/3", "1", "2"}, 60, 40);
-  expect_follows_taylor(planet(2, "[1, 0]", "[2, \"1e-20\"]", "1", sun("1")), kepler_name, {"1/3", "20"}, 50, 12);
-  expect_follows_taylor(planet(2, "[1, 0]", "[\"sqrt(2)\", \"1e-20\"]", "1", sun("1")), kepler_name, {"1/3", "20"}, 50,
-                        12);
+  for (const char* velocity : {"[2, \"1e-20\"]", "[\"sqrt(2)\", \"1e-20\"]"})
+    expect_follows_taylor(planet(2, "[1, 0]", velocity, "1", sun("1")), kepler_name, {"1/3", "20"}, 50, 12);
   expect_follows_taylor(planet(2, "[\"1e-6\", 0]", "[0, \"sqrt((2 - 1e-6)*1e6)\"]", "1", sun("1")), kepler_name,
                         {"1e-8", "1/10"}, 60, 30);
 }
 
 /// A charge at rest is driven away, a centre that hardly attracts leaves a straight line.
 TEST(Kepler, OfRestAndOfWeakForces) {
-  const std::string coulomb = "[[effect]]\nkind = \"coulomb\"\nstrength = -3\n";
   for (const char* velocity : {"[0, 0]", "[-1, 0]", "[1, 0]", "[0, \"1e-30\"]"})
-    expect_follows_taylor(planet(2, "[1, 0]", velocity, "2", coulomb), kepler_name, {"1/3", "20"}, 40, 10);
+    expect_follows_taylor(planet(2, "[1, 0]", velocity, "2", coulomb("-3")), kepler_name, {"1/3", "20"}, 40, 10);
   expect_follows_taylor(planet(2, "[1, 0]", "[0, 1]", "1", sun("1e-60")), kepler_name, {"1/3", "20"}, 40, 10);
 }
 
 TEST(Kepler, AttractedAndRepelledByCharges) {
-  const std::string coulomb = "[[effect]]\nkind = \"coulomb\"\nstrength = ";
-  expect_follows_taylor(planet(2, "[1, 0]", "[0, 1]", "2", coulomb + "3\n"), kepler_name, {"1/3", "8"}, 40, 10);
-  expect_follows_taylor(planet(3, "[1, 0, 0]", "[-2, 1, 1]", "2", coulomb + "-3\n"), kepler_name, {"1/3", "8"}, 40, 10);
-  // Both, as one.
-  expect_follows_taylor(planet(2, "[1, 0]", "[0, 1]", "2", coulomb + "-1\n" + sun("2")), kepler_name, {"1/3", "8"}, 40,
-                        10);
+  // By the last two forces as by one.
+  for (const std::string& scene :
+       {planet(2, "[1, 0]", "[0, 1]", "2", coulomb("3")), planet(3, "[1, 0, 0]", "[-2, 1, 1]", "2", coulomb("-3")),
+        planet(2, "[1, 0]", "[0, 1]", "2", coulomb("-1") + sun("2"))})
+    expect_follows_taylor(scene, kepler_name, {"1/3", "8"}, 40, 10);
 }
 
 std::string pair(const std::string& first_mass, const std::string& more) {
-  return "dimension = 3\n[[body]]\nname = \"a\"\nmass = " + first_mass +
-         "\nposition = [1, 2, 0]\nvelocity = [0, \"1/3\", 1]\n[[body]]\nname = \"b\"\nmass = \"2/3\"\nposition = [0, "
-         "0, "
-         "\"1/7\"]\nvelocity = [\"1/2\", 0, 0]\n[[effect]]\nkind = \"mutual_gravity\"\nstrength = \"4/3\"\n" +
+  return "dimension = 3\n" + body("a", first_mass, "[1, 2, 0]", "[0, \"1/3\", 1]") +
+         body("b", "\"2/3\"", "[0, 0, \"1/7\"]", "[\"1/2\", 0, 0]") + effect("mutual_gravity", "strength = \"4/3\"") +
          more;
 }
-constexpr const char* falling = "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [\"1/3\", 0, -1]\n";
 
 TEST(Kepler, OfTwoBodies) {
-  expect_follows_taylor(pair("3", ""), kepler_name, {"1/3", "9"}, 40, 11);
-  expect_follows_taylor(pair("\"1/1000\"", ""), kepler_name, {"1/3", "9"}, 40, 11);
-  expect_follows_taylor(pair("3", falling), kepler_name, {"1/3", "9"}, 40, 11);
+  for (const std::string& scene : {pair("3", ""), pair("\"1/1000\"", ""), pair("3", field("[\"1/3\", 0, -1]"))})
+    expect_follows_taylor(scene, kepler_name, {"1/3", "9"}, 40, 11);
 }
 
 TEST(Kepler, NothingElseMayAct) {
-  expect_unknown(planet(2, "[1, 0]", "[0, 1]", "1",
-                        sun("1") + "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [\"1e-30\", 0]\n"));
-  expect_unknown(planet(2, "[1, 0]", "[0, 1]", "1",
-                        sun("1") + "[[effect]]\nkind = \"radial_cosine\"\ncenter = \"sun\"\nstrength = \"1e-9\"\n"));
-  expect_unknown(planet(2, "[1, 0]", "[0, 1]", "1",
-                        sun("1") + "[[point]]\nname = \"moon\"\nposition = [5, 0]\n[[effect]]\nkind = "
-                                   "\"central_gravity\"\ncenter = \"moon\"\nstrength = \"1e-9\"\n"));
-  expect_unknown(pair("3", "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [\"1/3\", 0, -1]\non = [\"a\"]\n"));
-  expect_unknown(pair("3", "[[body]]\nname = \"c\"\nmass = \"1e-20\"\nposition = [5, 5, 5]\nvelocity = [0, 0, 0]\n"));
+  for (const std::string& other :
+       {field("[\"1e-30\", 0]"), effect("radial_cosine", "center = \"sun\"\nstrength = \"1e-9\""),
+        point("moon", "[5, 0]") + sun("1e-9", "moon")})
+    expect_unknown(planet(2, "[1, 0]", "[0, 1]", "1", sun("1") + other));
+  expect_unknown(pair("3", field("[\"1/3\", 0, -1]\non = [\"a\"]")));
+  expect_unknown(pair("3", body("c", "\"1e-20\"", "[5, 5, 5]", "[0, 0, 0]")));
   // It falls into the centre.
   expect_unknown(planet(2, "[1, 0]", "[0, 0]", "1", sun("1")));
   expect_unknown(planet(2, "[\"3/7\", \"1/7\"]", "[3, 1]", "1", sun("1")));

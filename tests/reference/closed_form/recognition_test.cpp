@@ -1,24 +1,23 @@
 #include "reference/closed_form/recognition.hpp"
 
-#include <gtest/gtest.h>
-
 #include "printing.hpp"
-#include "scalar/literal.hpp"
+#include "reference/scene_tables.hpp"
 
 namespace hbvm::core {
 namespace {
 
-const char* const scene_text =
-    "dimension = 3\n[[point]]\nname = \"o\"\nposition = [1, 2, 3]\n[[body]]\nname = \"a\"\nmass = [[2, 0, 0], [0, 2, "
-    "0], "
-    "[0, 0, 2]]\nposition = [1, 2, 1]\nvelocity = [1, 0, 0]\n[[body]]\nname = \"b\"\nmass = [[2, 0, 0], [0, 2, 0], [0, "
-    "0, 3]]\nposition = [0, 0, 0]\nvelocity = [0, 0, 0]\n[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, 1, "
-    "-3]\n[[effect]]\nkind = \"trap\"\nexponent = 2\ncenter = \"o\"\non = [\"a\"]\nstiffness = ";
+Assembled<Mpfr> two_bodies(const std::string& stiffness) {
+  const std::string text = "dimension = 3\n" + point("o", "[1, 2, 3]") +
+                           body("a", "[[2, 0, 0], [0, 2, 0], [0, 0, 2]]", "[1, 2, 1]", "[1, 0, 0]") +
+                           body("b", "[[2, 0, 0], [0, 2, 0], [0, 0, 3]]", "[0, 0, 0]", "[0, 0, 0]") +
+                           field("[0, 1, -3]") +
+                           effect("trap", "exponent = 2\ncenter = \"o\"\non = [\"a\"]\nstiffness = " + stiffness);
+  return assemble<Mpfr>(read_scene(text, "two bodies"));
+}
 
 TEST(Recognition, KnowsWhatActs) {
   const PrecisionScope scope(40);
-  const Assembled<Mpfr> idle = assemble<Mpfr>(read_scene(std::string(scene_text) + "0\n", "idle")),
-                        busy = assemble<Mpfr>(read_scene(std::string(scene_text) + "5\n", "busy"));
+  const Assembled<Mpfr> idle = two_bodies("0"), busy = two_bodies("5");
   const Recognition one(idle, epsilon<Mpfr>()), other(busy, epsilon<Mpfr>());
   EXPECT_EQ(one.acting.size(), 2u);
   EXPECT_EQ(other.acting.size(), 3u);
@@ -36,7 +35,7 @@ TEST(Recognition, KnowsWhatActs) {
 
 TEST(Recognition, KnowsMassesThatAreOneNumber) {
   const PrecisionScope scope(40);
-  const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(std::string(scene_text) + "0\n", "masses"));
+  const Assembled<Mpfr> scene = two_bodies("0");
   const Recognition content(scene, epsilon<Mpfr>());
   ASSERT_TRUE(content.mass_at(0));
   EXPECT_EQ(*content.mass_at(0), 2);
@@ -46,25 +45,18 @@ TEST(Recognition, KnowsMassesThatAreOneNumber) {
 
 TEST(Recognition, KnowsSpheres) {
   const PrecisionScope scope(40);
-  const std::string body =
-      "dimension = 3\n[[point]]\nname = \"o\"\nposition = [1, 2, 3]\n[[body]]\nname = \"a\"\nmass = 2\nposition = [1, "
-      "2, "
-      "1]\nvelocity = [1, 0, 0]\n[[constraint]]\n";
-  for (const char* constraint :
-       {"kind = \"rod\"\nbetween = [\"a\", \"o\"]\nlength = 2\n",
-        "kind = \"rod\"\nbetween = [\"o\", \"a\"]\nlength = 2\n",
-        "kind = \"quadric\"\nbody = \"a\"\nA = [[-3, 0, 0], [0, -3, 0], [0, 0, -3]]\nb = [6, 12, "
-        "18]\nc = -30\n"}) {
-    const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(body + constraint, "sphere"));
+  const std::string bead = "dimension = 3\n" + point("o", "[1, 2, 3]") + body("a", "2", "[1, 2, 1]", "[1, 0, 0]");
+  for (const std::string& constraint : {rod("a", "o", "2"), rod("o", "a", "2"),
+                                        quadric("a", "[[-3, 0, 0], [0, -3, 0], [0, 0, -3]]", "[6, 12, 18]", "-30")}) {
+    const Assembled<Mpfr> scene = assemble<Mpfr>(read_scene(bead + constraint, "sphere"));
     const auto sphere = Recognition(scene, epsilon<Mpfr>()).on_sphere();
     ASSERT_TRUE(sphere) << constraint;
     EXPECT_EQ(sphere->radius, 2);
     EXPECT_EQ(sphere->mass, 2);
     for (Index j = 0; j < 3; ++j) EXPECT_EQ(sphere->pivot[j], j + 1);
   }
-  const Assembled<Mpfr> plane =
-      assemble<Mpfr>(read_scene(body + "kind = \"plane\"\nbody = \"a\"\nnormal = [0, 0, 1]\noffset = 1\n", "plane"));
-  EXPECT_FALSE(Recognition(plane, epsilon<Mpfr>()).on_sphere());
+  const Assembled<Mpfr> flat = assemble<Mpfr>(read_scene(bead + plane("a", "[0, 0, 1]", "1"), "plane"));
+  EXPECT_FALSE(Recognition(flat, epsilon<Mpfr>()).on_sphere());
 }
 
 TEST(Recognition, Vectors) {

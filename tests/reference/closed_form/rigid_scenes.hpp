@@ -22,32 +22,28 @@ struct RigidScene {
   }
 };
 
-inline std::string field(const std::string& acceleration) {
-  return "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = " + acceleration + "\n";
-}
-
 /// Points that turn with the angular velocity (u, v, w) about (1, 2, 3), all of whose distances are fixed.
 inline std::string cluster(const std::vector<std::array<std::string, 3>>& points, const std::string& drift,
                            const std::string& pin = "", const std::string& more = "") {
-  std::string text = "dimension = 3\n[constants]\nu = \"1/2\"\nv = \"-4/3\"\nw = \"3/4\"\nd = \"" + drift +
-                     "\"\n[[point]]\nname = \"o\"\nposition = [1, 2, 3]\n";
+  std::string text = "dimension = 3\n[constants]\nu = \"1/2\"\nv = \"-4/3\"\nw = \"3/4\"\nd = \"" + drift + "\"\n" +
+                     point("o", "[1, 2, 3]");
   const auto place = [](const std::string& x, const char* origin) { return "\"" + x + " + " + origin + "\""; };
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& [x, y, z] = points[i];
-    text += "[[body]]\nname = \"b" + std::to_string(i) + "\"\nmass = \"" + std::to_string(2 * i + 1) +
-            "/3\"\nposition = [" + place(x, "1") + ", " + place(y, "2") + ", " + place(z, "3") +
-            "]\nvelocity = [\"v*(" + z + ") - w*(" + y + ") + d\", \"w*(" + x + ") - u*(" + z + ") - d\", \"u*(" + y +
-            ") - v*(" + x + ")\"]\n";
+    text += body("b" + std::to_string(i), "\"" + std::to_string(2 * i + 1) + "/3\"",
+                 "[" + place(x, "1") + ", " + place(y, "2") + ", " + place(z, "3") + "]",
+                 "[\"v*(" + z + ") - w*(" + y + ") + d\", \"w*(" + x + ") - u*(" + z + ") - d\", \"u*(" + y +
+                     ") - v*(" + x + ")\"]");
   }
-  const auto rod = [&](const std::string& a, const std::string& b, const std::array<std::string, 3>& p,
-                       const std::array<std::string, 3>& q) {
-    text += "[[constraint]]\nkind = \"rod\"\nbetween = [\"" + a + "\", \"" + b + "\"]\nlength = \"sqrt((" + p[0] +
-            "-(" + q[0] + "))^2+(" + p[1] + "-(" + q[1] + "))^2+(" + p[2] + "-(" + q[2] + "))^2)\"\n";
+  const auto add_rod = [&](std::size_t i, const std::string& b, const std::array<std::string, 3>& q) {
+    const auto& [x, y, z] = points[i];
+    text += rod("b" + std::to_string(i), b,
+                "\"sqrt((" + x + "-(" + q[0] + "))^2+(" + y + "-(" + q[1] + "))^2+(" + z + "-(" + q[2] + "))^2)\"");
   };
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) rod("b" + std::to_string(i), "b" + std::to_string(j), points[i], points[j]);
+    for (std::size_t j = 0; j < i; ++j) add_rod(i, "b" + std::to_string(j), points[j]);
   if (!pin.empty())
-    for (std::size_t i = 0; i < points.size(); ++i) rod("b" + std::to_string(i), pin, points[i], {"0", "0", "0"});
+    for (std::size_t i = 0; i < points.size(); ++i) add_rod(i, pin, {"0", "0", "0"});
   return text + more;
 }
 

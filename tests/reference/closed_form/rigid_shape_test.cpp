@@ -55,9 +55,7 @@ TEST(RigidShape, IsNoneOfWhatBends) {
   open.erase(open.rfind("[[constraint]]"));
   EXPECT_FALSE(shape_of(open)) << "a rod is missing";
   EXPECT_FALSE(shape_of(cluster({{"1", "0", "0"}, {"0", "1", "0"}}, "0"))) << "a straight line";
-  EXPECT_FALSE(shape_of(
-      cluster(triangle, "0") +
-      "[[constraint]]\nkind = \"plane\"\nbody = \"b0\"\nnormal = [\"7/12\", \"4/9\", 0]\noffset = \"37/18\"\n"))
+  EXPECT_FALSE(shape_of(cluster(triangle, "0") + plane("b0", "[\"7/12\", \"4/9\", 0]", "\"37/18\"")))
       << "a plane holds it";
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "reference/closed_form/against_taylor.hpp"
 
 namespace hbvm::core {
@@ -20,14 +22,9 @@ TEST(SphericalPendulum, OfOtherUnits) {
                         {"1/1000", "5/1000"});
 }
 
-std::string bob(const char* position, const char* velocity, const std::string& more = "") {
-  return std::string(
-             "dimension = 3\n[[point]]\nname = \"o\"\nposition = [0, 0, 0]\n[[body]]\nname = \"bob\"\nmass = "
-             "2\nposition = ") +
-         position + "\nvelocity = " + velocity +
-         "\n[[constraint]]\nkind = \"rod\"\nbetween = [\"o\", \"bob\"]\nlength = 1\n[[effect]]\nkind = "
-         "\"uniform_gravity\"\nacceleration = [0, 0, -1]\n" +
-         more;
+std::string bob(const std::string& position, const std::string& velocity, const std::string& more = "") {
+  return "dimension = 3\n" + point("o", "[0, 0, 0]") + body("bob", "2", position, velocity) + rod("o", "bob", "1") +
+         field("[0, 0, -1]") + more;
 }
 
 TEST(SphericalPendulum, TurnsRightForALongTime) {
@@ -40,9 +37,8 @@ TEST(SphericalPendulum, TurnsRightForALongTime) {
 TEST(SphericalPendulum, OnOrNearACone) {
   // omega^2 = g/0.8: v = 0.6 omega.
   for (const char* change : {"0", "1e-35", "1e-25", "-1e-12", "1e-5"})
-    expect_follows_taylor(
-        bob("[\"3/5\", 0, \"-4/5\"]", ("[0, \"3/5*sqrt(5/4) + (" + std::string(change) + ")\", 0]").c_str()),
-        spherical_name, {"1/2", "20"});
+    expect_follows_taylor(bob("[\"3/5\", 0, \"-4/5\"]", fmt::format("[0, \"3/5*sqrt(5/4) + ({})\", 0]", change)),
+                          spherical_name, {"1/2", "20"});
 }
 
 /// Through the lowest point, or the highest, it would be a plane motion: by 10^-30 to 10^-3 beside that.
@@ -50,43 +46,38 @@ TEST(SphericalPendulum, NearAPlane) {
   for (const char* aside : {"1e-3", "1e-10", "1e-20", "1e-30"})
     for (const char* along : {"1/2", "3"})
       expect_follows_taylor(
-          bob("[\"3/5\", 0, \"-4/5\"]",
-              ("[\"" + std::string(along) + "*4/5\", \"" + aside + "\", \"" + along + "*3/5\"]").c_str()),
+          bob("[\"3/5\", 0, \"-4/5\"]", fmt::format("[\"{0}*4/5\", \"{1}\", \"{0}*3/5\"]", along, aside)),
           spherical_name, {"1", "10"}, 50, 12);
 }
 
 /// So small a cone that the square of its radius is less than a digit, and the same beside the highest point.
 TEST(SphericalPendulum, OnASmallCone) {
   for (const char* r : {"1e-5", "1e-18", "1e-60"})
-    for (const char* side : {"-", ""}) {
-      const std::string radius = r, height = side + ("sqrt(1 - " + radius + "^2)");
+    for (const char* side : {"-", ""})
       expect_follows_taylor(
-          bob(("[\"" + radius + "\", 0, \"" + height + "\"]").c_str(), ("[0, \"" + radius + "\", 0]").c_str()),
+          bob(fmt::format("[\"{0}\", 0, \"{1}sqrt(1 - {0}^2)\"]", r, side), fmt::format("[0, \"{}\", 0]", r)),
           spherical_name, {"1", "5"}, 30, 10);
-    }
 }
 
 /// Beside the motion to the highest point that takes for ever, where two roots nearly coincide.
 TEST(SphericalPendulum, NearTheSeparatrix) {
   for (const char* aside : {"1e-10", "1e-25", "1e-40"})
-    expect_follows_taylor(bob("[\"3/5\", 0, \"-4/5\"]",
-                              ("[\"4/5*sqrt(18/5)\", \"" + std::string(aside) + "\", \"3/5*sqrt(18/5)\"]").c_str()),
-                          spherical_name, {"1", "10"}, 50, 16);
+    expect_follows_taylor(
+        bob("[\"3/5\", 0, \"-4/5\"]", fmt::format("[\"4/5*sqrt(18/5)\", \"{}\", \"3/5*sqrt(18/5)\"]", aside)),
+        spherical_name, {"1", "10"}, 50, 16);
 }
 
 /// From a turning point, the equator, and upwards as well as downwards.
 TEST(SphericalPendulum, FromSpecialStarts) {
-  expect_follows_taylor(bob("[1, 0, 0]", "[0, \"1/3\", 0]"), spherical_name, {"1", "10"});
-  expect_follows_taylor(bob("[1, 0, 0]", "[0, \"1/3\", 1]"), spherical_name, {"1", "10"});
-  expect_follows_taylor(bob("[1, 0, 0]", "[0, \"-1/3\", -1]"), spherical_name, {"1", "10"});
+  for (const char* velocity : {"[0, \"1/3\", 0]", "[0, \"1/3\", 1]", "[0, \"-1/3\", -1]"})
+    expect_follows_taylor(bob("[1, 0, 0]", velocity), spherical_name, {"1", "10"});
   expect_follows_taylor(bob("[\"3/5\", 0, \"4/5\"]", "[0, 2, 0]"), spherical_name, {"1", "10"});
 }
 
 TEST(SphericalPendulum, NothingElseMayAct) {
-  const std::string other = "[[effect]]\nkind = \"radial_cosine\"\ncenter = \"o\"\nstrength = \"1e-20\"\n";
-  expect_unknown(bob("[\"3/5\", 0, \"-4/5\"]", "[0, 1, 0]", other));
-  expect_unknown(bob("[\"3/5\", 0, \"-4/5\"]", "[0, 1, 0]",
-                     "[[body]]\nname = \"b\"\nmass = 1\nposition = [3, 3, 3]\nvelocity = [0, 0, 0]\n"));
+  for (const std::string& other :
+       {effect("radial_cosine", "center = \"o\"\nstrength = \"1e-20\""), body("b", "1", "[3, 3, 3]", "[0, 0, 0]")})
+    expect_unknown(bob("[\"3/5\", 0, \"-4/5\"]", "[0, 1, 0]", other));
 }
 
 TEST(SphericalPendulum, HasAThousandDigits) {
