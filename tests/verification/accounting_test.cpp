@@ -5,44 +5,39 @@
 #include <set>
 
 #include "problem/effect/registry.hpp"
+#include "reference/scene_tables.hpp"
 #include "run/simulate.hpp"
 
 namespace hbvm::core {
 namespace {
 
 /// Two charged bodies, a fixed charge, nothing that acts on them.
-std::string bodies(int dimension, bool rod) {
-  const std::string z = dimension == 2 ? "" : ", 0";
-  std::string text = "dimension = " + std::to_string(dimension) + "\npoint = [{ name = \"O\", position = [0, -1" + z +
-                     "], charge = 1 }]\n"
-                     "body = [{ name = \"a\", mass = 1, position = [0, 0" +
-                     z + "], velocity = [0, 1" + z +
-                     "], charge = 2 },\n"
-                     "        { name = \"b\", mass = 2, position = [1, 0" +
-                     z + "], velocity = [0, 0" + z + "], charge = 3 }]\n";
-  if (rod) text += "[[constraint]]\nkind = \"rod\"\nbetween = [\"a\", \"b\"]\nlength = 1\n";
-  return text;
+std::string bodies(int dimension, bool with_rod) {
+  const std::string end = dimension == 2 ? "]" : ", 0]";
+  return "dimension = " + std::to_string(dimension) + "\n" + point("O", "[0, -1" + end, "charge = 1\n") +
+         body("a", "1", "[0, 0" + end, "[0, 1" + end, "charge = 2\n") +
+         body("b", "2", "[1, 0" + end, "[0, 0" + end, "charge = 3\n") + (with_rod ? rod("a", "b", "1") : "");
 }
 
 /// Every kind of effect on those bodies, weak enough for any sum of them.
 std::vector<std::pair<std::string, std::string>> effects(int dimension) {
   const std::string z = dimension == 2 ? "" : ", 0";
-  const auto effect = [](const std::string& kind, const std::string& keys) {
-    return std::pair(kind, "[[effect]]\nkind = \"" + kind + "\"\n" + keys);
-  };
   const std::string about = "center = \"O\"\n";
-  return {effect("uniform_gravity", "acceleration = [0, -0.1" + z + "]\n"),
-          effect("central_gravity", about + "strength = 0.1\n"),
-          effect("mutual_gravity", "strength = 0.1\n"),
-          effect("coulomb", "strength = 0.1\n"),
-          effect("spring", "between = [\"a\", \"b\"]\nstiffness = 0.1\n"),
-          effect("trap", about + "stiffness = 0.1\nexponent = 2\n"),
-          effect("lennard_jones", "depth = 0.01\ndiameter = 1\n"),
-          effect("radial_cosine", about + "strength = 0.1\n"),
-          effect("oblateness", about + "strength = 0.1\nradius = 1\nJ2 = 0.1\naxis = [0, 1" + z + "]\n")};
+  std::vector<std::pair<std::string, std::string>> result{
+      {"uniform_gravity", "acceleration = [0, -0.1" + z + "]"},
+      {"central_gravity", about + "strength = 0.1"},
+      {"mutual_gravity", "strength = 0.1"},
+      {"coulomb", "strength = 0.1"},
+      {"spring", "between = [\"a\", \"b\"]\nstiffness = 0.1"},
+      {"trap", about + "stiffness = 0.1\nexponent = 2"},
+      {"lennard_jones", "depth = 0.01\ndiameter = 1"},
+      {"radial_cosine", about + "strength = 0.1"},
+      {"oblateness", about + "strength = 0.1\nradius = 1\nJ2 = 0.1\naxis = [0, 1" + z + "]"}};
+  for (auto& [kind, text] : result) text = effect(kind, text);
+  return result;
 }
 
-std::string effect(int dimension, const std::string& kind) {
+std::string effect_of(int dimension, const std::string& kind) {
   for (const auto& [name, text] : effects(dimension))
     if (name == kind) return text;
   return {};
@@ -107,17 +102,22 @@ struct Count {
   int add = 0, subtract = 0, multiply = 0, divide = 0, root = 0, negate = 0;
 };
 
-void expect_operations(const OperationCounts& found, std::uint64_t times, const Count& each, const std::string& what) {
-  OperationCounts expected;
-  expected.add(Op::add, each.add);
-  expected.add(Op::subtract, each.subtract);
-  expected.add(Op::multiply, each.multiply);
-  expected.add(Op::reciprocal, each.divide);
-  expected.add(Op::sqrt, each.root);
-  expected.add(Op::negate, each.negate);
+OperationCounts operations(const Count& count) {
+  OperationCounts result;
+  result.add(Op::add, count.add);
+  result.add(Op::subtract, count.subtract);
+  result.add(Op::multiply, count.multiply);
+  result.add(Op::reciprocal, count.divide);
+  result.add(Op::sqrt, count.root);
+  result.add(Op::negate, count.negate);
+  return result;
+}
+
+void expect_operations(const Account& account, const std::string& name, std::uint64_t times, const Count& each) {
+  const OperationCounts found = line_of(account, name).operations, expected = operations(each);
   for (std::size_t op = 0; op < op_count; ++op)
     EXPECT_EQ(found[static_cast<Op>(op)], times * expected[static_cast<Op>(op)])
-        << what << ", " << name_of(static_cast<Op>(op));
+        << name << ", " << name_of(static_cast<Op>(op));
 }
 
 /// The part that a sweep of the fixed-point iteration has not.
@@ -179,7 +179,7 @@ TEST(Accounting, ForcesAreEvaluatedAtKNodesASweepAndConstantOnesOnce) {
 
 TEST(Accounting, ASceneOfConstantForcesEvaluatesOnceInAll) {
   for (const bool rod : {false, true}) {
-    const Account account = run(bodies(2, rod) + effect(2, "uniform_gravity"), 4, 2, "1/32", "1");
+    const Account account = run(bodies(2, rod) + effect_of(2, "uniform_gravity"), 4, 2, "1/32", "1");
     EXPECT_EQ(account.steps, 32u);
     EXPECT_EQ(evaluations(account, "uniform_gravity"), 1u);
     EXPECT_EQ(line_of(account, "positions at quadrature nodes (48)").calls, 0u);
@@ -189,48 +189,37 @@ TEST(Accounting, ASceneOfConstantForcesEvaluatesOnceInAll) {
 /// It is added to psi_0 and, as what rounding leaves over, to gamma_0: exact sums, six operations each, of the
 /// coordinates it acts on.
 TEST(Accounting, AConstantForceCostsTheSolverExactSumsWhereItActs) {
-  const std::string along_y = "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [0, -1, 0]\n";
+  const std::string along_y = field("[0, -1, 0]");
   const Account without = sweeps(bodies(3, true), 3, 2, 5), with = sweeps(bodies(3, true) + along_y, 3, 2, 5);
   EXPECT_EQ(line_of(with, "force coefficients psi_hat (50)").calls, 5u);
   for (const AccountLine& line : solver_lines(without)) {
     const AccountLine found = line_of(with, line.name);
     EXPECT_EQ(found.calls, line.calls) << line.name;
     OperationCounts expected = line.operations;
-    const auto add_each = [&](const Count& count) {
-      constexpr int pulled = 2, times = 5;
-      for (int i = 0; i < pulled * times; ++i) {
-        expected.add(Op::add, count.add);
-        expected.add(Op::subtract, count.subtract);
-        expected.add(Op::multiply, count.multiply);
-        expected.add(Op::negate, count.negate);
-      }
-    };
-    if (line.name == "force coefficients psi_hat (50)") add_each({.add = 2, .subtract = 4});
+    constexpr std::uint64_t pulled = 2, times = 5;
+    if (line.name == "force coefficients psi_hat (50)")
+      expected += pulled * times * operations({.add = 2, .subtract = 4});
     // The two sums of p0 and its carry are replaced by the two exact ones, the rest's factor and its sums.
     if (line.name == "momentum coefficients gamma (54)" || line.name == "right-hand side for the multipliers (29)")
-      add_each({.add = 2 * 2 + 4 - 2, .subtract = 2 * 4, .multiply = 1, .negate = 1});
+      expected += pulled * times * operations({.add = 2 * 2 + 4 - 2, .subtract = 2 * 4, .multiply = 1, .negate = 1});
     EXPECT_EQ(found.operations, expected) << line.name;
   }
 }
 
 TEST(Accounting, ForceOperationsAreTheSumOverTheEffects) {
   const auto all = effects(3);
-  std::string text = bodies(3, true);
+  const auto of = [](const std::string& text) { return force_operations(sweeps(bodies(3, true) + text, 3, 2, 5)); };
+  std::string together;
   OperationCounts sum;
-  for (const auto& [kind, effect] : all) {
-    text += effect;
-    sum += force_operations(sweeps(bodies(3, true) + effect, 3, 2, 5));
+  for (const auto& [kind, text] : all) {
+    together += text;
+    sum += of(text);
   }
-  EXPECT_EQ(force_operations(sweeps(text, 3, 2, 5)), sum);
-  for (std::size_t a = 0; a < all.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      const std::string both = bodies(3, true) + all[a].second + all[b].second;
-      EXPECT_EQ(force_operations(sweeps(both, 3, 2, 5)),
-                force_operations(sweeps(bodies(3, true) + all[a].second, 3, 2, 5)) +
-                    force_operations(sweeps(bodies(3, true) + all[b].second, 3, 2, 5)))
+  EXPECT_EQ(of(together), sum);
+  for (std::size_t a = 0; a < all.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_EQ(of(all[a].second + all[b].second), of(all[a].second) + of(all[b].second))
           << all[a].first << " and " << all[b].first;
-    }
-  }
 }
 
 TEST(Accounting, ForceOperationsOfARunAreItsEvaluationsTimesThoseOfOne) {
@@ -298,18 +287,17 @@ TEST(Accounting, WithoutConstraintsNoConstraintRoutineIsEntered) {
 /// components d more. x = a - b takes d differences, and the sum into both bodies d sums and d differences.
 TEST(Accounting, APlanarForceWorksOnTwoCoordinates) {
   for (const int d : {2, 3}) {
-    const Account account = sweeps(bodies(d, false) + effect(d, "mutual_gravity"), 3, 2, 5);
-    expect_operations(line_of(account, "mutual_gravity").operations, 3 * 5,
-                      {.add = (d - 1) + d, .subtract = d + d, .multiply = d + 3 + d, .divide = 1, .root = 1},
-                      "mutual_gravity");
+    const Account account = sweeps(bodies(d, false) + effect_of(d, "mutual_gravity"), 3, 2, 5);
+    expect_operations(account, "mutual_gravity", 3 * 5,
+                      {.add = (d - 1) + d, .subtract = d + d, .multiply = d + 3 + d, .divide = 1, .root = 1});
   }
 }
 
 /// A harmonic trap on two bodies at a centre away from the origin: x = q - c, the force stiffness x, its sum.
 TEST(Accounting, APlanarTrapWorksOnTwoCoordinates) {
   for (const int d : {2, 3}) {
-    const Account account = sweeps(bodies(d, false) + effect(d, "trap"), 3, 2, 5);
-    expect_operations(line_of(account, "trap").operations, 3 * 5, {.add = 2 * (d + d), .multiply = 2 * d}, "trap");
+    const Account account = sweeps(bodies(d, false) + effect_of(d, "trap"), 3, 2, 5);
+    expect_operations(account, "trap", 3 * 5, {.add = 2 * (d + d), .multiply = 2 * d});
   }
 }
 
@@ -317,11 +305,9 @@ TEST(Accounting, APlanarTrapWorksOnTwoCoordinates) {
 TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
   constexpr int k = 3, s = 2, times = 5;
   for (const int d : {2, 3}) {
-    const Account account = sweeps(bodies(d, true) + effect(d, "mutual_gravity"), k, s, times);
+    const Account account = sweeps(bodies(d, true) + effect_of(d, "mutual_gravity"), k, s, times);
     const int m = 2 * d;
-    const auto expect = [&](const char* part, const Count& each) {
-      expect_operations(line_of(account, part).operations, times, each, part);
-    };
+    const auto expect = [&](const char* part, const Count& each) { expect_operations(account, part, times, each); };
     // Products with coefficients are sums over the even and over the odd polynomials, of which s = 2 has one each. That
     // is half of the multiplications, and a sum and a difference for two mirrored nodes (of k = 3, one is the middle).
     // The middle of the step is q0, its carry and half a displacement.
@@ -353,11 +339,9 @@ TEST(Accounting, APlanarSceneWorksOnTwoCoordinatesABodyThroughout) {
 TEST(Accounting, OneNodeTakesNoProductsWithOne) {
   constexpr int times = 5;
   for (const int d : {2, 3}) {
-    const Account account = sweeps(bodies(d, true) + effect(d, "mutual_gravity"), 1, 1, times);
+    const Account account = sweeps(bodies(d, true) + effect_of(d, "mutual_gravity"), 1, 1, times);
     const int m = 2 * d;
-    const auto expect = [&](const char* part, const Count& each) {
-      expect_operations(line_of(account, part).operations, times, each, part);
-    };
+    const auto expect = [&](const char* part, const Count& each) { expect_operations(account, part, times, each); };
     expect("right-hand side for the multipliers (29)",
            {.add = 2 * m + d - 1, .subtract = m + d, .multiply = 2 * m + d + d});
     expect("constraint-force coefficients zeta (49)", {.add = 2 * d, .subtract = 2 * d, .multiply = 2 * d});

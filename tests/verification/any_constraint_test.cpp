@@ -1,25 +1,15 @@
 // Constraints that are not quadratic, against motions in closed form and against quadratic ones that say the same.
 
-#include <cmath>
-
-#include "integrate/drift.hpp"
 #include "printing.hpp"
-#include "reference/compute_reference.hpp"
-#include "scalar/literal.hpp"
-#include "scene/assemble.hpp"
+#include "problem/state_evaluator.hpp"
+#include "reference/known_motion.hpp"
+#include "reference/request_of.hpp"
+#include "scene/scene_text.hpp"
 #include "step/hbvm_method.hpp"
-#include "step/registry.hpp"
+#include "step/stepping.hpp"
 
 namespace hbvm::core {
 namespace {
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()), ++count)
-    text.replace(at, from.size(), to);
-  EXPECT_GT(count, 0u) << from;
-  return text;
-}
 
 std::string text_of(const std::string& name) {
   for (const auto& [known, text] : built_in_scenes())
@@ -27,58 +17,29 @@ std::string text_of(const std::string& name) {
   throw InputError("no scene " + name);
 }
 
-/// The bead on the helix: z = 3 t/2 - t^2/4.
-Vector<Mpfr> on_the_helix(const Mpfr& t) {
-  const Mpfr z = 3 * t / 2 - t * t / 4;
-  Vector<Mpfr> q(3);
-  q << cos(z), sin(z), z;
-  return q;
-}
-
-/// The bead over the cycloid, with the amplitude a of z = a sin(w t), w^2 = 4/17.
-Vector<Mpfr> over_the_cycloid(const Mpfr& a, const Mpfr& t) {
-  const Mpfr z = a * sin(Mpfr(sqrt(Mpfr(4) / 17) * t)), u = asin(z);
-  Vector<Mpfr> q(3);
-  q << 2 * u + sin(Mpfr(2 * u)), 2 * z * z, z;
-  return q;
-}
-
-template <class Motion>
-void expect_digits(const char* scene, Motion motion) {
-  ReferenceRequest request;
-  request.scene = load_scene(scene);
-  for (const char* t : {"1/2", "3", "10"}) request.times.push_back(Expression::parse(t));
-  request.digits = 50;
-  const Reference reference = compute_reference(request);
-  EXPECT_EQ(reference.routes.size(), 2u);
-  const PrecisionScope scope(120);
-  for (const ReferenceState& state : reference.times) {
-    EXPECT_GT(state.agreed, 50);
-    const Vector<Mpfr> exact = motion(literal<Mpfr>(state.t));
-    for (std::size_t j = 0; j < state.q.size(); ++j)
-      EXPECT_LE(magnitude(Mpfr(literal<Mpfr>(state.q[j]) - exact[static_cast<Index>(j)])),
-                max_norm(exact) * literal<Mpfr>("5.1e-51"))
-          << scene << " t = " << state.t << ' ' << j;
+TEST(AnyConstraint, HasTheDigitsOfItsClosedForm) {
+  for (const char* scene : {"bead_on_helix", "bead_on_cycloid"}) {
+    const Reference reference = compute_reference(request_of(scene, {"1/2", "3", "10"}, 50));
+    EXPECT_EQ(reference.routes.size(), 2u);
+    const PrecisionScope scope(120);
+    for (const ReferenceState& state : reference.times) {
+      EXPECT_GT(state.agreed, 50);
+      const Vector<Mpfr> exact = known_motion(scene, literal<Mpfr>(state.t)).q;
+      for (std::size_t j = 0; j < state.q.size(); ++j)
+        EXPECT_LE(magnitude(Mpfr(literal<Mpfr>(state.q[j]) - exact[static_cast<Index>(j)])),
+                  max_norm(exact) * literal<Mpfr>("5.1e-51"))
+            << scene << " t = " << state.t << ' ' << j;
+    }
   }
-}
-
-TEST(AnyConstraint, HelixHasTheDigitsOfItsClosedForm) { expect_digits("bead_on_helix", on_the_helix); }
-
-TEST(AnyConstraint, CycloidHasTheDigitsOfItsClosedForm) {
-  expect_digits("bead_on_cycloid", [](const Mpfr& t) { return over_the_cycloid(sqrt(Mpfr(17)) / 8, t); });
 }
 
 /// After pi sqrt(17), the same for all amplitudes.
 TEST(AnyConstraint, CycloidIsIsochronous) {
   for (const auto& [v_x, v_z] : {std::pair("1", "1/4"), {"1/100", "1/400"}, {"9/5", "9/20"}}) {
-    ReferenceRequest request;
-    request.scene = read_scene(replaced(text_of("bead_on_cycloid"), "velocity = [1, 0, \"1/4\"]",
-                                        std::string("velocity = [\"") + v_x + "\", 0, \"" + v_z + "\"]"),
-                               "cycloid");
+    const std::string text = changed(text_of("bead_on_cycloid"), "velocity = [1, 0, \"1/4\"]",
+                                     std::string("velocity = [\"") + v_x + "\", 0, \"" + v_z + "\"]");
     // After the period q is 0, and its digits are those of what it was before.
-    for (const char* t : {"1", "pi*sqrt(17)"}) request.times.push_back(Expression::parse(t));
-    request.digits = 40;
-    const Reference reference = compute_reference(request);
+    const Reference reference = compute_reference(request_of(read_scene(text, "cycloid"), {"1", "pi*sqrt(17)"}, 40));
     const PrecisionScope scope(60);
     const Mpfr size = literal<Mpfr>(v_x);
     for (const std::string& q : reference.times[1].q)
@@ -110,18 +71,17 @@ End end_of(const Assembled<Mpfr>& scene, const MethodPtr& method, int n) {
 TEST(AnyConstraint, IsKeptByEveryMethodAtItsOrder) {
   const PrecisionScope scope(60);
   const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("bead_on_helix"));
-  const Vector<Mpfr> exact = on_the_helix(Mpfr(1));
+  const Vector<Mpfr> exact = known_motion("bead_on_helix", Mpfr(1)).q;
   for (const char* name : {"rattle", "lobatto:3", "compose:rattle,4", "projected_hbvm:3,3,20", "restored_hbvm:3,3,20",
                            "hbvm:2,2,20", "hbvm:3,3,20"}) {
     const MethodPtr method = parse_method(name);
     Mpfr error[2];
     for (const int i : {0, 1}) {
       const End end = end_of(scene, method, 16 << i);
-      error[i] = max_norm(Vector<Mpfr>(end.q - exact));
+      error[i] = distance(end.q, exact);
       EXPECT_LE(end.e_g, literal<Mpfr>("1e-40")) << name;
     }
-    const double rate = std::log2(approximately(Mpfr(error[0] / error[1])));
-    EXPECT_GT(rate, method->order() - 0.25) << name;
+    EXPECT_GT(order_of(error[0], error[1]), method->order() - 0.25) << name;
   }
 }
 
@@ -136,10 +96,10 @@ std::string pendulum_by(const std::string& of_upper, const std::string& of_lower
     return "{ kind = \"formula\", " + bodies + ", g = \"" + g + "\" }";
   };
   const std::string half =
-      replaced(text_of("double_pendulum"), "{ kind = \"rod\", between = [\"pivot\", \"a\"], length = 1 }",
-               formula("of = [\"pivot\", \"a\"]", of_upper));
-  return replaced(half, "{ kind = \"rod\", between = [\"a\", \"b\"], length = 1.3 }",
-                  formula("between = [\"a\", \"b\"]", of_lower));
+      changed(text_of("double_pendulum"), "{ kind = \"rod\", between = [\"pivot\", \"a\"], length = 1 }",
+              formula("of = [\"pivot\", \"a\"]", of_upper));
+  return changed(half, "{ kind = \"rod\", between = [\"a\", \"b\"], length = 1.3 }",
+                 formula("between = [\"a\", \"b\"]", of_lower));
 }
 
 /// The rods of the double pendulum by their squares are the rods: but for one rounding of 1.3^2, the same digits.
@@ -152,8 +112,8 @@ TEST(AnyConstraint, OfDegree2IsTheQuadraticOne) {
     for (const auto& constraint : formulas.problem.constraints)
       EXPECT_TRUE(std::holds_alternative<Rod<Mpfr>>(constraint.form));
     const End a = end_of(formulas, parse_method("hbvm:4,3"), 16), b = end_of(rods, parse_method("hbvm:4,3"), 16);
-    EXPECT_LE(max_norm(Vector<Mpfr>(a.q - b.q)), 256 * epsilon<Mpfr>());
-    EXPECT_LE(max_norm(Vector<Mpfr>(a.p - b.p)), 256 * epsilon<Mpfr>());
+    EXPECT_LE(distance(a.q, b.q), 256 * epsilon<Mpfr>());
+    EXPECT_LE(distance(a.p, b.p), 256 * epsilon<Mpfr>());
   }
 }
 
@@ -170,9 +130,9 @@ TEST(AnyConstraint, OfTheSameSurfaceIsTheSameMotion) {
     Mpfr error[2];
     for (const int i : {0, 1}) {
       const End end = end_of(lengths, method, 32 << i);
-      error[i] = std::max(max_norm(Vector<Mpfr>(end.q - exact.q)), max_norm(Vector<Mpfr>(end.p - exact.p)));
+      error[i] = std::max(distance(end.q, exact.q), distance(end.p, exact.p));
     }
-    EXPECT_GT(std::log2(approximately(Mpfr(error[0] / error[1]))), 2 * s - 0.25) << s;
+    EXPECT_GT(order_of(error[0], error[1]), 2 * s - 0.25) << s;
   }
 }
 

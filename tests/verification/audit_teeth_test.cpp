@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <iostream>
 #include <random>
 
 #include "audit/audit.hpp"
 #include "audit/claim_group.hpp"
+#include "folder.hpp"
+#include "reference/scene_tables.hpp"
 #include "step/hbvm_method.hpp"
+#include "step/tableau_method.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -13,6 +17,17 @@ Claim claim(Quantity quantity, const std::string& problem, HbvmName method, Span
   Claim c = make_claim("test", quantity, problem, span, form, predicted);
   c.method = hbvm_of(method);
   return c;
+}
+
+/// One that errors over an interval are round-off.
+Claim exact(Quantity quantity, const std::string& problem, HbvmName method) {
+  return claim(quantity, problem, method, Span::interval, Form::round_off, 0);
+}
+
+std::string text_of(const Finding& f) {
+  return std::string(name_of(f.claim.quantity)) + " of " + f.claim.method_text() + " on " + f.claim.problem +
+         ": measured " + std::to_string(f.measured) + " +- " + std::to_string(f.uncertainty) + " for " +
+         std::to_string(f.claim.predicted) + " in " + f.precision + ", " + f.reason;
 }
 
 /// What the errors of one step must show.
@@ -35,7 +50,7 @@ std::vector<Claim> order_claims(const std::string& problem, HbvmName method) {
 std::vector<Claim> coefficient_claims(HbvmName method) {
   std::vector<Claim> claims;
   for (const Quantity quantity : {Quantity::B, Quantity::C, Quantity::D, Quantity::X, Quantity::symmetry, Quantity::W})
-    claims.push_back(claim(quantity, "tableau", method, Span::interval, Form::round_off, 0));
+    claims.push_back(exact(quantity, "tableau", method));
   return claims;
 }
 
@@ -44,11 +59,14 @@ int count(const std::vector<Finding>& findings, Verdict verdict) {
       std::count_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.verdict == verdict; }));
 }
 
-AuditOptions one_start() {
+AuditOptions one_start(int jobs = 1) {
   AuditOptions options;
   options.starts = 1;
+  options.jobs = jobs;
   return options;
 }
+
+Finding found(const Claim& c, const AuditOptions& options = one_start()) { return audit({c}, options).front(); }
 
 /// How many no longer hold. (With some signs flipped steps cannot be made, or rates do not settle.)
 int failures(std::vector<Claim> claims, const Perturbation& perturbation) {
@@ -131,15 +149,13 @@ TEST_P(NoFalseAlarm, OnRandomConfigurations) {
                                          {Quantity::H, 2 * k}})
       claims.push_back(claim(quantity, problem, {k, s}, Span::interval, Form::at_least, rate));
     for (const Quantity quantity : {Quantity::g, Quantity::reversal})
-      claims.push_back(claim(quantity, problem, {k, s}, Span::interval, Form::round_off, 0));
+      claims.push_back(exact(quantity, problem, {k, s}));
     AuditOptions options = one_start();
     options.first_start = below(20);
     options.log2_interval = -3 + below(4);
     for (const Finding& f : audit(claims, options)) {
       EXPECT_NE(f.verdict, Verdict::fails)
-          << problem << " " << f.claim.method_text() << " start " << options.first_start << " interval 2^"
-          << options.log2_interval << ": " << name_of(f.claim.quantity) << " measured " << f.measured << " +- "
-          << f.uncertainty << " for " << f.claim.predicted << " in " << f.precision << ", " << f.reason;
+          << text_of(f) << ", start " << options.first_start << " interval 2^" << options.log2_interval;
       undecidable += f.verdict == Verdict::undecidable;
     }
   }
@@ -158,34 +174,28 @@ TEST(Audit, RefusesFalseClaims) {
       claims.push_back(claim(Quantity::p, "modified_pendulum", method, Span::step, Form::at_least, s + 2));
     if (s % 2 == 0)  // Theorem 4, on delta-lambda, for propagated states
       claims.push_back(claim(Quantity::delta_lambda, "modified_pendulum", method, Span::interval, Form::at_least, s));
-    claims.push_back(claim(Quantity::H, "modified_pendulum", method, Span::interval, Form::round_off, 0));
-    claims.push_back(claim(Quantity::hidden, "double_pendulum", method, Span::interval, Form::round_off, 0));
-    claims.back().quantity = Quantity::angular_momentum;
-    claims.back().problem = "tethered_satellites";
-    claims.back().method = hbvm_of({s + 2, s});
+    claims.push_back(exact(Quantity::H, "modified_pendulum", method));
+    claims.push_back(exact(Quantity::angular_momentum, "tethered_satellites", {s + 2, s}));
   }
   // Theorem 4, on delta-lambda, with one order more, and an order claimed "exactly" that is exceeded.
   claims.push_back(claim(Quantity::delta_lambda, "modified_pendulum", {2, 2}, Span::step, Form::at_least, 3));
   claims.push_back(claim(Quantity::q, "modified_pendulum", {2, 2}, Span::interval, Form::exactly, 2));
-  for (const Finding& f : audit(claims, one_start()))
-    EXPECT_EQ(f.verdict, Verdict::fails) << name_of(f.claim.quantity) << " of " << f.claim.method_text() << " on "
-                                         << f.claim.problem << ", measured " << f.measured << " " << f.reason;
+  for (const Finding& f : audit(claims, one_start())) EXPECT_EQ(f.verdict, Verdict::fails) << text_of(f);
 }
 
 /// Over an interval an error of 1e-25 in a node cannot be seen; the error of one step shows it.
 TEST(Audit, HoldsAnIntervalAgainstItsSteps) {
   Claim c = claim(Quantity::q, "modified_pendulum", {2, 2}, Span::interval, Form::at_least, 4);
-  EXPECT_EQ(audit({c}, one_start()).front().verdict, Verdict::holds);
+  EXPECT_EQ(found(c).verdict, Verdict::holds);
   c.method = hbvm_of({2, 2}, Perturbation{Part::node, false, 0, 0, Expression::parse("1e-25")});
   AuditOptions options = one_start();
   options.coefficient_digits = 0;
-  EXPECT_EQ(audit({c}, options).front().verdict, Verdict::fails);
+  EXPECT_EQ(found(c, options).verdict, Verdict::fails);
 }
 
 /// The evidence falls with the precision: what is round-off in double is an error in more digits.
 TEST(Audit, ShowsItsEvidence) {
-  const Finding f =
-      audit({claim(Quantity::H, "modified_pendulum", {4, 2}, Span::step, Form::at_least, 9)}, one_start()).front();
+  const Finding f = found(claim(Quantity::H, "modified_pendulum", {4, 2}, Span::step, Form::at_least, 9));
   ASSERT_EQ(f.verdict, Verdict::holds);
   EXPECT_EQ(f.precision, "mpfr:100");
   EXPECT_NEAR(f.measured, 9, 0.1);
@@ -199,15 +209,13 @@ TEST(Audit, ShowsItsEvidence) {
 
 /// In double all errors of a high order are round-off: that shows nothing, and more digits must be asked.
 TEST(Audit, TakesRoundOffOfDoubleForNoAnswer) {
-  const Finding f =
-      audit({claim(Quantity::q, "modified_pendulum", {8, 8}, Span::interval, Form::at_least, 16)}, one_start()).front();
+  Claim c = claim(Quantity::q, "modified_pendulum", {8, 8}, Span::interval, Form::at_least, 16);
+  const Finding f = found(c);
   EXPECT_EQ(f.verdict, Verdict::holds);
   EXPECT_NEAR(f.measured, 16, 0.5);
   EXPECT_GE(f.evidence.size(), 3u);
-  EXPECT_EQ(audit({claim(Quantity::q, "modified_pendulum", {8, 8}, Span::interval, Form::at_least, 18)}, one_start())
-                .front()
-                .verdict,
-            Verdict::fails);
+  c.predicted = 18;
+  EXPECT_EQ(found(c).verdict, Verdict::fails);
 }
 
 /// A rung that is lost in the error of the reference is no proof that the error is small.
@@ -221,8 +229,7 @@ TEST(Audit, TakesTheReferencesErrorForNoAnswer) {
 }
 
 TEST(Audit, KnowsWhatDoesNotExist) {
-  const Finding f =
-      audit({claim(Quantity::hidden, "kepler", {2, 2}, Span::step, Form::at_least, 3)}, one_start()).front();
+  const Finding f = found(claim(Quantity::hidden, "kepler", {2, 2}, Span::step, Form::at_least, 3));
   EXPECT_EQ(f.verdict, Verdict::undecidable);
   EXPECT_NE(f.reason.find("does not exist"), std::string::npos);
 }
@@ -244,12 +251,152 @@ TEST(Audit, GivesTheSameOnSeveralThreads) {
 /// A weight or node of the constraints' quadrature off by 1e-25 is seen where the nodes keep g.
 TEST(Teeth, OfTheConstraintQuadrature) {
   const HbvmName method{2, 2, 4};
-  const std::vector<Claim> claims{claim(Quantity::g, "bead_on_quartic", method, Span::interval, Form::round_off, 0),
-                                  claim(Quantity::H, "bead_on_torus", method, Span::interval, Form::round_off, 0)};
+  const std::vector<Claim> claims{exact(Quantity::g, "bead_on_quartic", method),
+                                  exact(Quantity::H, "bead_on_torus", method)};
   AuditOptions options = one_start();
   EXPECT_EQ(count(audit(claims, options), Verdict::holds), 2);
   for (const Part part : {Part::weight, Part::node, Part::integral})
     EXPECT_GE(failures({claims[0]}, {part, false, 1, 0, Expression::parse("1e-25")}), 1) << static_cast<int>(part);
+}
+
+/// The Gauss method of two stages with one entry of A or b off.
+std::string gauss(const std::string& off_in_A, const std::string& off_in_b) {
+  return "name = \"Gauss\"\nA = [[\"1/4\", \"1/4-sqrt(3)/6" + off_in_A +
+         "\"], [\"1/4+sqrt(3)/6\", \"1/4\"]]\nb = [\"1/2" + off_in_b +
+         "\", \"1/2\"]\nc = [\"1/2-sqrt(3)/6\", \"1/2+sqrt(3)/6\"]\n";
+}
+
+/// A quartic oscillator beside which something that is no polynomial is this strong.
+std::string disturbed(const std::string& strength) {
+  return "dimension = 2\n" + point("o", "[0, 0]") + body("a", "1", "[1, \"1/3\"]", "[\"-1/5\", \"2/3\"]") +
+         effect("trap", "center = \"o\"\nstiffness = 1\nexponent = 4") +
+         effect("central_gravity", "center = \"o\"\nstrength = \"" + strength + "\"");
+}
+
+TEST(AuditClaims, FalseOnesNeverHold) {
+  const Folder files;
+  std::vector<Claim> claims;
+  // Rates that are not whole, above the true one by so much, or claimed exactly and below it.
+  for (const double off : {0.05, 0.1, 0.25, 0.4, 0.49})
+    for (const auto& [problem, method, quantity, rate] :
+         {std::tuple("modified_pendulum", HbvmName{1, 1}, Quantity::q, 2),
+          {"kepler", HbvmName{2, 2}, Quantity::q, 4},
+          {"double_pendulum", HbvmName{3, 2}, Quantity::tangential_p, 4}})
+      for (const auto& [span, order] : {std::pair(Span::interval, rate), {Span::step, rate + 1}}) {
+        claims.push_back(claim(quantity, problem, method, span, Form::at_least, order + off));
+        if (span == Span::step && off < 0.3)
+          claims.push_back(claim(quantity, problem, method, span, Form::exactly, order - off));
+      }
+  // Errors that only more digits or longer steps show.
+  claims.push_back(exact(Quantity::H, "modified_pendulum", {30, 1}));
+  claims.push_back(exact(Quantity::H, "modified_pendulum", {60, 1}));
+  claims.push_back(exact(Quantity::H, "kepler", {20, 2}));
+  claims.push_back(exact(Quantity::angular_momentum, "kepler", {45, 40}));
+  claims.push_back(exact(Quantity::angular_momentum, "kepler", {14, 12}));
+  for (const char* const strength : {"10^(-40)", "10^(-80)", "10^(-150)"})
+    claims.push_back(
+        exact(Quantity::H, files.write("disturbed" + std::string(strength) + ".toml", disturbed(strength)), {4, 2}));
+  // Coefficients.
+  const HbvmName any{1, 1};
+  for (const char* const digits : {"30", "60", "95", "300"}) {
+    const std::string off = std::string("+10^(-") + digits + ")";
+    const MethodPtr in_A = tableau_method(files.write(std::string("A") + digits + ".toml", gauss(off, ""))),
+                    in_b = tableau_method(files.write(std::string("b") + digits + ".toml", gauss("", off)));
+    for (Claim c : {claim(Quantity::q, "kepler", any, Span::interval, Form::at_least, 4),
+                    claim(Quantity::order_conditions, "tableau", any, Span::interval, Form::at_least, 4),
+                    exact(Quantity::angular_momentum, "kepler", any)}) {
+      c.method = in_b;
+      claims.push_back(c);
+      if (c.quantity == Quantity::angular_momentum) continue;
+      c.method = in_A;
+      claims.push_back(c);
+    }
+  }
+  EXPECT_GE(claims.size(), 60u);
+  for (const Finding& f : audit(claims, one_start(2))) EXPECT_EQ(f.verdict, Verdict::fails) << text_of(f);
+}
+
+/// Scenes of uneven units, lengths and masses, all exact.
+class UnevenScene {
+ public:
+  explicit UnevenScene(unsigned seed) : random_(seed) {}
+
+  std::string text() {
+    constrained_ = below(3) > 0;
+    const int bodies = 1 + below(2);
+    std::string text = "dimension = 2\n[constants]\nL = \"" + power(-12, 12) + "\"\nT = \"" + power(-9, 9) +
+                       "\"\nM = \"" + power(-20, 20) + "\"\nG = \"L/T^2\"\n" + point("o", "[0, 0]");
+    std::string x = "0", y = "0", vx = "0", vy = "0", rods;
+    for (int i = 0; i < bodies; ++i) {
+      const auto [a, b] = direction();
+      const std::string length = fraction() + "*L", turn = fraction() + "*L/T", name = "b" + std::to_string(i);
+      x += "+" + a + "*" + length;
+      y += "+" + b + "*" + length;
+      vx += "-" + b + "*" + turn;
+      vy += "+" + a + "*" + turn;
+      text += body(name, "\"M" + (i > 0 ? "*" + power(-4, 2) : "") + "\"", "[\"" + x + "\", \"" + y + "\"]",
+                   "[\"" + vx + "\", \"" + vy + "\"]");
+      rods += rod(i > 0 ? "b" + std::to_string(i - 1) : "o", name, "\"" + length + "\"");
+    }
+    if (constrained_) text += rods;
+    text += effect("central_gravity", "center = \"o2\"\nstrength = \"" + fraction() + "*4*L^2*G\"");
+    text += point("o2", "[\"L/7\", \"-3*L\"]");
+    if (constrained_) text += field("[0, \"-G\"]");
+    return text;
+  }
+  HbvmName method() {
+    const int s = 1 + below(3);
+    return {s + below(3), s};
+  }
+  bool is_constrained() const { return constrained_; }
+
+ private:
+  int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  std::string power(int least, int most) { return "10^(" + std::to_string(least + below(most - least + 1)) + ")"; }
+  std::string fraction() { return std::to_string(2 + below(3)) + "/" + std::to_string(3 + below(3)); }
+  std::pair<std::string, std::string> direction() {
+    const std::pair<const char*, const char*> all[] = {
+        {"3/5", "4/5"}, {"5/13", "-12/13"}, {"-8/17", "15/17"}, {"-7/25", "-24/25"}, {"20/29", "21/29"}};
+    const auto [a, b] = all[below(5)];
+    return {std::string("(") + a + ")", std::string("(") + b + ")"};
+  }
+
+  std::mt19937 random_;
+  bool constrained_ = false;
+};
+
+TEST(AuditClaims, TrueOnesNeverFail) {
+  const Folder files;
+  std::vector<Claim> claims;
+  for (unsigned seed = 1; claims.size() < 200; ++seed) {
+    UnevenScene scene(seed);
+    const std::string problem = files.write("scene" + std::to_string(seed) + ".toml", scene.text());
+    const HbvmName method = scene.method();
+    const int k = method.k, s = method.s, r = s % 2 == 0 ? s : s + 1;
+    const auto add = [&](Quantity quantity, Span span, double rate) {
+      claims.push_back(claim(quantity, problem, method, span, Form::at_least, rate));
+    };
+    add(Quantity::q, Span::interval, 2 * s);
+    add(Quantity::q, Span::step, 2 * s + 1 - 0.05);
+    add(Quantity::p, Span::step, scene.is_constrained() ? s + 1 : 2 * s + 1);
+    add(Quantity::p, Span::interval, scene.is_constrained() ? r : 2 * s);
+    add(Quantity::H, Span::interval, 2 * k);
+    add(Quantity::H, Span::step, 2 * k + 0.5);
+    claims.push_back(exact(Quantity::reversal, problem, method));
+    if (!scene.is_constrained()) continue;
+    add(Quantity::tangential_p, Span::interval, 2 * s);
+    add(Quantity::output_lambda, Span::step, 2 * s + 1);
+    add(Quantity::hidden, Span::step, s + 1);
+    add(Quantity::lagmul, Span::step, s);
+    claims.push_back(exact(Quantity::g, problem, method));
+  }
+  int undecided = 0;
+  for (const Finding& f : audit(claims, one_start(2))) {
+    EXPECT_NE(f.verdict, Verdict::fails) << text_of(f);
+    undecided += f.verdict != Verdict::holds;
+    if (f.verdict != Verdict::holds) std::cout << name_of(f.verdict) << ": " << text_of(f) << "\n";
+  }
+  EXPECT_LE(20 * undecided, static_cast<int>(claims.size()));
 }
 
 }  // namespace

@@ -1,32 +1,20 @@
 // Motions under formulas that must be the same: of the same constraint said in another way, in other units, by more
 // nodes than it takes.
 
-#include <cmath>
-
-#include "hbvm/error.hpp"
 #include "printing.hpp"
 #include "problem/state_evaluator.hpp"
+#include "reference/closed_form/rigid_scenes.hpp"
 #include "scalar/binary_exponent.hpp"
-#include "scene/assemble.hpp"
 #include "scene/formula_scene.hpp"
 #include "step/hbvm_method.hpp"
-#include "step/registry.hpp"
+#include "step/stepping.hpp"
 
 namespace hbvm::core {
 namespace {
 
 template <class S>
-class FormulaMotion : public ::testing::Test {
+class FormulaMotion : public InDigits<40> {
  protected:
-  PrecisionScope digits{40};
-
-  static State<S> end_of(const Assembled<S>& scene, const std::string& method, const S& h, int steps,
-                         SolverKind solver = SolverKind::automatic) {
-    const auto stepper = parse_method(method)->make_stepper(scene.problem, solver);
-    State<S> state(scene.q0, scene.p0);
-    for (int n = 0; n < steps; ++n) stepper->step(state, h);
-    return state;
-  }
   static Assembled<S> assembled(const std::string& text) { return assemble<S>(read_scene(text, "test.toml")); }
 };
 TYPED_TEST_SUITE(FormulaMotion, AllScalars, ScalarNames);
@@ -36,8 +24,8 @@ TYPED_TEST(FormulaMotion, OfDegree2HasTheBitsOfRods) {
   using S = TypeParam;
   const Assembled<S> formulas = this->assembled(pendulum_by_formulas), rods = this->assembled(pendulum_as_built_in);
   for (const char* method : {"hbvm:2,2", "hbvm:5,3", "hbvm:2,2,4", "rattle", "lobatto:3", "energy_momentum"}) {
-    const State<S> a = this->end_of(formulas, method, S(S(1) / 32), 12),
-                   b = this->end_of(rods, method, S(S(1) / 32), 12);
+    const State<S> a = after(method, formulas, S(1) / 32, 12, SolverKind::automatic),
+                   b = after(method, rods, S(1) / 32, 12, SolverKind::automatic);
     EXPECT_EQ(a.q, b.q) << method;
     EXPECT_EQ(a.p, b.p) << method;
     EXPECT_NE(a.q, formulas.q0);
@@ -55,38 +43,15 @@ struct Units {
            power("G", first) + power("F", second);
   }
 };
-const char* const torus_in_units = R"scene(
-[[body]]
-name = "bead"
-mass = "M"
-position = ["3*L", 0, 0]
-velocity = [0, "L/T", "L/(2*T)"]
-[[constraint]]
-kind = "formula"
-on = "bead"
-g = "G*((sqrt(x^2 + y^2) - 2*L)^2 + z^2 - L^2)"
-[[effect]]
-kind = "uniform_gravity"
-acceleration = ["L/(4*T^2)", 0, "-L/T^2"]
-)scene";
-const char* const helix_in_units = R"scene(
-[[body]]
-name = "bead"
-mass = "M"
-position = ["L", 0, 0]
-velocity = [0, "3*L/(2*T)", "3*L/(2*T)"]
-[[constraint]]
-kind = "formula"
-on = "bead"
-g = "G*(x - L*cos(z/L))"
-[[constraint]]
-kind = "formula"
-on = "bead"
-g = "F*(y - L*sin(z/L))"
-[[effect]]
-kind = "uniform_gravity"
-acceleration = [0, 0, "-L/T^2"]
-)scene";
+std::string bead_on(const std::string& g) {
+  return "[[constraint]]\nkind = \"formula\"\non = \"bead\"\ng = \"" + g + "\"\n";
+}
+const std::string torus_in_units = body("bead", "\"M\"", "[\"3*L\", 0, 0]", "[0, \"L/T\", \"L/(2*T)\"]") +
+                                   bead_on("G*((sqrt(x^2 + y^2) - 2*L)^2 + z^2 - L^2)") +
+                                   field("[\"L/(4*T^2)\", 0, \"-L/T^2\"]");
+const std::string helix_in_units = body("bead", "\"M\"", "[\"L\", 0, 0]", "[0, \"3*L/(2*T)\", \"3*L/(2*T)\"]") +
+                                   bead_on("G*(x - L*cos(z/L))") + bead_on("F*(y - L*sin(z/L))") +
+                                   field("[0, 0, \"-L/T^2\"]");
 
 /// Neither iteration, nor its end, nor a pivot depends on units or on how large the constraints are written. If one of
 /// two is written large and the other small, other pivots may round otherwise.
@@ -107,8 +72,8 @@ TYPED_TEST(FormulaMotion, HasTheSameBitsInAllUnits) {
       const S h = S(1) / 16, allowed = units.first == units.second ? S(0) : S(64 * epsilon<S>());
       for (const char* method : {"hbvm:2,2,2", "hbvm:3,2,4", "rattle", "lobatto:3"})
         for (const SolverKind solver : {SolverKind::newton, SolverKind::fixed_point}) {
-          const State<S> expected = this->end_of(plain, method, h, 6, solver),
-                         found = this->end_of(other, method, S(time * h), 6, solver);
+          const State<S> expected = after(method, plain, h, 6, solver),
+                         found = after(method, other, time * h, 6, solver);
           const std::string what = scene + method + ' ' + std::string(name_of(solver)) + '\n' + units.text();
           EXPECT_LE(max_norm(Vector<S>(length * found.q - expected.q)), allowed) << what;
           EXPECT_LE(max_norm(Vector<S>(momentum * found.p - expected.p)), allowed) << what;
@@ -125,9 +90,9 @@ TYPED_TEST(FormulaMotion, OfAPolynomialDependsOnNoNodesBeyondItsDegree) {
                      rods = assemble<S>(load_scene("double_pendulum"));
   const auto apart = [&](const Assembled<S>& scene, int s, int r) {
     const auto name = [&](int nodes) { return "hbvm:5," + std::to_string(s) + "," + std::to_string(nodes); };
-    const S h = S(1) / 32;
-    const State<S> a = this->end_of(scene, name(r), h, 4), b = this->end_of(scene, name(r + 3), h, 4);
-    return S(max_norm(Vector<S>(a.q - b.q)) + max_norm(Vector<S>(a.p - b.p)));
+    const State<S> a = after(name(r), scene, S(1) / 32, 4, SolverKind::automatic),
+                   b = after(name(r + 3), scene, S(1) / 32, 4, SolverKind::automatic);
+    return S(distance(a.q, b.q) + distance(a.p, b.p));
   };
   const S rounding = 512 * epsilon<S>(), distinct = 1'000'000 * epsilon<S>();
   for (const auto& [s, enough] : {std::pair(1, 2), {2, 5}, {3, 7}}) {
@@ -167,51 +132,36 @@ TYPED_TEST(FormulaMotion, KeepsAPolynomialWithAsManyNodesAsItTakes) {
 /// by a rod, which is quadratic, at order 2s in all components.
 TEST(FormulaMotionOfARigidBody, IsThatOfTheSameRod) {
   const PrecisionScope digits(40);
-  const std::string body = R"(dimension = 3
-[[point]]
-name = "O"
-position = ["1/5", 0, "2/7"]
-[[rigid_body]]
-name = "stone"
-mass = "3/2"
-center = ["1/9", 0, "1/10"]
-second_moment = [[1, 0, 0], [0, "7/5", 0], [0, 0, "4/5"]]
-directors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-position = [1, 0, 0]
-velocity = [0, 0, 0]
-angular_velocity = [0, 0, 0]
-[[attachment]]
-name = "eye"
-of = "stone"
-at = ["1/2", "-1/3", "1/7"]
-[[effect]]
-kind = "uniform_gravity"
-acceleration = [0, "1/3", -1]
-[[constraint]]
-)";
+  const RigidScene stone{.position = "[1, 0, 0]",
+                         .velocity = "[0, 0, 0]",
+                         .mass = "\"3/2\"",
+                         .center = "[\"1/9\", 0, \"1/10\"]",
+                         .second_moment = "[[1, 0, 0], [0, \"7/5\", 0], [0, 0, \"4/5\"]]",
+                         .directors = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+                         .omega = "[0, 0, 0]",
+                         .more = point("O", "[\"1/5\", 0, \"2/7\"]") + field("[0, \"1/3\", -1]") +
+                                 "[[attachment]]\nname = \"eye\"\nof = \"body\"\nat = [\"1/2\", \"-1/3\", \"1/7\"]\n"};
   const std::string square = "(13/10)^2 + 1/9 + 1/49";
-  const auto rod = assemble<Mpfr>(
-      read_scene(body + "kind = \"rod\"\nbetween = [\"eye\", \"O\"]\nlength = \"sqrt(" + square + ")\"\n", "rod"));
-  const auto formula = assemble<Mpfr>(
-      read_scene(body + "kind = \"formula\"\nbetween = [\"eye\", \"O\"]\ng = \"r - sqrt(" + square + ")\"\n", "r"));
-  ASSERT_EQ(degree(rod.problem.constraints), 2);
-  ASSERT_NE(degree(formula.problem.constraints), 2);
+  const std::string by_length =
+      "[[constraint]]\nkind = \"formula\"\nbetween = [\"eye\", \"O\"]\ng = \"r - sqrt(" + square + ")\"\n";
+  const auto held = assemble<Mpfr>(read_scene(stone.text() + rod("eye", "O", "\"sqrt(" + square + ")\""), "rod"));
+  const auto general = assemble<Mpfr>(read_scene(stone.text() + by_length, "r"));
+  ASSERT_EQ(degree(held.problem.constraints), 2);
+  ASSERT_NE(degree(general.problem.constraints), 2);
   const auto end = [](const Assembled<Mpfr>& scene, const char* method, int steps) {
-    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
-    State<Mpfr> state(scene.q0, scene.p0);
-    for (int n = 0; n < steps; ++n) stepper->step(state, Mpfr(Mpfr(1) / 2 / steps));
+    State<Mpfr> state = after(method, scene, Mpfr(1) / 2 / steps, steps, SolverKind::automatic);
     StateEvaluator<Mpfr> point(scene.problem);
     state.p = point.tangential(state.q, state.p);
     return state;
   };
-  const State<Mpfr> exact = end(rod, "hbvm:12,12", 8);
+  const State<Mpfr> exact = end(held, "hbvm:12,12", 8);
   for (const auto& [method, order] : {std::pair("hbvm:1,1,4", 2), {"hbvm:2,2,5", 4}, {"hbvm:3,3,6", 6}}) {
     Mpfr error[2];
     for (const int i : {0, 1}) {
-      const State<Mpfr> found = end(formula, method, 8 << i);
-      error[i] = max_norm(Vector<Mpfr>(found.q - exact.q)) + max_norm(Vector<Mpfr>(found.p - exact.p));
+      const State<Mpfr> found = end(general, method, 8 << i);
+      error[i] = distance(found.q, exact.q) + distance(found.p, exact.p);
     }
-    EXPECT_NEAR(std::log2(approximately(Mpfr(error[0] / error[1]))), order, 0.2) << method;
+    EXPECT_NEAR(order_of(error[0], error[1]), order, 0.2) << method;
   }
 }
 
@@ -219,17 +169,14 @@ acceleration = [0, "1/3", -1]
 /// method steps over it and says nothing.
 TYPED_TEST(FormulaMotion, EndsWithATypedErrorWhereTheFormulaEnds) {
   using S = TypeParam;
-  const std::string text =
-      "dimension = 3\nbody = [{ name = \"bead\", mass = 1, position = [0, 0, 0], velocity = [4, 0, 1] }]\n"
-      "[[constraint]]\nkind = \"formula\"\non = \"bead\"\n"
-      "g = \"x - 2*atan(z/sqrt(1 - z^2)) - 2*z*sqrt(1 - z^2)\"\n"
-      "[[constraint]]\nkind = \"formula\"\non = \"bead\"\ng = \"y - 2*z^2\"\n";
+  const std::string text = "dimension = 3\n" + body("bead", "1", "[0, 0, 0]", "[4, 0, 1]") +
+                           bead_on("x - 2*atan(z/sqrt(1 - z^2)) - 2*z*sqrt(1 - z^2)") + bead_on("y - 2*z^2");
   const Assembled<S> scene = this->assembled(text);
   // Without gravity z = t.
   for (const char* method : {"hbvm:1,1", "hbvm:2,2,4", "hbvm:4,4", "rattle", "lobatto:3", "compose:rattle,4"})
     for (const SolverKind solver : {SolverKind::newton, SolverKind::fixed_point, SolverKind::automatic}) {
-      EXPECT_NO_THROW(this->end_of(scene, method, S(S(1) / 16), 12, solver)) << method;
-      EXPECT_THROW(this->end_of(scene, method, S(S(1) / 16), 32, solver), Error) << method << ' ' << name_of(solver);
+      EXPECT_NO_THROW(after(method, scene, S(1) / 16, 12, solver)) << method;
+      EXPECT_THROW(after(method, scene, S(1) / 16, 32, solver), Error) << method << ' ' << name_of(solver);
     }
 }
 

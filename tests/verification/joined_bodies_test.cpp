@@ -6,6 +6,7 @@
 #include "integrate/runs.hpp"
 #include "printing.hpp"
 #include "scene/scene_text.hpp"
+#include "step/stepping.hpp"
 #include "verification/second_route.hpp"
 
 namespace hbvm::core {
@@ -210,16 +211,14 @@ class JoinedBodies : public ::testing::Test {
     return end;
   }
   static Mpfr error(const End& end, const Motion& exact) {
-    const Mpfr in_q = max_norm(Vector<Mpfr>(end.q - exact.positions()));
-    const Mpfr in_v = max_norm(Vector<Mpfr>(end.v - exact.velocities()));
-    return in_q > in_v ? in_q : in_v;
+    return std::max(distance(end.q, exact.positions()), distance(end.v, exact.velocities()));
   }
   /// HBVM(s,s) with s = 1, 2, 3 comes near the exact motion by the order 2s, and with s = 8 to 28 digits.
   static void expect_motion(const Scene& scene, const Motion& exact) {
     EXPECT_LE(error(by_hbvm(scene, 8, "1/32"), exact), number("1e-28")) << scene.name;
     for (const int s : {1, 2, 3}) {
       const Mpfr coarse = error(by_hbvm(scene, s, "1/32"), exact), fine = error(by_hbvm(scene, s, "1/64"), exact);
-      EXPECT_NEAR(approximately(Mpfr(log(Mpfr(coarse / fine)) / log(Mpfr(2)))), 2 * s, 0.2) << scene.name << ", " << s;
+      EXPECT_NEAR(order_of(coarse, fine), 2 * s, 0.2) << scene.name << ", " << s;
     }
   }
 

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "linear/matrix.hpp"
+#include "read_file.hpp"
 #include "scalar/literal.hpp"
 
 namespace hbvm::core {
@@ -16,12 +15,7 @@ inline std::string scene_path(const std::string& name) {
   return std::string(HBVM_SOURCE_DIR) + "/tests/verification/scenes/" + name + ".toml";
 }
 
-inline std::string scene_file_text(const std::string& name) {
-  std::ifstream file(scene_path(name));
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+inline std::string scene_file_text(const std::string& name) { return read_file(scene_path(name)); }
 
 /// A constrained problem as dense formulas in the working precision, written down a second time. It shares no code with
 /// problem/, only the paper. m coordinates, nu constraints g_a = q^T A q + b^T q + c.
