@@ -4,21 +4,18 @@
 
 #include <cmath>
 
-#include "hbvm/error.hpp"
 #include "printing.hpp"
 #include "reference/known_motion.hpp"
-#include "scalar/literal.hpp"
+#include "reference/scene_tables.hpp"
 #include "scalar/text.hpp"
-#include "scene/assemble.hpp"
 #include "step/rattle.hpp"
-#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
-ComparisonRequest request_of(const std::string& csv) {
+ComparisonRequest request_of(const std::string& csv, const Scene& scene = load_scene("simple_pendulum")) {
   ComparisonRequest request;
-  request.scene = load_scene("simple_pendulum");
+  request.scene = scene;
   request.files = {{"theirs.csv", csv}};
   return request;
 }
@@ -131,9 +128,8 @@ TEST(Comparison, FindsNoOrderWhereThereIsNone) {
   request.files.push_back({"longer.csv", "t,bob.x\n1/2,0.4\n1,0.8\n3,0.7\n"});
   const Comparison against = compare_with_reference(request);
   ASSERT_EQ(against.orders.size(), 2u);
-  EXPECT_TRUE(std::isnan(against.orders[0].order));
-  EXPECT_TRUE(std::isnan(against.orders[1].order));
-  EXPECT_TRUE(std::isnan(against.order()));
+  for (const double order : {against.orders[0].order, against.orders[1].order, against.order()})
+    EXPECT_TRUE(std::isnan(order));
 }
 
 /// A Runge-Kutta method of order 4, say: an error that falls by 16 when the step is halved, at times that all files
@@ -159,10 +155,10 @@ TEST(Comparison, TakesTheStepsThatAreGiven) {
   for (ResultsFile& file : request.files) file.step = "1/" + file.name.substr(2, file.name.find('.') - 2);
   const Comparison against = compare_with_reference(request);
   ASSERT_EQ(against.orders.size(), 3u);
-  const std::vector<std::pair<std::size_t, std::size_t>> pairs{{0, 2}, {2, 3}, {3, 1}};
+  constexpr std::size_t descending[] = {0, 2, 3, 1};
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(against.orders[i].coarse, pairs[i].first);
-    EXPECT_EQ(against.orders[i].fine, pairs[i].second);
+    EXPECT_EQ(against.orders[i].coarse, descending[i]);
+    EXPECT_EQ(against.orders[i].fine, descending[i + 1]);
     EXPECT_NEAR(against.orders[i].order, 4, 1e-6);
   }
   EXPECT_NEAR(against.order(), 4, 1e-6);
@@ -222,15 +218,10 @@ TEST(Comparison, ComparesTheStart) {
 
 /// What is exactly 0 has no digits. How far it is off is said as it is.
 TEST(Comparison, CountsNoDigitsOfRest) {
-  ComparisonRequest request;
-  request.scene = read_scene(
-      "dimension = 2\npoint = [{ name = \"pivot\", position = [0, 0] }]\nbody = [{ name = \"bob\", mass = 1, position "
-      "= [0, -1], velocity = [0, 0] }]\nconstraint = [{ kind = \"rod\", between = [\"pivot\", \"bob\"], length = 1 "
-      "}]\neffect = [{ kind = "
-      "\"uniform_gravity\", acceleration = [0, -1] }]\n",
-      "at_rest");
-  request.files = {{"theirs.csv", "t,bob.x,bob.y,bob.px,bob.py\n1,0,-1,0,0\n2,0,-1,1e-18,0\n"}};
-  const Comparison against = compare_with_reference(request);
+  const std::string at_rest = "dimension = 2\n" + point("pivot", "[0, 0]") + body("bob", "1", "[0, -1]", "[0, 0]") +
+                              rod("pivot", "bob", "1") + field("[0, -1]");
+  const Comparison against = compare_with_reference(
+      request_of("t,bob.x,bob.y,bob.px,bob.py\n1,0,-1,0,0\n2,0,-1,1e-18,0\n", read_scene(at_rest, "at_rest")));
   const ComponentDigits& momentum = against.files[0].components[2];
   EXPECT_EQ(momentum.name, "bob.px");
   EXPECT_GT(momentum.digits[0], 15);
@@ -241,13 +232,9 @@ TEST(Comparison, CountsNoDigitsOfRest) {
 
 /// A vector that is 0 at one time is compared with what it is at others.
 TEST(Comparison, ComparesWhatIsZeroForAMomentWithItsSize) {
-  ComparisonRequest request;
-  request.scene = read_scene(
-      "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [0, 0], velocity = [0, 1] }]\n"
-      "effect = [{ kind = \"uniform_gravity\", acceleration = [0, -1] }]\n",
-      "thrown");
-  request.files = {{"theirs.csv", "t,a.x,a.y,a.px,a.py\n1/2,0,0.375,0,0.5\n1,0,0.5,0,1e-6\n2,0,0,0,-1\n"}};
-  const FileComparison file = compare_with_reference(request).files[0];
+  const std::string thrown = "dimension = 2\n" + body("a", "1", "[0, 0]", "[0, 1]") + field("[0, -1]"),
+                    csv = "t,a.x,a.y,a.px,a.py\n1/2,0,0.375,0,0.5\n1,0,0.5,0,1e-6\n2,0,0,0,-1\n";
+  const FileComparison file = compare_with_reference(request_of(csv, read_scene(thrown, "thrown"))).files[0];
   EXPECT_NEAR(file.components[3].digits[1], 6, 1e-9) << "the greatest momentum is 1";
   EXPECT_GT(file.components[1].digits[2], 15) << "of a height that is 0 again";
 }

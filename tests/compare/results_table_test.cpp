@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "hbvm/error.hpp"
 #include "words.hpp"
 
 namespace hbvm::core {
 namespace {
+
+using Map = std::vector<std::pair<std::string, std::string>>;
 
 /// A table with its columns, which refer to it.
 struct Read {
@@ -14,7 +15,7 @@ struct Read {
   ResultsTable rows;
   ResultsColumns columns;
 
-  Read(const std::string& csv, const std::vector<std::pair<std::string, std::string>>& map = {})
+  Read(const std::string& csv, const Map& map = {})
       : request{load_scene("simple_pendulum"), {{"theirs.csv", csv}}, map},
         rows(request.files[0]),
         columns(request, request.files[0], rows) {}
@@ -24,14 +25,11 @@ struct Read {
   }
 };
 
-std::string refusal(const std::string& csv, const std::vector<std::pair<std::string, std::string>>& map = {}) {
-  try {
-    Read read(csv, map);
+std::string refusal(const std::string& csv, const Map& map) {
+  return message_of([&] {
+    const Read read(csv, map);
     for (const ResultsColumns::Reading& reading : read.columns.readings()) read.columns.value(reading, 0);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 /// With a byte order mark, ends of lines of two characters, quotes, blanks, comments and empty lines.
@@ -72,10 +70,10 @@ TEST(ResultsTable, EvaluatesTheMap) {
 
 TEST(ResultsTable, RefusesWithLineAndColumn) {
   const PrecisionScope scope(30);
-  const std::vector<std::pair<std::string, std::string>> none;
+  const Map none;
   struct Case {
     std::string csv;
-    std::vector<std::pair<std::string, std::string>> map;
+    Map map;
     std::string says;
   };
   for (const Case& c : {Case{"t,bob.x,t\n1,2,1\n", none, "theirs.csv:1: two columns are called 't'"},
