@@ -5,7 +5,6 @@
 #include <set>
 
 #include "audit/claim.hpp"
-#include "read_file.hpp"
 #include "verification/cpp_text.hpp"
 #include "verification/sources.hpp"
 
@@ -88,8 +87,7 @@ std::vector<Citation> citations(const std::string& prose) {
 
 std::map<Number, Entry> read_index() {
   std::map<Number, Entry> entries;
-  std::istringstream lines(read_file(index_file));
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : lines_in(read_file(index_file))) {
     if (!line.starts_with("| ") || line.starts_with("| |")) continue;
     const auto cells = split(line.substr(2), " | ");
     const auto printed = citations(cells[0]);

@@ -59,9 +59,8 @@ struct Include {
 std::vector<Include> includes(const std::string& text) {
   static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
   std::vector<Include> result;
-  std::istringstream lines(text);
   std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : lines_in(text)) {
     ++number;
     std::smatch match;
     if (std::regex_match(line, match, pattern)) result.push_back({number, match[1] == "\"", match[2]});
@@ -97,21 +96,14 @@ TEST(Layering, IncludesGoOnlyLeftwards) {
   EXPECT_GT(seen, 100u);
 }
 
-/// "problem/effect" for "problem/effect/trace.hpp".
-std::string whole_folder_of(const std::string& file) {
-  return std::filesystem::path(file).parent_path().generic_string();
+/// The folder a file of src is in, "problem/effect", and where a line of it that includes another leads.
+std::filesystem::path whole_folder(const Source& source) {
+  return source.path.lexically_relative(project / "src").parent_path();
 }
-
-/// The folder a file of src is in, and where a line of it that includes another leads.
-std::string whole_folder(const Source& source) {
-  return whole_folder_of(
-      source.path.lexically_relative(std::filesystem::path(HBVM_SOURCE_DIR) / "src").generic_string());
-}
-std::string target(const Source& source, const std::string& file) {
-  const auto beside = std::filesystem::path(whole_folder(source)) / file;
-  if (std::filesystem::exists(source.path.parent_path() / file))
-    return whole_folder_of(beside.lexically_normal().generic_string());
-  return whole_folder_of(file);
+std::filesystem::path target(const Source& source, const std::string& file) {
+  const bool beside = std::filesystem::exists(source.path.parent_path() / file);
+  return beside ? (whole_folder(source) / file).lexically_normal().parent_path()
+                : std::filesystem::path(file).parent_path();
 }
 
 /// Folders within folders stand in an order, too: none is reached again from what it includes.
@@ -120,7 +112,8 @@ TEST(Layering, FoldersWithinFoldersFormNoCircle) {
   for (const Source& source : sources())
     for (const Include& include : includes(source.text)) {
       const bool own = include.quoted && !include.file.starts_with("hbvm/");
-      const std::string from = whole_folder(source), to = own ? target(source, include.file) : from;
+      const std::string from = whole_folder(source).generic_string(),
+                        to = own ? target(source, include.file).generic_string() : from;
       if (from != to) includes_of[from].emplace(to, source.place(include.line) + " includes " + include.file);
     }
   EXPECT_TRUE(includes_of["problem"].contains("problem/effect"));

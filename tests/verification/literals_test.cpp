@@ -6,15 +6,10 @@
 namespace hbvm::core {
 namespace {
 
-struct Token {
-  std::size_t line;
-  std::string text;
-};
-
 /// The floating literals of C++ code, and the constants of <cmath> that are doubles. Comments and strings hold none.
-std::vector<Token> floating_literals(const std::string& source) {
+std::vector<Occurrence> floating_literals(const std::string& source) {
   const std::string text = only(CppPart::code, source);
-  std::vector<Token> result;
+  std::vector<Occurrence> result;
   std::size_t line = 1, at = 0;
   const auto peek = [&](std::size_t ahead) { return at + ahead < text.size() ? text[at + ahead] : '\0'; };
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -46,11 +41,7 @@ std::vector<Token> floating_literals(const std::string& source) {
 }
 
 TEST(FloatingLiterals, AreFoundByTheSearch) {
-  const auto found = [](const std::string& text) {
-    std::string all;
-    for (const Token& token : floating_literals(text)) all += std::to_string(token.line) + ":" + token.text + " ";
-    return all;
-  };
+  const auto found = [](const std::string& text) { return listed(floating_literals(text)); };
   EXPECT_EQ(found("x = 0.5 + 1e-12 - .5f*2.;"), "1:0.5 1:1e-12 1:.5f 1:2. ");
   EXPECT_EQ(found("a\n/* 0.5\n*/ 1.5 // 2.5\n3e4"), "3:1.5 4:3e4 ");
   EXPECT_EQ(found("f(\"0.1\", '\\'', '\"', R\"x(0.2\")x\", 0.3)"), "1:0.3 ");
@@ -65,7 +56,7 @@ TEST(FloatingLiterals, AreNotInGenericCode) {
   for (const Source& source : sources()) {
     if (source.folder == "cli" || source.folder.ends_with("report")) continue;
     ++files;
-    for (const Token& token : floating_literals(source.text))
+    for (const Occurrence& token : floating_literals(source.text))
       ADD_FAILURE() << source.place(token.line) << ": " << token.text;
   }
   EXPECT_GT(files, 50u);

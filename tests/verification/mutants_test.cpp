@@ -1,13 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <set>
-#include <sstream>
-#include <string>
-#include <vector>
 
-#include "read_file.hpp"
 #include "verification/sources.hpp"
 
 namespace hbvm::core {
@@ -30,8 +24,7 @@ void append_line(std::string& text, const std::string& line) { text += (text.emp
 
 std::vector<Change> read_changes() {
   std::vector<Change> changes;
-  std::istringstream lines(read_file(project / "tests/mutants/changes.txt"));
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : lines_in(read_file(project / "tests/mutants/changes.txt"))) {
     if (line.empty() || line.starts_with('#')) continue;
     const std::string mark = line.substr(0, 2), text = line.substr(std::min<std::size_t>(2, line.size()));
     if (mark == "= ") {

@@ -9,12 +9,6 @@
 namespace hbvm::core {
 namespace {
 
-/// A type that is defined in C++ text, outside functions, other types and unnamed namespaces.
-struct Definition {
-  std::size_t line;
-  std::string name;  ///< "hbvm::Expression::Node", "std::hash<hbvm::core::Quad>"
-};
-
 /// Of a text whose brackets cannot be followed.
 constexpr const char* unclosed = "a bracket that is not closed";
 
@@ -40,9 +34,9 @@ std::string type_begun_by(const std::string& head) {
 
 /// C++ text with the lines of its preprocessor empty.
 std::string without_directives(const std::string& text) {
-  std::string result, line;
+  std::string result;
   bool within = false;
-  for (std::istringstream lines(text); std::getline(lines, line);) {
+  for (const std::string& line : lines_in(text)) {
     const std::size_t first = line.find_first_not_of(" \t");
     const bool directive = within || (first != std::string::npos && line[first] == '#');
     within = directive && line.ends_with('\\');
@@ -51,10 +45,12 @@ std::string without_directives(const std::string& text) {
   return result;
 }
 
-std::vector<Definition> definitions(const std::string& source) {
+/// The types that are defined in C++ text, outside functions, other types and unnamed namespaces:
+/// "hbvm::Expression::Node", "std::hash<hbvm::core::Quad>".
+std::vector<Occurrence> definitions(const std::string& source) {
   static const std::regex name_space(R"(^\s*(?:inline\s+)?namespace\b\s*([\w:]*)\s*$)");
   const std::string text = without_directives(only(CppPart::code, source));
-  std::vector<Definition> result;
+  std::vector<Occurrence> result;
   std::vector<std::string> open;  // the namespaces around, and " " for each other body
   std::size_t line = 1;
   std::string head;  // since the last statement or body
@@ -84,12 +80,7 @@ std::vector<Definition> definitions(const std::string& source) {
 }
 
 TEST(OneDefinition, TypesAreFoundByTheSearch) {
-  const auto found = [](const std::string& text) {
-    std::string all;
-    for (const Definition& definition : definitions(text))
-      all += std::to_string(definition.line) + ":" + definition.name + " ";
-    return all;
-  };
+  const auto found = [](const std::string& text) { return listed(definitions(text)); };
   EXPECT_EQ(found("namespace a {\nstruct B {\n struct C {};\n};\nclass D;\nclass E final : public B {};\n}"),
             "2:a::B 6:a::E ");
   EXPECT_EQ(found("namespace a {\nnamespace {\nstruct B {};\n}\nstruct C : D<int> {};\n}\nstruct E {};"),
@@ -108,13 +99,9 @@ TEST(OneDefinition, TypesAreFoundByTheSearch) {
 /// that one file alone needs stand in an unnamed namespace.
 TEST(OneDefinition, OfEachTypeInANamespace) {
   std::map<std::string, std::vector<std::string>> places;  // by name
-  const auto look = [&](const Source& source) {
-    for (const Definition& definition : definitions(source.text))
-      places[definition.name].push_back(source.place(definition.line));
-  };
-  for (const Source& source : sources()) look(source);
-  for (const Source& source : sources_in("include")) look(source);
-  for (const Source& source : sources_in("tests")) look(source);
+  for (const char* root : {"src", "include", "tests"})
+    for (const Source& source : sources_in(root))
+      for (const auto& [line, name] : definitions(source.text)) places[name].push_back(source.place(line));
   EXPECT_GT(places.size(), 300u);
   EXPECT_FALSE(places.contains(unclosed)) << places[unclosed].front();
   EXPECT_TRUE(places.contains("hbvm::core::Precision"));

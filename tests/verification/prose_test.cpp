@@ -3,7 +3,6 @@
 #include <regex>
 #include <set>
 
-#include "read_file.hpp"
 #include "verification/cpp_text.hpp"
 #include "verification/sources.hpp"
 
@@ -13,13 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t lines_of_the_first_page = 110, words_on_a_page = 40, words_in_a_comment = 25;
-
-std::vector<std::string> lines_in(const std::string& text) {
-  std::vector<std::string> result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) result.push_back(line);
-  return result;
-}
 
 /// A piece of text whose sentences do not go on elsewhere: a paragraph, an entry of a list, a cell of a table.
 struct Passage {

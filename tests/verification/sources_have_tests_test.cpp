@@ -8,6 +8,8 @@
 namespace hbvm::core {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Sources, by their path in src without the ending, whose tests have another name, and why.
 const std::map<std::string, std::string>& exceptions() {
   static const std::map<std::string, std::string> reasons{
@@ -27,46 +29,39 @@ const std::map<std::string, std::string>& exceptions() {
 /// The commands are tested as a user has them, and the families of hard cases are cases themselves.
 bool is_tested_by_running(const std::string& folder) { return folder == "cli" || folder == "hard_cases/family"; }
 
-struct Place {
-  std::string folder, name;
-  std::string path() const { return folder.empty() ? name : folder + "/" + name; }
-};
-
-/// All files below a folder of the project whose names end so, without that ending.
-std::vector<Place> files(const char* root, const std::string& ending) {
-  namespace fs = std::filesystem;
-  const fs::path base = project / root;
-  std::vector<Place> result;
-  for (const auto& entry : fs::recursive_directory_iterator(base)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.ends_with(ending)) continue;
-    result.push_back(
-        {fs::relative(entry.path().parent_path(), base).generic_string(), name.substr(0, name.size() - ending.size())});
-    if (result.back().folder == ".") result.back().folder.clear();
+/// The files below a folder of the project whose names end so: their paths there, without that ending.
+std::vector<fs::path> files(const char* root, const std::string& ending) {
+  std::vector<fs::path> result;
+  for (const Source& source : sources_in(root)) {
+    const std::string path = source.path.lexically_relative(project / root).generic_string();
+    if (path.ends_with(ending)) result.emplace_back(path.substr(0, path.size() - ending.size()));
   }
   return result;
 }
 
 /// tests/X/Z/Y_test.cpp or tests/X/Y_test.cpp for src/X/Z/Y.cpp; tests/hbvm/Y_test.cpp for src/Y.cpp.
-bool is_of(const Place& test, const Place& source) {
-  if (test.name != source.name) return false;
-  if (source.folder.empty()) return test.folder == "hbvm";
-  if (source.folder == "run") return test.folder == "runs";  // tests/run is the script
-  return (source.folder + "/").starts_with(test.folder + "/");
+bool is_of(const fs::path& test, const fs::path& source) {
+  if (test.filename() != source.filename()) return false;
+  const std::string folder = source.parent_path().generic_string(), of_test = test.parent_path().generic_string();
+  if (folder.empty()) return of_test == "hbvm";
+  if (folder == "run") return of_test == "runs";  // tests/run is the script
+  return (folder + "/").starts_with(of_test + "/");
 }
 
 TEST(Sources, HaveTestsOfTheirName) {
-  const std::vector<Place> tests = files("tests", "_test.cpp");
+  const std::vector<fs::path> tests = files("tests", "_test.cpp");
   std::set<std::string> unused;
   for (const auto& [path, reason] : exceptions()) unused.insert(path);
   std::size_t seen = 0;
-  for (const Place& source : files("src", ".cpp")) {
-    if (is_tested_by_running(source.folder)) continue;
+  for (const fs::path& source : files("src", ".cpp")) {
+    const std::string path = source.generic_string();
+    if (is_tested_by_running(source.parent_path().generic_string())) continue;
     ++seen;
-    const bool tested = std::any_of(tests.begin(), tests.end(), [&](const Place& test) { return is_of(test, source); });
-    const bool excepted = unused.erase(source.path()) > 0;
-    EXPECT_TRUE(tested || excepted) << "src/" << source.path() << ".cpp has no test of its name";
-    EXPECT_FALSE(tested && excepted) << "src/" << source.path() << ".cpp has a test: it is no exception";
+    const bool tested =
+        std::any_of(tests.begin(), tests.end(), [&](const fs::path& test) { return is_of(test, source); });
+    const bool excepted = unused.erase(path) > 0;
+    EXPECT_TRUE(tested || excepted) << "src/" << path << ".cpp has no test of its name";
+    EXPECT_FALSE(tested && excepted) << "src/" << path << ".cpp has a test: it is no exception";
   }
   EXPECT_GT(seen, 80u);
   for (const std::string& path : unused) ADD_FAILURE() << "src/" << path << ".cpp is an exception, but not there";
