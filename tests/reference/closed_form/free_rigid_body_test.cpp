@@ -89,7 +89,7 @@ TEST(FreeRigidBody, OfSymmetricBodies) {
 }
 
 TEST(FreeRigidBody, OfPointsAndRods) {
-  // The last two are held at a point, and fall.
+  // The third is held at a point, and the last falls.
   for (const std::string& scene : {cluster(triangle, "1/7"), cluster(tetrahedron, "1/7"), cluster(triangle, "0", "o"),
                                    cluster(tetrahedron, "1/7", "", falling)})
     expect_follows_taylor(scene, body_name, {"1/3", "20"}, 40, 10);

@@ -57,7 +57,7 @@ TEST(Kepler, OfRestAndOfWeakForces) {
 }
 
 TEST(Kepler, AttractedAndRepelledByCharges) {
-  // By the last two forces as by one.
+  // In the last one two forces act as one.
   for (const std::string& scene :
        {planet(2, "[1, 0]", "[0, 1]", "2", coulomb("3")), planet(3, "[1, 0, 0]", "[-2, 1, 1]", "2", coulomb("-3")),
         planet(2, "[1, 0]", "[0, 1]", "2", coulomb("-1") + sun("2"))})
