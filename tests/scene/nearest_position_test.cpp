@@ -1,9 +1,6 @@
 #include "scene/nearest_position.hpp"
 
-#include "printing.hpp"
-#include "problem/state_evaluator.hpp"
-#include "scene/assemble.hpp"
-#include "scene/scene_text.hpp"
+#include "scene/assembled.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -13,17 +10,8 @@ class NearestPosition : public ::testing::Test {
  protected:
   PrecisionScope digits{50};
 
-  /// n links of length 1, each a little too long.
-  static Assembled<S> chain(int n) {
-    std::string text = "dimension = 2\n[[point]]\nname = \"0\"\nposition = [0, 0]\n", rods;
-    for (int i = 1; i <= n; ++i) {
-      const std::string name = std::to_string(i);
-      text += "[[body]]\nname = \"" + name + "\"\nmass = 1\nposition = [\"" + name + "*3/5\", \"" + name +
-              "*0.80001\"]\nvelocity = [0, 0]\n";
-      rods += rod(std::to_string(i - 1), name, "1");
-    }
-    return assemble<S>(read_scene(text + rods, "test.toml"), Consistency::unchecked);
-  }
+  /// Each link is a little too long.
+  static Assembled<S> long_chain(int n) { return assembled<S>(chain(n, "0.80001"), Consistency::unchecked); }
 };
 TYPED_TEST_SUITE(NearestPosition, AllScalars, ScalarNames);
 
@@ -31,7 +19,7 @@ TYPED_TEST_SUITE(NearestPosition, AllScalars, ScalarNames);
 TYPED_TEST(NearestPosition, FulfilsTheConstraints) {
   using S = TypeParam;
   for (const int n : {3, 140}) {
-    const Assembled<S> scene = this->chain(n);
+    const Assembled<S> scene = this->long_chain(n);
     const Vector<S> q = nearest_position(scene.problem, scene.q0);
     for (const Constraint<S>& constraint : scene.problem.constraints)
       EXPECT_TRUE(value(constraint, 2, q).vanishes()) << constraint.name;
@@ -46,7 +34,7 @@ TYPED_TEST(NearestPosition, FulfilsTheConstraints) {
 
 TYPED_TEST(NearestPosition, IsRefusedWhereThereIsNone) {
   using S = TypeParam;
-  Assembled<S> scene = this->chain(2);
+  Assembled<S> scene = this->long_chain(2);
   scene.problem.constraints.push_back(scene.problem.constraints.front());
   std::get<Rod<S>>(scene.problem.constraints.back().form).square = 9;
   EXPECT_THROW(nearest_position(scene.problem, scene.q0), InputError);

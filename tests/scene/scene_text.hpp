@@ -160,6 +160,18 @@ inline std::string rod(const std::string& a, const std::string& b, const std::st
   return "[[constraint]]\nkind = \"rod\"\nbetween = [\"" + a + "\", \"" + b + "\"]\nlength = " + length + "\n";
 }
 
+/// A chain of n links of length 1 along (3/5, y) from a fixed point.
+inline std::string chain(int n, const std::string& y) {
+  std::string text = "dimension = 2\n[[point]]\nname = \"0\"\nposition = [0, 0]\n", rods;
+  for (int i = 1; i <= n; ++i) {
+    const std::string name = std::to_string(i);
+    text += "[[body]]\nname = \"" + name + "\"\nmass = 1\nposition = [\"" + name + "*3/5\", \"" + name + "*" + y +
+            "\"]\nvelocity = [0, 0]\n";
+    rods += rod(std::to_string(i - 1), name, "1");
+  }
+  return text + rods;
+}
+
 /// The line, from 1, on which `part` first stands.
 inline std::size_t line_of(std::string_view text, std::string_view part) {
   const std::size_t at = text.find(part);
