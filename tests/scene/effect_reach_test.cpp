@@ -1,10 +1,6 @@
 #include "scene/effect_reach.hpp"
 
-#include "printing.hpp"
-#include "problem/momenta.hpp"
-#include "problem/state_evaluator.hpp"
-#include "scene/assemble.hpp"
-#include "scene/scene_text.hpp"
+#include "scene/assembled.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -48,14 +44,6 @@ at = [0, 0, "1/2"]
 
 std::string effect(const std::string& keys) { return "[[effect]]\n" + keys + "\n"; }
 
-std::vector<EffectReach> reach(const std::string& text) {
-  return assemble<double>(read_scene(text, "test.toml")).reach;
-}
-
-std::string refused_reach(const std::string& text) {
-  return refused([&] { reach(text); });
-}
-
 /// An effect without `on` or `between`, and what it must be. The points where rigid bodies have their centres of mass,
 /// and their masses, stand as numbers.
 struct SameEffect {
@@ -63,30 +51,17 @@ struct SameEffect {
 };
 
 void expect_same(const SameEffect& same) {
-  const auto scene_of = [](const std::string& text) { return assemble<Mpfr>(read_scene(text, "test.toml")); };
-  const Assembled<Mpfr> all = scene_of(sky + same.on_all), points = scene_of(sky + same.by_points);
+  const Assembled<Mpfr> all = assembled<Mpfr>(sky + same.on_all), points = assembled<Mpfr>(sky + same.by_points);
   ASSERT_EQ(all.problem.m(), points.problem.m());
-  Vector<Mpfr> q(all.q0.size()), v(all.q0.size());
-  for (Index i = 0; i < q.size(); ++i) {
-    q[i] = all.q0[i] + Mpfr((7 * i * i + 5 * i) % 23 - 11) / 70;
-    v[i] = Mpfr((3 * i * i + 11 * i) % 19 - 9) / 7;
-  }
+  const Vector<Mpfr> q = away_from(all.q0, 70);
   const Vector<Mpfr> zero = Vector<Mpfr>::Zero(q.size());
   StateEvaluator<Mpfr> at(all.problem), other(points.problem);
   const auto near = [](const Mpfr& a, const Mpfr& b) { return magnitude(Mpfr(a - b)) <= 1'000 * epsilon<Mpfr>(); };
   EXPECT_PRED2(near, at.energy(q, zero), other.energy(q, zero));
   const Vector<Mpfr> force = at.forces(q, zero).applied, expected = other.forces(q, zero).applied;
   for (Index i = 0; i < q.size(); ++i) EXPECT_PRED2(near, force[i], expected[i]) << i;
-  const Mpfr step = literal<Mpfr>("1e-16");
-  const Mpfr slope =
-      (at.energy(Vector<Mpfr>(q - step * v), zero) - at.energy(Vector<Mpfr>(q + step * v), zero)) / (2 * step);
-  EXPECT_LE(magnitude(Mpfr(force.dot(v) - slope)), literal<Mpfr>("1e-26"));
-  const auto names = [](const Problem<Mpfr>& problem) {
-    std::string text;
-    for (const auto& component : conserved_momenta(problem)) text += component.name() + " ";
-    return text;
-  };
-  EXPECT_EQ(names(all.problem), names(points.problem));
+  expect_forces_are_derivatives(all.problem, q);
+  EXPECT_EQ(conserved(all.problem), conserved(points.problem));
 }
 
 TEST(EffectOnAll, ActsOnRigidBodiesAtTheirCentresOfMass) {
@@ -133,9 +108,11 @@ TEST(EffectOnAll, ActsOnRigidBodiesAtTheirCentresOfMass) {
 }
 
 TEST(EffectReach, NamesBodiesPairsAndGroups) {
-  const auto found = reach(sky + effect("kind = \"central_gravity\"\ncenter = \"sun\"\nstrength = 1") +
-                           effect("kind = \"mutual_gravity\"\nstrength = 1\nbetween = [\"ship\", \"probe\"]") +
-                           effect("kind = \"formula\"\nof = [\"probe\", \"crown\"]\nU = \"x1*x2\""));
+  const auto found =
+      assembled<double>(sky + effect("kind = \"central_gravity\"\ncenter = \"sun\"\nstrength = 1") +
+                        effect("kind = \"mutual_gravity\"\nstrength = 1\nbetween = [\"ship\", \"probe\"]") +
+                        effect("kind = \"formula\"\nof = [\"probe\", \"crown\"]\nU = \"x1*x2\""))
+          .reach;
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(to_text(found[0]), "'probe', 'ship', 'top'");
   EXPECT_EQ(to_text(found[1]), "'ship'-'probe'");
@@ -165,35 +142,35 @@ TEST(EffectReach, OfNobodyIsRefusedByLine) {
   const std::string alone =
       "dimension = 2\n[[point]]\nname = \"o\"\nposition = [0, 0]\n[[body]]\nname = \"a\"\nmass = 1\n"
       "position = [1, 0]\nvelocity = [0, 0]\n";
-  const auto expect = [&](const std::string& keys, std::initializer_list<std::string> words) {
-    const std::string message = refused_reach(alone + effect(keys));
+  for (const auto& [keys, who] :
+       {std::pair("kind = \"mutual_gravity\"\nstrength = 1", "'a' (there is none to pair it with)"),
+        {"kind = \"coulomb\"\nstrength = 1", "'a' (no charge)"},
+        {"kind = \"uniform_gravity\"\nacceleration = [0, -1]\non = []", "'a' (not named)"},
+        {"kind = \"formula\"\non = []\nU = \"x\"", "'a' (not named)"}}) {
+    const std::string message = inconsistency<double>(alone + effect(keys));
     EXPECT_TRUE(message.starts_with("test.toml:10: effect 1 (")) << message;
-    expect_words(message, words);
-  };
-  expect("kind = \"mutual_gravity\"\nstrength = 1", {"acts on nobody", "'a' (there is none to pair it with)"});
-  expect("kind = \"coulomb\"\nstrength = 1", {"acts on nobody", "'a' (no charge)"});
-  expect("kind = \"uniform_gravity\"\nacceleration = [0, -1]\non = []", {"acts on nobody", "'a' (not named)"});
-  expect("kind = \"formula\"\non = []\nU = \"x\"", {"acts on nobody", "'a' (not named)"});
+    expect_words(message, {"acts on nobody", who});
+  }
   const std::string top =
       "dimension = 2\n[[point]]\nname = \"o\"\nposition = [3, 0]\n[[rigid_body]]\nname = \"top\"\n"
       "fixed_at = [0, 0]\nmass = 1\ncenter = [0, 0]\nsecond_moment = [[1, 0], [0, 1]]\n"
       "directors = [[1, 0], [0, 1]]\nangular_velocity = 1\n";
   const std::string central = "kind = \"central_gravity\"\ncenter = \"o\"\nstrength = 1";
-  expect_words(refused_reach(top + effect(central)),
+  expect_words(inconsistency<double>(top + effect(central)),
                {"acts on nobody: not on 'top' (its centre of mass is fixed in space)"});
-  expect_words(refused_reach(top + effect(central + "\non = [\"top\"]")),
+  expect_words(inconsistency<double>(top + effect(central + "\non = [\"top\"]")),
                {"'top' is fixed in space, by its centre of mass"});
-  EXPECT_EQ(refused_reach(top + effect("kind = \"uniform_gravity\"\nacceleration = [0, -1]")), "")
+  EXPECT_EQ(inconsistency<double>(top + effect("kind = \"uniform_gravity\"\nacceleration = [0, -1]")), "")
       << "it has energy there";
 }
 
 TEST(EffectReach, ARigidBodyHasNoChargeOfItsOwn) {
-  expect_words(refused_reach(sky + effect("kind = \"coulomb\"\nstrength = 1\nbetween = [\"ship\", \"probe\"]")),
+  expect_words(inconsistency<double>(sky + effect("kind = \"coulomb\"\nstrength = 1\nbetween = [\"ship\", \"probe\"]")),
                {"'ship' has no charge; give one to a point of it"});
 }
 
 TEST(EffectReach, AForceWithinARigidBodyIsRefused) {
-  expect_words(refused_reach(sky + effect("kind = \"spring\"\nstiffness = 1\nbetween = [\"ship\", \"heart\"]")),
+  expect_words(inconsistency<double>(sky + effect("kind = \"spring\"\nstiffness = 1\nbetween = [\"ship\", \"heart\"]")),
                {"both ends are points of the rigid body 'ship'"});
 }
 
