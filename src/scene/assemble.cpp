@@ -36,31 +36,53 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 template <Scalar S>
-class Assembler : private FormulaPlaces<S> {
+class Assembler {
  public:
   explicit Assembler(const Scene& scene) : scene_(scene), d_(scene.dimension) {}
 
   Assembled<S> assemble(Consistency consistency) {
     problem().dimension = d_;
-    for (const ScenePoint& point : scene_.points)
-      at_line(point.line, "point '" + point.name + "'", [&] { add(point); });
-    for (const SceneBody& body : scene_.bodies) at_line(body.line, "body '" + body.name + "'", [&] { add(body); });
-    for (const SceneRigidBody& body : scene_.rigid_bodies)
-      at_line(body.line, "rigid_body '" + body.name + "'", [&] { add(body); });
-    for (const SceneAttachment& attachment : scene_.attachments)
-      at_line(attachment.line, "attachment '" + attachment.name + "'", [&] { add(attachment); });
-    std::size_t number = 0;
-    for (const SceneConstraint& constraint : scene_.constraints)
-      at_line(constraint.line, "constraint " + std::to_string(++number) + " (" + constraint.kind + ")",
-              [&] { add(constraint); });
+    add_named(scene_.points, "point");
+    add_named(scene_.bodies, "body");
+    add_named(scene_.rigid_bodies, "rigid_body");
+    add_named(scene_.attachments, "attachment");
+    add_numbered(scene_.constraints, "constraint");
     problem().potential.dimension = d_;
     problem().potential.m = problem().m();
-    number = 0;
-    for (const SceneEffect& effect : scene_.effects)
-      at_line(effect.line, "effect " + std::to_string(++number) + " (" + effect.kind + ")", [&] { add(effect); });
+    add_numbered(scene_.effects, "effect");
     initial_state();
     if (consistency == Consistency::checked) check_consistency();
     return std::move(result_);
+  }
+
+  // What a formula takes from the bodies and points of the scene.
+
+  Displacement<S> position(const std::string& name) const { return place(name).x; }
+  S mass(const std::string& name) const {
+    typename EffectInput<S>::Instance i;
+    give(name, true, false, i, 0);
+    return i.masses[0];
+  }
+  S charge(const std::string& name) const {
+    typename EffectInput<S>::Instance i;
+    give(name, false, true, i, 0);
+    return i.charges[0];
+  }
+  /// a - b.
+  Displacement<S> difference(const std::string& a, const std::string& b) const {
+    Displacement<S> x;
+    Vector<S> shift = Vector<S>::Zero(d_);
+    bool shifted = false;
+    for (const auto& [name, weight] : {std::pair(a, 1), std::pair(b, -1)}) {
+      const Displacement<S>& end = place(name).x;
+      for (const auto& block : end.blocks) add(block.offset, S(weight) * block.weight, x);
+      if (end.shift.size() == 0) continue;
+      shift += S(weight) * end.shift;
+      shifted = shifted || end.shift != Vector<S>::Zero(d_);
+    }
+    std::erase_if(x.blocks, [](const auto& block) { return block.weight == 0; });
+    if (shifted && !cancels(a, b, shift)) x.shift = shift;
+    return x;
   }
 
  private:
@@ -94,6 +116,14 @@ class Assembler : private FormulaPlaces<S> {
     lines_.resize(result_.problem.constraints.size(), line);
     wholes_.resize(lines_.size(), whole_);
     whole_.clear();
+  }
+  void add_named(const auto& things, const std::string& kind) {
+    for (const auto& thing : things) at_line(thing.line, kind + " '" + thing.name + "'", [&] { add(thing); });
+  }
+  void add_numbered(const auto& things, const std::string& kind) {
+    std::size_t number = 0;
+    for (const auto& thing : things)
+      at_line(thing.line, fmt::format("{} {} ({})", kind, ++number, thing.kind), [&] { add(thing); });
   }
   std::string at(std::size_t line) const { return scene_.name + (line > 0 ? ":" + std::to_string(line) : ""); }
 
@@ -238,23 +268,6 @@ class Assembler : private FormulaPlaces<S> {
 
   const Place& place(const std::string& name) const { return places_.at(name); }
 
-  /// a - b.
-  Displacement<S> difference(const std::string& a, const std::string& b) const override {
-    Displacement<S> x;
-    Vector<S> shift = Vector<S>::Zero(d_);
-    bool shifted = false;
-    for (const auto& [name, weight] : {std::pair(a, 1), std::pair(b, -1)}) {
-      const Displacement<S>& end = place(name).x;
-      for (const auto& block : end.blocks) add(block.offset, S(weight) * block.weight, x);
-      if (end.shift.size() == 0) continue;
-      shift += S(weight) * end.shift;
-      shifted = shifted || end.shift != Vector<S>::Zero(d_);
-    }
-    std::erase_if(x.blocks, [](const auto& block) { return block.weight == 0; });
-    if (shifted && !cancels(a, b, shift)) x.shift = shift;
-    return x;
-  }
-
   /// Adds to the weight of a block, which two points of one body share.
   static void add(Index offset, const S& weight, Displacement<S>& x) {
     for (auto& block : x.blocks) {
@@ -271,20 +284,6 @@ class Assembler : private FormulaPlaces<S> {
     if (!one.is_fixed() || !other.is_fixed() || (one.rigid_body.empty() && other.rigid_body.empty())) return false;
     const S size = max_norm(one.x.shift) + max_norm(other.x.shift);
     return max_norm(difference) <= consistency_tolerance<S>() * size;
-  }
-
-  // What a formula takes from the bodies and points of the scene.
-
-  Displacement<S> position(const std::string& name) const override { return place(name).x; }
-  S mass(const std::string& name) const override {
-    typename EffectInput<S>::Instance i;
-    give(name, true, false, i, 0);
-    return i.masses[0];
-  }
-  S charge(const std::string& name) const override {
-    typename EffectInput<S>::Instance i;
-    give(name, false, true, i, 0);
-    return i.charges[0];
   }
 
   /// Errors in a formula say where in the file.
@@ -309,10 +308,7 @@ class Assembler : private FormulaPlaces<S> {
       FormulaInput<S> input = binding.input();
       input.instances.push_back(binding.instance(formula.of, *this));
       if (auto form = quadratic_form(input)) return add(name, std::move(*form));
-      EffectTerm<S> term = make_term(input);
-      check_formula(input, term, start());
-      term.symmetry = formula_symmetry(input, problem().blocks, start());
-      add(name, FormulaConstraint<S>{std::move(term)});
+      add(name, FormulaConstraint<S>{term_of(input)});
     });
   }
 
@@ -325,11 +321,15 @@ class Assembler : private FormulaPlaces<S> {
         input.instances.push_back(binding.instance(of, *this));
         if (formula.acts == Acts::about_a_center) input.instances.back().x = {difference(of[0], effect.center)};
       }
-      EffectTerm<S> term = make_term(input);
-      check_formula(input, term, start());
-      term.symmetry = formula_symmetry(input, problem().blocks, start());
-      add(std::move(term), std::move(reach));
+      add(term_of(input), std::move(reach));
     });
+  }
+
+  EffectTerm<S> term_of(const FormulaInput<S>& input) {
+    EffectTerm<S> term = make_term(input);
+    check_formula(input, term, start());
+    term.symmetry = formula_symmetry(input, problem().blocks, start());
+    return term;
   }
 
   Vector<S> start() const {

@@ -8,18 +8,6 @@
 
 namespace hbvm::core {
 
-/// The bodies and points of a scene in numbers, by their names.
-template <Scalar S>
-class FormulaPlaces {
- public:
-  virtual ~FormulaPlaces() = default;
-  virtual Displacement<S> position(const std::string& name) const = 0;
-  virtual Displacement<S> difference(const std::string& a, const std::string& b) const = 0;
-  /// \throws InputError if it has none
-  virtual S mass(const std::string& name) const = 0;
-  virtual S charge(const std::string& name) const = 0;
-};
-
 /// What the names of a formula in a scene stand for in one precision. Formula and constants must outlive it.
 template <Scalar S>
 class FormulaBinding {
@@ -52,7 +40,8 @@ class FormulaBinding {
   }
 
   /// For these bodies and points, one for each that the formula is about.
-  typename FormulaInput<S>::Instance instance(const std::vector<std::string>& of, const FormulaPlaces<S>& scene) const {
+  /// \param scene gives position, difference, mass and charge by names
+  typename FormulaInput<S>::Instance instance(const std::vector<std::string>& of, const auto& scene) const {
     typename FormulaInput<S>::Instance result;
     if (places_.empty()) result.x.push_back(scene.difference(of[0], of[1]));
     for (const std::size_t place : places_) result.x.push_back(scene.position(of[place]));

@@ -25,18 +25,13 @@ int significant_digits(const Expression& e) {
 
 int own_digits(const Scene& scene) {
   int most = 0;
-  const auto look_at = [&](const SceneVector& v) {
-    for (const Expression& e : v) most = std::max(most, significant_digits(e));
+  const auto look_at = [&](const auto&... vectors) {
+    for (const SceneVector* const v : {&vectors...})
+      for (const Expression& e : *v) most = std::max(most, significant_digits(e));
   };
-  for (const SceneBody& body : scene.bodies) {
-    look_at(body.position);
-    look_at(body.velocity);
-    look_at(body.momentum);
-  }
+  for (const SceneBody& body : scene.bodies) look_at(body.position, body.velocity, body.momentum);
   for (const SceneRigidBody& body : scene.rigid_bodies) {
-    look_at(body.position);
-    look_at(body.velocity);
-    look_at(body.angular_velocity);
+    look_at(body.position, body.velocity, body.angular_velocity);
     for (const SceneVector& director : body.directors) look_at(director);
   }
   constexpr int of_a_double = 15;

@@ -224,15 +224,16 @@ class SceneReader {
   std::array<std::string, 2> pair(TomlTable& table, std::string_view key, const Allowed& allowed) {
     const std::vector<std::string> ends = names(table, key);
     if (ends.size() != 2) table.fail("'" + std::string(key) + "' must name two bodies or points");
-    check_pair(table, key, {ends[0], ends[1]}, allowed);
+    check_names(table, key, ends, allowed);
     return {ends[0], ends[1]};
   }
 
-  void check_pair(const TomlTable& table, std::string_view key, const std::array<std::string, 2>& ends,
-                  const Allowed& allowed) const {
-    const auto& [a, b] = ends;
-    for (const std::string& end : ends) check_name(table, end, allowed);
-    if (a == b) table.fail("'" + std::string(key) + "' names '" + a + "' twice");
+  void check_names(const TomlTable& table, std::string_view key, const std::vector<std::string>& names,
+                   const Allowed& allowed) const {
+    for (const std::string& name : names) check_name(table, name, allowed);
+    for (const std::string& name : names)
+      if (std::count(names.begin(), names.end(), name) > 1)
+        table.fail("'" + std::string(key) + "' names '" + name + "' twice");
   }
 
   /// What a body or point moves with: itself, its rigid body, or nothing for a fixed point.
@@ -309,10 +310,7 @@ class SceneReader {
   std::vector<std::string> group(TomlTable& table, const Allowed& allowed) {
     std::vector<std::string> of = names(table, "of");
     if (of.empty()) table.fail("'of' must name a body");
-    for (std::size_t i = 0; i < of.size(); ++i) {
-      check_name(table, of[i], allowed);
-      if (std::count(of.begin(), of.end(), of[i]) > 1) table.fail("'of' names '" + of[i] + "' twice");
-    }
+    check_names(table, "of", of, allowed);
     if (std::all_of(of.begin(), of.end(), [&](const std::string& name) { return points_.contains(name); }))
       table.fail("'of' names fixed points alone");
     return of;
@@ -425,9 +423,7 @@ class SceneReader {
       if (!table.has("on")) return;
       e.on = names(table, "on");
       const bool each = acts == Acts::on_each_body;  // which need a mass, and a point of a rigid body has none
-      for (const std::string& body : *e.on) check_name(table, body, {.attachments = !each, .rigid_bodies = true});
-      for (std::size_t i = 0; i < e.on->size(); ++i)
-        if (std::count(e.on->begin(), e.on->end(), (*e.on)[i]) > 1) table.fail("'on' names '" + (*e.on)[i] + "' twice");
+      check_names(table, "on", *e.on, {.attachments = !each, .rigid_bodies = true});
       return;
     }
     const toml::node* const between = table.take("between");
@@ -445,7 +441,7 @@ class SceneReader {
       const toml::array* const ends = entry.as_array();
       if (!ends || ends->size() != 2) table.fail(entry, "each pair of 'between' must name two bodies or points");
       const std::string a = name(table, (*ends)[0], "each name"), b = name(table, (*ends)[1], "each name");
-      check_pair(table, "between", {a, b}, of_effect);
+      check_names(table, "between", {a, b}, of_effect);
       check_rigid(table, {a, b});
       for (const auto& [x, y] : *e.between)
         if ((x == a && y == b) || (x == b && y == a))

@@ -23,51 +23,15 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-std::string list(const std::vector<std::string>& items) {
-  std::string result = "[";
-  for (std::size_t i = 0; i < items.size(); ++i) result += (i > 0 ? ", " : "") + items[i];
-  return result + "]";
-}
-
+std::string text(const std::string& name) { return quoted(name); }
 std::string text(const Expression& e) { return quoted(e.text()); }
 
-std::string text(const SceneVector& v) {
-  std::vector<std::string> items;
-  for (const Expression& e : v) items.push_back(text(e));
-  return list(items);
-}
-
-std::string text(const SceneMatrix& a) {
-  std::vector<std::string> items;
-  for (const SceneVector& row : a) items.push_back(text(row));
-  return list(items);
-}
-
-std::string text(const std::vector<std::string>& names) {
-  std::vector<std::string> items;
-  for (const std::string& name : names) items.push_back(quoted(name));
-  return list(items);
-}
-
-std::string text(const std::array<std::string, 2>& pair) {
-  return text(std::vector<std::string>(pair.begin(), pair.end()));
-}
-
-std::string text(const SceneConstraint& c, const ConstraintKey& key) {
-  using Takes = ConstraintKey::Takes;
-  switch (key.takes) {
-    case Takes::pair:
-      return text(c.pairs.find(key.name)->second);
-    case Takes::body:
-      return quoted(c.bodies.find(key.name)->second);
-    case Takes::number:
-      return text(c.numbers.find(key.name)->second);
-    case Takes::vector:
-      return text(c.vectors.find(key.name)->second);
-    case Takes::symmetric_matrix:
-      return text(c.matrices.find(key.name)->second);
-  }
-  return {};
+/// A vector, a matrix, names or pairs of names.
+template <class List>
+std::string text(const List& items) {
+  std::string result;
+  for (const auto& item : items) result += (result.empty() ? "[" : ", ") + text(item);
+  return result.empty() ? "[]" : result + "]";
 }
 
 class Writer {
@@ -140,8 +104,16 @@ std::string write_scene(const Scene& scene) {
     w.key("kind", quoted(c.kind));
     if (c.formula) w.formula("g", *c.formula);
     with_constraint_kind<double>(c.kind, [&]<class Kind>() {
-      for (const ConstraintKey& key : Kind::keys)
-        if (!key.optional || c.has(key.name)) w.key(std::string(key.name), text(c, key));
+      for (const ConstraintKey& key : Kind::keys) {
+        const auto write = [&](const auto& values) {
+          if (const auto value = values.find(key.name); value != values.end()) w.key(value->first, text(value->second));
+        };
+        write(c.pairs);
+        write(c.bodies);
+        write(c.numbers);
+        write(c.vectors);
+        write(c.matrices);
+      }
     });
   }
   for (const SceneEffect& e : scene.effects) {
@@ -153,9 +125,9 @@ std::string write_scene(const Scene& scene) {
     for (const auto& [name, value] : e.vectors) w.key(name, text(value));
     if (e.on) w.key("on", text(*e.on));
     if (e.between) {
-      std::vector<std::string> pairs;
-      for (const auto& [a, b] : *e.between) pairs.push_back(text(std::vector<std::string>{a, b}));
-      w.key("between", list(pairs));
+      std::vector<std::array<std::string, 2>> pairs;
+      for (const auto& [a, b] : *e.between) pairs.push_back({a, b});
+      w.key("between", text(pairs));
     }
   }
   return w.out;
