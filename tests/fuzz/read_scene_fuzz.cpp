@@ -21,21 +21,14 @@ void require(bool holds, const char* what, const std::string& text) {
 class Evaluation {
  public:
   explicit Evaluation(const Scene& scene) : constants_(scene.constants) {
-    all(scene.constants);
+    each(scene.constants);
     for (const ScenePoint& p : scene.points) each(p.position, p.charge);
     for (const SceneBody& b : scene.bodies) each(b.mass, b.mass_matrix, b.position, b.velocity, b.momentum, b.charge);
     for (const SceneRigidBody& b : scene.rigid_bodies)
       each(b.position, b.velocity, b.mass, b.center, b.second_moment, b.directors, b.angular_velocity);
     for (const SceneAttachment& a : scene.attachments) each(a.at, a.charge);
-    for (const SceneConstraint& c : scene.constraints) {
-      all(c.numbers);
-      all(c.vectors);
-      all(c.matrices);
-    }
-    for (const SceneEffect& e : scene.effects) {
-      all(e.numbers);
-      all(e.vectors);
-    }
+    for (const SceneConstraint& c : scene.constraints) each(c.numbers, c.vectors, c.matrices);
+    for (const SceneEffect& e : scene.effects) each(e.numbers, e.vectors);
   }
 
  private:
@@ -43,9 +36,9 @@ class Evaluation {
   void each(const T&... parts) {
     (number(parts), ...);
   }
-  template <class Map>
-  void all(const Map& map) {
-    for (const auto& [name, value] : map) number(value);
+  template <class T>
+  void number(const std::map<std::string, T, std::less<>>& values) {
+    for (const auto& [name, value] : values) number(value);
   }
   template <class T>
   void number(const std::optional<T>& value) {

@@ -502,15 +502,12 @@ class JoinedBodies : public ::testing::Test {
 TEST_F(JoinedBodies, ConstraintsSayWhichPartTheyAre) {
   ASSERT_EQ(scene.problem.m(), 3 + 3 * 12);
   ASSERT_EQ(scene.problem.nu(), 18 + 5 + 3 + 1 + 1);
-  const std::vector<std::string> names{"hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (point, x)",
-                                       "hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (point, y)",
-                                       "hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (point, z)",
-                                       "hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (axis, 1)",
-                                       "hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (axis, 2)",
-                                       "ball_joint 'arm[0, 1/2, 0]'-'bob[0, 0, 0]' (point, x)",
-                                       "ball_joint 'arm[0, 1/2, 0]'-'bob[0, 0, 0]' (point, y)",
-                                       "ball_joint 'arm[0, 1/2, 0]'-'bob[0, 0, 0]' (point, z)",
-                                       "rod 'left'-'hook'"};
+  std::vector<std::string> names;
+  for (const char* const part : {"point, x", "point, y", "point, z", "axis, 1", "axis, 2"})
+    names.push_back("hinge 'base[1, 0, 0]'-'arm[0, -1/2, 0]' (" + std::string(part) + ")");
+  for (const char* const part : {"point, x", "point, y", "point, z"})
+    names.push_back("ball_joint 'arm[0, 1/2, 0]'-'bob[0, 0, 0]' (" + std::string(part) + ")");
+  names.emplace_back("rod 'left'-'hook'");
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(scene.problem.constraints[18 + i].name, names[i]);
 }
 
