@@ -642,7 +642,7 @@ TEST(PointsOfRigidBodies, LieOnPlanesAndQuadrics) {
 }
 
 /// A plate that turns about a point of the plane, and a nail.
-const std::string plate = R"(dimension = 2
+const std::string plate_and_nail = R"(dimension = 2
 [[point]]
 name = "nail"
 position = [0, 1]
@@ -660,7 +660,7 @@ angular_velocity = 0
 TEST(PointsOfRigidBodies, OfAFixedBodyLieOnAQuadric) {
   const PrecisionScope digits(50);
   const std::string scene =
-      plate + "[[constraint]]\nkind = \"quadric\"\nbody = { of = \"plate\", at = [2, \"1/2\"] }\n";
+      plate_and_nail + "[[constraint]]\nkind = \"quadric\"\nbody = { of = \"plate\", at = [2, \"1/2\"] }\n";
   const std::string curve = "A = [[1, \"1/2\"], [\"1/2\", 3]]\nb = [1, -2]\nc = ";
   // At (7/3, 5/2): 49/9 + 35/6 + 75/4 + 7/3 - 5 = 985/36.
   const auto there = assembled<Mpfr>(scene + curve + "\"-985/36\"\n");
@@ -689,7 +689,7 @@ TEST(Rod, OfPointsThatAreBothFixedIsRefused) {
   for (const auto& [table, kind, keys] : {std::array{"[[constraint]]", "rod", "length = 1\n"},
                                           {"[[constraint]]", "ball_joint", ""},
                                           {"[[effect]]", "spring", "stiffness = 1\n"}})
-    expect_words(inconsistency<double>(plate + table + "\nkind = \"" + kind + "\"\n" + pair + keys),
+    expect_words(inconsistency<double>(plate_and_nail + table + "\nkind = \"" + kind + "\"\n" + pair + keys),
                  {"test.toml:13: ", kind, "fixed in space"});
 }
 
