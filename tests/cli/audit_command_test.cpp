@@ -19,17 +19,20 @@ b = ["1/2", "1/2"]
 c = ["1/2-sqrt(3)/6", "1/2+sqrt(3)/6"]
 )toml";
 
-Json json_of(const Arguments& arguments, int code) {
-  const Outcome outcome = hbvm(Arguments{"audit", "--json"} + arguments, 600);
-  EXPECT_EQ(outcome.code, code) << outcome.err;
-  return Json::parse(outcome.out, nullptr, false);
+Json claims_of(const Arguments& arguments, int code) {
+  return Json::parse(ended_with(code, Arguments{"audit", "--json"} + arguments, 600).out).at("claims");
+}
+
+std::vector<std::string> verdicts_of(const Json& claims) {
+  std::vector<std::string> result;
+  for (const Json& claim : claims) result.push_back(claim.at("verdict"));
+  return result;
 }
 
 TEST(AuditCommand, QuickHoldsForEveryClaim) {
   const Folder folder;
-  const Json json = json_of({"--quick", "--out", folder / "out"}, 0);
+  const Json claims = claims_of({"--quick", "--out", folder / "out"}, 0);
   EXPECT_FALSE(text_of(folder / "out/orders.svg").empty());
-  const Json& claims = json.at("claims");
   EXPECT_GE(claims.size(), 40u);
   std::set<std::string> precisions;
   for (const Json& claim : claims) {
@@ -46,31 +49,27 @@ TEST(AuditCommand, QuickHoldsForEveryClaim) {
 
 TEST(AuditCommand, WritesTables) {
   const Folder folder;
-  const Outcome outcome = hbvm({"audit", "--claims", "simple_pendulum", "--out", folder / "out"}, 600);
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = ended_with(0, {"audit", "--claims", "simple_pendulum", "--out", folder / "out"}, 600);
   expect_words(outcome.out, {"0 fail, 0 undecidable"});
   EXPECT_EQ(outcome.err, "");
   for (const char* const file : {"audit.csv", "audit.md", "audit.tex"})
     EXPECT_FALSE(text_of(folder / ("out/" + std::string(file))).empty()) << file;
-  const auto lines = lines_of(text_of(folder / "out/audit.csv"));
-  EXPECT_EQ(lines.at(0),
+  EXPECT_EQ(lines_of(text_of(folder / "out/audit.csv")).at(0),
             "problem,claim,quantity,over,k,s,predicted,measured,+-,precision,coefficients to,verdict,reason");
   expect_words(text_of(folder / "out/audit.csv-metadata.json"), {"command hbvm audit --claims 'simple_pendulum'"});
 }
 
 TEST(AuditCommand, AuditsATableau) {
   const Folder folder;
-  const Json json = json_of({"--method", folder.write("gauss.toml", gauss_tableau)}, 0);
-  for (const Json& claim : json.at("claims")) {
+  for (const Json& claim : claims_of({"--method", folder.write("gauss.toml", gauss_tableau)}, 0)) {
     EXPECT_EQ(claim.at("verdict"), "holds") << claim.dump();
     EXPECT_TRUE(claim.at("k").is_null());
     EXPECT_EQ(claim.at("method"), "Gauss");
   }
-  const Json bad = json_of({"--method", folder.write("wrong.toml", wrong_digit)}, 1);
-  EXPECT_EQ(bad.at("claims").at(0).at("reason"), "the conditions of order 2 are met to 25 digits only");
-  int failing = 0;
-  for (const Json& claim : bad.at("claims")) failing += claim.at("verdict") == "fails";
-  EXPECT_GE(failing, 4);
+  const Json bad = claims_of({"--method", folder.write("wrong.toml", wrong_digit)}, 1);
+  EXPECT_EQ(bad.at(0).at("reason"), "the conditions of order 2 are met to 25 digits only");
+  const auto verdicts = verdicts_of(bad);
+  EXPECT_GE(std::count(verdicts.begin(), verdicts.end(), "fails"), 4);
 }
 
 /// Each false, each alone.
@@ -83,26 +82,24 @@ TEST(AuditCommand, RefusesFalseClaims) {
       "quantity = \"delta lambda\"\nproblem = \"modified_pendulum\"\nmethod = \"hbvm:2,2\"\nrate = \"s\"\n",
       "quantity = \"H\"\nproblem = \"modified_pendulum\"\nmethod = \"hbvm:2,2\"\nrate = \"round-off\"\n",
       "quantity = \"q\"\nproblem = \"kepler\"\nmethod = \"wrong.toml\"\nrate = \"2*s\"\n"};
-  for (const char* const claim : claims) {
-    const Json json = json_of({"--claims", folder.write("claims.toml", "[[claim]]\n" + std::string(claim))}, 1);
-    EXPECT_EQ(json.at("claims").at(0).at("verdict"), "fails") << claim;
-  }
+  for (const char* const claim : claims)
+    EXPECT_EQ(verdicts_of(claims_of({"--claims", folder.write("claims.toml", "[[claim]]\n" + std::string(claim))}, 1)),
+              std::vector<std::string>{"fails"})
+        << claim;
 }
 
 /// 0: all hold; 1: one fails; 4: none fails, but not all hold. What cannot be run takes no other verdict with it.
 TEST(AuditCommand, TellsByItsCodeWhetherAllCouldBeDecided) {
   const Folder folder;
-  const std::string holds = "[[claim]]\nquantity = \"q\"\nproblem = \"kepler\"\nmethod = \"hbvm:1,1\"\nrate = 2\n",
-                    fails =
-                        "[[claim]]\nquantity = \"q\"\nproblem = \"kepler\"\nmethod = \"hbvm:1,1\"\nrate = \"2.05\"\n",
-                    degenerate =
-                        "[[claim]]\nquantity = \"raw p\"\nproblem = \"conical_pendulum\"\nmethod = "
-                        "\"hbvm:2,2\"\nrate = 4\n";
+  const auto claim = [](const std::string& quantity, const std::string& problem, const std::string& method,
+                        const std::string& rate) {
+    return "[[claim]]\nquantity = \"" + quantity + "\"\nproblem = \"" + problem + "\"\nmethod = \"" + method +
+           "\"\nrate = " + rate + "\n";
+  };
+  const std::string holds = claim("q", "kepler", "hbvm:1,1", "2"), fails = claim("q", "kepler", "hbvm:1,1", "\"2.05\""),
+                    degenerate = claim("raw p", "conical_pendulum", "hbvm:2,2", "4");
   const auto verdicts = [&](const std::string& claims, int code, const Arguments& further = {}) {
-    const Json json = json_of(Arguments{"--claims", folder.write("claims.toml", claims)} + further, code);
-    std::vector<std::string> result;
-    for (const Json& claim : json.at("claims")) result.push_back(claim.at("verdict"));
-    return result;
+    return verdicts_of(claims_of(Arguments{"--claims", folder.write("claims.toml", claims)} + further, code));
   };
   using Verdicts = std::vector<std::string>;
   EXPECT_EQ(verdicts(holds, 0), Verdicts{"holds"});
@@ -114,8 +111,7 @@ TEST(AuditCommand, TellsByItsCodeWhetherAllCouldBeDecided) {
       "impossible.toml",
       "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = 1, position "
       "= [0, 0], velocity = [0, 1] }]\neffect = [{ kind = \"central_gravity\", center = \"o\", strength = 1 }]\n");
-  const std::string impossible =
-      "[[claim]]\nquantity = \"q\"\nproblem = \"impossible.toml\"\nmethod = \"hbvm:1,1\"\nrate = 2\n";
+  const std::string impossible = claim("q", "impossible.toml", "hbvm:1,1", "2");
   EXPECT_EQ(verdicts(impossible + holds, 4), (Verdicts{"not run", "holds"}));
 }
 
@@ -123,8 +119,7 @@ TEST(AuditCommand, TellsWhatItLookedAt) {
   const Folder folder;
   const std::string claims =
       "[[claim]]\nquantity = \"q\"\nproblem = \"modified_pendulum\"\nmethod = \"hbvm:1,1\"\nrate = 2\n";
-  const Json json = json_of({"--claims", folder.write("claims.toml", claims), "--until", "3*2"}, 0);
-  const Json& claim = json.at("claims").at(0);
+  const Json claim = claims_of({"--claims", folder.write("claims.toml", claims), "--until", "3*2"}, 0).at(0);
   EXPECT_EQ(claim.at("coefficients_to"), 1000);
   EXPECT_EQ(claim.at("interval").at(0), 0);
   EXPECT_GE(claim.at("interval").at(1), 6);
@@ -134,16 +129,12 @@ TEST(AuditCommand, TellsWhatItLookedAt) {
 TEST(AuditCommand, FullGoesOnFromWhatItFound) {
   const Folder folder;
   const Arguments arguments{"audit", "--full", "--claims", "costo", "--out", folder / "out"};
-  const Outcome first = hbvm(arguments, 600);
-  EXPECT_EQ(first.code, 0) << first.err;
+  const Outcome first = ended_with(0, arguments, 600);
   // As if it had been ended in the middle of a line.
-  const std::string store = folder / "out/findings.jsonl";
-  const std::string all = text_of(store);
-  std::ofstream(store, std::ios::binary) << all.substr(0, all.size() / 2);
-  const Outcome second = hbvm(arguments, 600);
+  const std::string store = folder / "out/findings.jsonl", all = text_of(store);
+  folder.write(store, all.substr(0, all.size() / 2));
+  EXPECT_EQ(ended_with(0, arguments, 600).out, first.out);
   EXPECT_EQ(text_of(store), all);
-  EXPECT_EQ(second.code, 0) << second.err;
-  EXPECT_EQ(first.out, second.out);
   // Nothing is found again: another measurement under the seal of the first line is believed.
   const std::size_t end = all.find(",\"checksum\":");
   std::string line = all.substr(0, end);
@@ -151,11 +142,9 @@ TEST(AuditCommand, FullGoesOnFromWhatItFound) {
   ASSERT_NE(measured, std::string::npos) << line;
   line.replace(measured, line.find(',', measured) - measured, "\"measured\":0.765");
   line += ",\"checksum\":\"" + Checksum(line).text() + "\"}";
-  std::ofstream(store, std::ios::binary) << line + all.substr(all.find('\n'));
-  const Outcome third = hbvm(arguments, 600);
-  EXPECT_EQ(third.code, 0) << third.err;
+  folder.write(store, line + all.substr(all.find('\n')));
   EXPECT_EQ(first.out.find("0.765"), std::string::npos) << first.out;
-  expect_words(third.out, {"0.765"});
+  expect_words(ended_with(0, arguments, 600).out, {"0.765"});
 }
 
 /// Of three computers, each with a third of the work; the last line of one was cut off.
@@ -174,24 +163,18 @@ TEST(AuditCommand, MergesShardsToTheSameFiles) {
   std::vector<std::string> merged{"--merge"};
   for (const char* const shard : {"1/3", "2/3", "3/3"}) {
     const std::string out = folder / (std::string("shard") + shard[0]);
-    const Outcome outcome = hbvm(work + Arguments{"--shard", shard, "--out", out}, 600);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    ended_with(0, work + Arguments{"--shard", shard, "--out", out}, 600);
     merged.push_back(out + "/findings.jsonl");
   }
   const std::string cut = text_of(merged[2]);
-  std::ofstream(merged[2], std::ios::binary) << cut.substr(0, cut.size() - 5);
-  const Outcome refused = hbvm(work + merged + Arguments{"--out", folder / "merged"}, 600);
-  EXPECT_EQ(refused.code, 2);
-  expect_words(refused.err, {"damaged"});
-  std::ofstream(merged[2], std::ios::binary) << cut;
-  const Outcome incomplete =
-      hbvm(work + Arguments{"--merge", merged[1], merged[2]} + Arguments{"--out", folder / "part"}, 600);
-  EXPECT_EQ(incomplete.code, 2);
-  expect_words(incomplete.err, {"in none of these files"});
-  const Outcome all = hbvm(work + merged + Arguments{"--out", folder / "merged"}, 600);
-  EXPECT_EQ(all.code, 0) << all.err;
-  const Outcome one = hbvm(work + Arguments{"--shard", "1/1", "--jobs", "1", "--out", folder / "one"}, 600);
-  EXPECT_EQ(one.code, 0) << one.err;
+  folder.write(merged[2], cut.substr(0, cut.size() - 5));
+  const Arguments to_merged{"--out", folder / "merged"};
+  expect_words(ended_with(2, work + merged + to_merged, 600).err, {"damaged"});
+  folder.write(merged[2], cut);
+  const Arguments part{"--merge", merged[1], merged[2], "--out", folder / "part"};
+  expect_words(ended_with(2, work + part, 600).err, {"in none of these files"});
+  ended_with(0, work + merged + to_merged, 600);
+  ended_with(0, work + Arguments{"--shard", "1/1", "--jobs", "1", "--out", folder / "one"}, 600);
   EXPECT_EQ(files("merged")[0], files("one")[0]);
   EXPECT_EQ(lines_of(files("merged")[1]).size(), lines_of(files("one")[1]).size());
   expect_refused({"audit", "--shard", "4/3", "--out", folder / "x"}, {"4/3"});
@@ -219,11 +202,10 @@ TEST(AuditCommand, RefusesBadInput) {
 
 /// By its name a method is held to what it says of itself.
 TEST(AuditCommand, DecidesWhatAMethodSaysOfItself) {
-  const Json json = json_of({"--method", "energy_momentum", "--claims", "kepler"}, 0);
-  ASSERT_EQ(json.at("claims").size(), 5U);
-  for (const Json& claim : json.at("claims")) EXPECT_EQ(claim.at("verdict"), "holds") << claim.dump();
-  const Json tolerance = json_of({"--method", "bulirsch_stoer:9", "--claims", "kepler"}, 0);
-  EXPECT_GE(tolerance.at("claims").at(0).at("measured"), 7.0) << tolerance.dump();
+  EXPECT_EQ(verdicts_of(claims_of({"--method", "energy_momentum", "--claims", "kepler"}, 0)),
+            std::vector<std::string>(5, "holds"));
+  const Json tolerance = claims_of({"--method", "bulirsch_stoer:9", "--claims", "kepler"}, 0);
+  EXPECT_GE(tolerance.at(0).at("measured"), 7.0) << tolerance.dump();
   expect_refused({"audit", "--json", "--method", "hbvm:auto,2"}, {"hbvm:auto,2"});
   expect_refused({"audit", "--json", "--method", "lobatto:1"}, {"lobatto:1"});
 }
@@ -234,8 +216,8 @@ TEST(AuditCommand, DecidesClaimsAboutEveryMethod) {
   const auto audited = [&](const std::vector<std::string>& all, int code, const std::string& verdict) {
     std::string claims;
     for (const std::string& claim : all) claims += "[[claim]]\nproblem = \"double_pendulum\"\n" + claim;
-    const Json json = json_of({"--claims", folder.write("claims.toml", claims)}, code);
-    for (const Json& claim : json.at("claims")) EXPECT_EQ(claim.at("verdict"), verdict) << claim.dump();
+    for (const Json& claim : claims_of({"--claims", folder.write("claims.toml", claims)}, code))
+      EXPECT_EQ(claim.at("verdict"), verdict) << claim.dump();
   };
   const auto of = [](const char* method, const char* quantity, const char* rate) {
     return std::string("method = \"") + method + "\"\nquantity = \"" + quantity + "\"\nrate = " + rate + "\n";

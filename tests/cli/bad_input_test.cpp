@@ -13,53 +13,53 @@ Arguments run_with(const std::string& option, const std::string& value, const st
     if (name != option) arguments = arguments + Arguments{name, usual};
   return option.empty() ? arguments : arguments + Arguments{option, value};
 }
-Arguments run_of(const std::string& scene) { return run_with("", "", scene); }
+Arguments usual_run(const std::string& scene) { return run_with("", "", scene); }
+
+/// A pendulum's scene with something else in place of `from`.
+std::string other_pendulum(const std::string& from, const std::string& to) {
+  std::string text = pendulum("1");
+  return text.replace(text.find(from), from.size(), to);
+}
 
 TEST(BadScene, Unknown) {
-  expect_refused(run_of("no_such_scene"), {"unknown scene", "'no_such_scene'"});
-  expect_refused(run_of("simple_pendulm"), {"'simple_pendulm'", "'simple_pendulum'"});
-  expect_refused(run_of("/nonexistent/scene.toml"), {"/nonexistent/scene.toml"});
-  expect_refused(run_of(""), {"scene"});
-  expect_refused(run_of("/tmp"), {"/tmp"});
+  expect_refused(usual_run("no_such_scene"), {"unknown scene", "'no_such_scene'"});
+  expect_refused(usual_run("simple_pendulm"), {"'simple_pendulm'", "'simple_pendulum'"});
+  expect_refused(usual_run("/nonexistent/scene.toml"), {"/nonexistent/scene.toml"});
+  expect_refused(usual_run(""), {"scene"});
+  expect_refused(usual_run("/tmp"), {"/tmp"});
 }
 
 TEST(BadScene, Malformed) {
   const Folder folder;
-  const std::string text = pendulum("1");
   const auto refused = [&](const std::string& toml, int line, const std::vector<std::string>& words) {
     const std::string path = folder.write("scene.toml", toml);
     std::vector<std::string> all = words;
     all.push_back(path + ":" + std::to_string(line));
-    expect_refused(run_of(path), all);
-  };
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string changed = text;
-    return changed.replace(changed.find(from), from.size(), to);
+    expect_refused(usual_run(path), all);
   };
   refused("", 1, {"dimension"});
-  refused(with("mass = 1", "mas = 1"), 10, {"'mas'", "'mass'"});
-  refused(with("mass = 1", "mass = "), 10, {});
-  refused(with("mass = 1", "mass = -1"), 8, {"'bob'", "mass"});
-  refused(with("mass = 1", "mass = \"1/0\""), 8, {"'bob'", "division"});
-  refused(with("mass = 1", "mass = [[1, 2], [3, 4]]"), 8, {"'bob'", "symmetric"});
-  refused(with("\"rod\"", "\"rood\""), 14, {"'rod'"});
-  refused(with("\"O\", \"bob\"", "\"O\", \"bib\""), 14, {"'bib'", "'bob'"});
-  refused(with("uniform_gravity", "gravity"), 19, {"gravity"});
-  refused(with("Pendulum", "Pendulum\xFF"), 1, {});
-  refused(with("Pendulum", "Pendu\xEF\xBB\xBFlum"), 1, {"U+FEFF"});
+  refused(other_pendulum("mass = 1", "mas = 1"), 10, {"'mas'", "'mass'"});
+  refused(other_pendulum("mass = 1", "mass = "), 10, {});
+  refused(other_pendulum("mass = 1", "mass = -1"), 8, {"'bob'", "mass"});
+  refused(other_pendulum("mass = 1", "mass = \"1/0\""), 8, {"'bob'", "division"});
+  refused(other_pendulum("mass = 1", "mass = [[1, 2], [3, 4]]"), 8, {"'bob'", "symmetric"});
+  refused(other_pendulum("\"rod\"", "\"rood\""), 14, {"'rod'"});
+  refused(other_pendulum("\"O\", \"bob\"", "\"O\", \"bib\""), 14, {"'bib'", "'bob'"});
+  refused(other_pendulum("uniform_gravity", "gravity"), 19, {"gravity"});
+  refused(other_pendulum("Pendulum", "Pendulum\xFF"), 1, {});
+  refused(other_pendulum("Pendulum", "Pendu\xEF\xBB\xBFlum"), 1, {"U+FEFF"});
 }
 
 /// Whatever line breaks the input holds.
 TEST(Messages, AreOneLine) {
   const Folder folder;
   const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = pendulum("1");
-    return folder.write("scene.toml", text.replace(text.find(from), from.size(), to));
+    return folder.write("scene.toml", other_pendulum(from, to));
   };
-  expect_refused(run_of("two\nlines"), {"unknown scene"});
-  expect_refused(run_of(with("\"rod\"", "\"ro\\nd\"")), {"'rod'"});
-  expect_refused(run_of(with("mass = 1", "mass = \"\"\"1\n+\"\"\"")), {"'mass'"});
-  expect_refused(run_of(with("\"O\", \"bob\"", "\"O\", \"bo\\nb\"")), {"'bob'"});
+  expect_refused(usual_run("two\nlines"), {"unknown scene"});
+  expect_refused(usual_run(with("\"rod\"", "\"ro\\nd\"")), {"'rod'"});
+  expect_refused(usual_run(with("mass = 1", "mass = \"\"\"1\n+\"\"\"")), {"'mass'"});
+  expect_refused(usual_run(with("\"O\", \"bob\"", "\"O\", \"bo\\nb\"")), {"'bob'"});
   expect_refused(run_with("--method", "hbvm:2\n,2"), {"method"});
   expect_refused(run_with("--step", "\n"), {"step"});
   expect_refused(run_with("--step", "0.\n1"), {"step"});
@@ -75,26 +75,23 @@ TEST(BadScene, OfHugeNesting) {
   std::string text = "a";
   for (int i = 0; i < 100'000; ++i) text += ".a";
   const std::string path = folder.write("deep.toml", text + " = 1\n");
-  expect_refused(run_of(path), {path + ":1"});
+  expect_refused(usual_run(path), {path + ":1"});
 }
 
 TEST(BadScene, InconsistentStartNamesConstraintAndResidual) {
   const Folder folder;
   const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = pendulum("1");
-    return folder.write("scene.toml", text.replace(text.find(from), from.size(), to));
+    return folder.write("scene.toml", other_pendulum(from, to));
   };
-  expect_refused(run_of(with("length = 1", "length = 2")), {"position", "rod", "'O'", "'bob'", "residual -3.00e+00"});
-  expect_refused(run_of(with("[1, 0]", "[1, 0.25]")), {"velocity", "rod", "'O'", "'bob'", "residual -5.00e-01"});
+  expect_refused(usual_run(with("length = 1", "length = 2")),
+                 {"position", "rod", "'O'", "'bob'", "residual -3.00e+00"});
+  expect_refused(usual_run(with("[1, 0]", "[1, 0.25]")), {"velocity", "rod", "'O'", "'bob'", "residual -5.00e-01"});
   expect_refused(run_with("--precision", "mpfr:50", with("[0, -1]", "[1e-17, -1]")), {"position", "rod", "1.00e-34"});
 }
 
 TEST(BadMethod, IsRefused) {
-  expect_refused(run_with("--method", "hbvm:1,2"), {"hbvm:1,2"});
-  expect_refused(run_with("--method", "hbvm:2,0"), {"hbvm:2,0"});
-  expect_refused(run_with("--method", "hbvm:0,0"), {"hbvm:0,0"});
-  expect_refused(run_with("--method", "hbvm:3,-1"), {"hbvm:3,-1"});
-  expect_refused(run_with("--method", "hbvm:100000,1"), {"hbvm:100000,1"});
+  for (const char* method : {"hbvm:1,2", "hbvm:2,0", "hbvm:0,0", "hbvm:3,-1", "hbvm:100000,1"})
+    expect_refused(run_with("--method", method), {method});
   for (const char* method : {"", "gauss", "hbvm", "hbvm:", "hbvm:2", "hbvm:2,", "hbvm:,2", "hbvm:2,2,1", "hbvm:2.5,2",
                              "hbvm: 2,2", "HBVM:2,2", "hbvm:2,2 ", "hbvm:99999999999999999999,1", "hbvm:a,b"})
     expect_refused(run_with("--method", method), {"method"});
@@ -149,9 +146,9 @@ TEST(BadOutput, UnwritableIsRefused) {
   const Folder folder;
   expect_refused(run_with("--out", "/nonexistent/trajectory.csv"), {"'/nonexistent/trajectory.csv'"});
   expect_refused(run_with("--out", folder / "."), {folder / "."});
+  expect_refused(run_with("--out", ""), {"--out"});
+  expect_refused(run_with("--out", "/dev/full"), {"/dev/full"});
 }
-
-TEST(BadOutput, WithoutANameIsRefused) { expect_refused(run_with("--out", ""), {"--out"}); }
 
 TEST(BadOutput, OfADashIsNoFile) {
   for (const char* option : {"--out", "--plot", "--checkpoint"})
@@ -163,7 +160,7 @@ TEST(BadOutput, OfADashIsNoFile) {
 TEST(BadOutput, ThatAnotherRunWritesIsRefused) {
   const Folder folder;
   const std::string csv = folder / "both.csv";
-  const Arguments run{"run", "kepler", "--method", "hbvm:3,2", "--step", "1/1000", "--until", "1e6", "--out", csv};
+  const Arguments run = run_of("kepler", "hbvm:3,2", "1/1000", "1e6") + Arguments{"--out", csv};
   const Outcome first = hbvm(run, 60, [&](pid_t child) {
     while (!std::filesystem::exists(csv)) usleep(1'000);
     const Outcome second = hbvm(run);
@@ -175,12 +172,9 @@ TEST(BadOutput, ThatAnotherRunWritesIsRefused) {
   EXPECT_EQ(first.code, 128 + SIGTERM);
 }
 
-TEST(BadOutput, OnAFullDiskIsRefused) { expect_refused(run_with("--out", "/dev/full"), {"/dev/full"}); }
-
 TEST(BadOutput, IsSeenBeforeLongComputations) {
-  const Arguments arguments{"run", "simple_pendulum", "--method", "hbvm:200,200", "--step",
-                            "0.1", "--until",         "1e6",      "--out",        "/nonexistent/trajectory.csv"};
-  expect_refused(arguments, {"'/nonexistent/trajectory.csv'"});
+  expect_refused(run_of("simple_pendulum", "hbvm:200,200", "0.1", "1e6") + Arguments{"--out", "/nonexistent/t.csv"},
+                 {"'/nonexistent/t.csv'"});
 }
 
 TEST(BadOutput, IsNotOpenedForAnotherMistake) {
@@ -200,10 +194,9 @@ TEST(BadOutput, DoesNotOverwriteTheScene) {
 }
 
 TEST(BadEvery, IsRefused) {
-  for (const char* every : {"0", "-1", "abc", "1.5", ""}) expect_refused(run_with("--every", every), {"every"});
+  for (const char* every : {"0", "-1", "abc", "1.5", "", "99999999999999999999"})
+    expect_refused(run_with("--every", every), {"every"});
 }
-
-TEST(BadEvery, OfTooManyDigitsIsRefused) { expect_refused(run_with("--every", "99999999999999999999"), {"every"}); }
 
 TEST(BadNodes, OutOfRangeAreRefused) {
   for (const char* n : {"0", "-1", "10001", "99999999999", "abc", "5.5", "1e3", ""}) expect_refused({"nodes", n}, {});

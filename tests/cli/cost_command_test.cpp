@@ -1,22 +1,20 @@
 #include <csignal>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "cli/program.hpp"
+#include "cli/json.hpp"
 
 namespace hbvm::core {
 namespace {
 
-using Json = nlohmann::json;
+using nlohmann::ordered_json;
 
 const Arguments small{"cost",   "double_pendulum", "--digits-range", "2:10", "--methods",
                       "rattle", "hbvm:3,3",        "--seconds",      "0.01"};
 
 /// What of the cells is no time.
-std::map<std::string, Json> timeless(const std::string& json) {
-  std::map<std::string, Json> result;
-  const Json parsed = Json::parse(json);
-  for (Json cell : parsed.at("cells")) {
+std::map<std::string, ordered_json> timeless(const ordered_json& json) {
+  std::map<std::string, ordered_json> result;
+  for (ordered_json cell : json.at("cells")) {
     for (const char* const time :
          {"seconds", "spread", "slowdown", "setup_seconds", "repetitions", "disturbed", "front"})
       cell.erase(time);
@@ -28,53 +26,42 @@ std::map<std::string, Json> timeless(const std::string& json) {
 TEST(CostCommand, WritesTablesAndFiguresAndGoesOn) {
   const Folder folder;
   const Arguments arguments = small + Arguments{"--out", folder / "out"};
-  const Outcome first = hbvm(arguments);
-  ASSERT_EQ(first.code, 0) << first.err;
-  expect_words(first.out, {"the least time for so many right digits"});
+  expect_words(ended_with(0, arguments).out, {"the least time for so many right digits"});
   for (const char* const file : {"cost.csv", "cost.csv-metadata.json", "cost.json", "cells.jsonl"})
     EXPECT_FALSE(text_of(folder / ("out/" + std::string(file))).empty()) << file;
-  const std::string store = folder / "out/cells.jsonl", all = text_of(store);
-  const std::string json = text_of(folder / "out/cost.json");
+  const std::string store = folder / "out/cells.jsonl", all = text_of(store), json = text_of(folder / "out/cost.json");
   // As if it had been ended in the middle of a line.
-  std::ofstream(store, std::ios::binary) << all.substr(0, all.size() / 2);
-  EXPECT_EQ(hbvm(arguments).code, 0);
-  EXPECT_EQ(timeless(text_of(folder / "out/cost.json")), timeless(json));
+  folder.write(store, all.substr(0, all.size() / 2));
+  ended_with(0, arguments);
+  EXPECT_EQ(timeless(ordered_json::parse(text_of(folder / "out/cost.json"))), timeless(ordered_json::parse(json)));
 }
 
 TEST(CostCommand, MergesShards) {
   const Folder folder;
-  Arguments merged = small + Arguments{"--out", folder / "merged", "--json", "--merge"};
+  Arguments merged = small + Arguments{"--json", "--out", folder / "merged", "--merge"};
   for (int i = 1; i <= 5; ++i) {
     const std::string out = folder / std::to_string(i);
-    const Outcome part = hbvm(small + Arguments{"--out", out, "--shard", std::to_string(i) + "/5"});
-    ASSERT_EQ(part.code, 0) << part.err;
+    ended_with(0, small + Arguments{"--out", out, "--shard", std::to_string(i) + "/5"});
     merged.push_back(out + "/cells.jsonl");
   }
-  const Outcome all = hbvm(merged), alone = hbvm(small + Arguments{"--json"});
-  ASSERT_EQ(all.code, 0) << all.err;
-  EXPECT_EQ(timeless(all.out), timeless(alone.out));
+  EXPECT_EQ(timeless(ordered_json::parse(ended_with(0, merged).out)), timeless(json_of(small)));
   merged.pop_back();
-  EXPECT_EQ(hbvm(merged).code, 0) << "what is in --out is known";
+  ended_with(0, merged);  // what is in --out is known
 }
 
 TEST(CostCommand, PicksTheCheapestSetting) {
-  const Outcome outcome = hbvm({"cost", "double_pendulum", "--digits", "8", "--json"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const Json json = Json::parse(outcome.out);
+  const ordered_json json = json_of({"cost", "double_pendulum", "--digits", "8"});
   EXPECT_EQ(json.at("digits"), 8);
   EXPECT_LE(json.at("measured").at("error"), 1e-8);
   EXPECT_GT(json.at("measured").at("seconds"), 0);
   EXPECT_GT(json.at("predicted").at("seconds"), 0);
   EXPECT_FALSE(json.at("runners_up").empty());
   // The command it ends with makes that run.
-  const Json& pick = json.at("pick");
-  EXPECT_EQ(json.at("run"), "hbvm run double_pendulum --method " + pick.at("method").get<std::string>() + " --step " +
-                                pick.at("step").get<std::string>() + " --until 10 --precision " +
-                                pick.at("precision").get<std::string>());
-  EXPECT_EQ(hbvm({"run", "double_pendulum", "--method", pick.at("method"), "--step", pick.at("step"), "--until", "10",
-                  "--precision", pick.at("precision")})
-                .code,
-            0);
+  const ordered_json& pick = json.at("pick");
+  const std::string method = pick.at("method"), step = pick.at("step"), precision = pick.at("precision");
+  EXPECT_EQ(json.at("run"),
+            "hbvm run double_pendulum --method " + method + " --step " + step + " --until 10 --precision " + precision);
+  ended_with(0, run_of("double_pendulum", method, step, "10") + Arguments{"--precision", precision});
 }
 
 TEST(CostCommand, RefusesWhatItCannotMean) {

@@ -1,8 +1,6 @@
 // Runs of scenes with formulas, by every kind of method.
 
-#include <nlohmann/json.hpp>
-
-#include "cli/program.hpp"
+#include "cli/json.hpp"
 #include "scene/formula_scene.hpp"
 
 namespace hbvm::core {
@@ -10,10 +8,7 @@ namespace {
 
 /// The end of a run, digit for digit.
 std::string end_of(const std::string& scene, const std::string& method, const std::string& precision) {
-  const Outcome run =
-      hbvm({"run", scene, "--method", method, "--step", "1/32", "--until", "1/2", "--precision", precision, "--json"});
-  EXPECT_EQ(run.code, 0) << run.err;
-  const auto json = nlohmann::ordered_json::parse(run.out);
+  const auto json = json_of(run_of(scene, method, "1/32", "1/2") + Arguments{"--precision", precision});
   return json["q"].dump() + json["p"].dump() + json["lambda"].dump() + json["e_H"].dump();
 }
 
@@ -37,9 +32,7 @@ TEST(Formulas, EndWithATypedErrorWhereTheyHaveNoValue) {
                    "[-1, 0] }]\n[[effect]]\nkind = \"formula\"\nU = \"-x*sqrt(x)\"\n");
   for (const char* const precision : {"double", "quad", "mpfr:40"})
     for (const char* const method : {"hbvm:3,2", "rattle", "energy_momentum", "rkf78"}) {
-      const Outcome run =
-          hbvm({"run", scene, "--method", method, "--step", "1/16", "--until", "5", "--precision", precision});
-      EXPECT_EQ(run.code, 3) << method << precision << run.err;
+      const Outcome run = ended_with(3, run_of(scene, method, "1/16", "5") + Arguments{"--precision", precision});
       EXPECT_EQ(run.out.find("nan"), std::string::npos) << method;
     }
 }

@@ -4,11 +4,8 @@ namespace hbvm::core {
 namespace {
 
 TEST(HelpCommand, SaysWhatTheOptionSays) {
-  for (const Arguments& command : {Arguments{}, {"run"}, {"audit"}, {"scene"}, {"scene", "check"}}) {
-    const Outcome asked = hbvm(Arguments{"help"} + command);
-    EXPECT_EQ(asked.code, 0) << asked.err;
-    EXPECT_EQ(asked.out, hbvm(command + Arguments{"--help"}).out);
-  }
+  for (const Arguments& command : {Arguments{}, {"run"}, {"audit"}, {"scene"}, {"scene", "check"}})
+    EXPECT_EQ(ended_with(0, Arguments{"help"} + command).out, hbvm(command + Arguments{"--help"}).out);
 }
 
 TEST(HelpCommand, RefusesWhatIsNoCommand) {

@@ -1,12 +1,28 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "cli/program.hpp"
+
 namespace hbvm::core {
+
+/// What the program prints with --json if all is well. On standard error it names these files and says nothing else.
+inline nlohmann::ordered_json json_of(const Arguments& arguments, const Arguments& files = {}) {
+  const Outcome outcome = ended_with(0, arguments + Arguments{"--json"});
+  EXPECT_EQ(outcome.err, written(files));
+  return nlohmann::ordered_json::parse(outcome.out);
+}
+
+/// The object has these members, with these values, and may have others.
+inline void expect_members(const nlohmann::ordered_json& object, const nlohmann::ordered_json& members) {
+  for (const auto& [key, value] : members.items()) EXPECT_EQ(object.at(key), value) << key;
+}
 
 inline std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
   std::vector<std::string> keys;

@@ -24,8 +24,7 @@ TEST(Help, ListsTheSubcommands) {
 }
 
 void expect_help(const Arguments& arguments) {
-  const Outcome help = hbvm(arguments);
-  EXPECT_EQ(help.code, 0);
+  const Outcome help = ended_with(0, arguments);
   EXPECT_EQ(help.err, "");
   expect_words(help.out, {"Example", "hbvm " + (arguments.size() > 1 ? arguments[0] : std::string())});
 }
@@ -41,10 +40,9 @@ TEST(Help, OfEverySubcommandShowsAnExample) {
 
 TEST(Help, OfTheSubcommandsOfSceneShowsAnExample) {
   for (const char* name : {"check", "project"}) {
-    const Outcome help = hbvm({"scene", name, "--help"});
-    EXPECT_EQ(help.code, 0) << help.err;
-    expect_words(help.out, {"Example: hbvm scene " + std::string(name), "--precision"});
-    EXPECT_EQ(help.out.find("--out") != std::string::npos, name == std::string("project")) << help.out;
+    const std::string help = ended_with(0, {"scene", name, "--help"}).out;
+    expect_words(help, {"Example: hbvm scene " + std::string(name), "--precision"});
+    EXPECT_EQ(help.find("--out") != std::string::npos, name == std::string("project")) << help;
   }
 }
 
@@ -55,10 +53,9 @@ TEST(Help, OfRunNamesEveryOption) {
 }
 
 TEST(Version, IsOneLine) {
-  const Outcome version = hbvm({"--version"});
-  EXPECT_EQ(version.code, 0);
-  ASSERT_EQ(lines_of(version.out).size(), 1u);
-  EXPECT_TRUE(version.out.starts_with("0.")) << version.out;
+  const std::string version = ended_with(0, {"--version"}).out;
+  ASSERT_EQ(lines_of(version).size(), 1u);
+  EXPECT_TRUE(version.starts_with("0.")) << version;
 }
 
 }  // namespace

@@ -14,13 +14,9 @@ using nlohmann::ordered_json;
 TEST(Nodes, AsJsonAreTheLibrarysWithAllDigits) {
   for (const char* precision : {"double", "quad", "mpfr:50", "mpfr:200"})
     for (const int n : {1, 5, 20}) {
-      const Outcome outcome = hbvm({"nodes", std::to_string(n), "--precision", precision, "--json"});
-      ASSERT_EQ(outcome.code, 0) << outcome.err;
-      EXPECT_EQ(outcome.err, "");
-      const ordered_json j = ordered_json::parse(outcome.out);
+      const ordered_json j = json_of({"nodes", std::to_string(n), "--precision", precision});
       EXPECT_EQ(keys_of(j), (std::vector<std::string>{"n", "precision", "c", "b"}));
-      EXPECT_EQ(j["n"], n);
-      EXPECT_EQ(j["precision"], precision);
+      expect_members(j, {{"n", n}, {"precision", precision}});
       std::vector<std::string> c, b;
       with_scalar(Precision::parse(precision), [&]<Scalar S>() {
         const Quadrature<S> formula = gauss_legendre<S>(n);
@@ -31,22 +27,19 @@ TEST(Nodes, AsJsonAreTheLibrarysWithAllDigits) {
         }
         return 0;
       });
-      EXPECT_EQ(j["c"], c);
-      EXPECT_EQ(j["b"], b);
+      expect_members(j, {{"c", c}, {"b", b}});
     }
 }
 
 TEST(Nodes, OfTwoAreKnown) {
-  const ordered_json j = ordered_json::parse(hbvm({"nodes", "2", "--precision", "mpfr:40", "--json"}).out);
+  const ordered_json j = json_of({"nodes", "2", "--precision", "mpfr:40"});
   EXPECT_TRUE(j["c"][0].get<std::string>().starts_with("0.211324865405187117745425609749"));  // (1 - 1/sqrt(3))/2
   EXPECT_TRUE(j["c"][1].get<std::string>().starts_with("0.788675134594812882254574390250"));
   EXPECT_EQ(j["b"], (std::vector<std::string>{"0.5", "0.5"}));
 }
 
 TEST(Nodes, WithoutJsonAreLinesOfTwoNumbers) {
-  const Outcome outcome = hbvm({"nodes", "5"});
-  EXPECT_EQ(outcome.code, 0);
-  const std::vector<std::string> lines = lines_of(outcome.out);
+  const std::vector<std::string> lines = lines_of(ended_with(0, {"nodes", "5"}).out);
   ASSERT_EQ(lines.size(), 6u);
   EXPECT_TRUE(lines[0].starts_with("#"));
   double sum = 0;

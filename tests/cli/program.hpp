@@ -85,6 +85,13 @@ inline Outcome hbvm(const Arguments& arguments, unsigned cpu_limit = 60,
       meanwhile);
 }
 
+/// The program, which ends with this exit code.
+inline Outcome ended_with(int code, const Arguments& arguments, unsigned cpu_limit = 60) {
+  const Outcome outcome = hbvm(arguments, cpu_limit);
+  EXPECT_EQ(outcome.code, code) << ::testing::PrintToString(arguments) << '\n' << outcome.err << outcome.out;
+  return outcome;
+}
+
 /// Kills the program, by SIGPROF, once it has used so many microseconds of processor time. Where that is in its work
 /// does not depend on what else the machine does.
 inline Outcome hbvm_killed_after(long microseconds, const Arguments& arguments) {
@@ -97,6 +104,12 @@ inline Outcome hbvm_killed_after(long microseconds, const Arguments& arguments) 
 inline Arguments operator+(Arguments a, const Arguments& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
+}
+
+/// What it takes to run a scene.
+inline Arguments run_of(const std::string& scene, const std::string& method, const std::string& step,
+                        const std::string& until) {
+  return {"run", scene, "--method", method, "--step", step, "--until", until};
 }
 
 inline std::vector<std::string> lines_of(const std::string& text) {
@@ -118,11 +131,8 @@ inline Arguments with_metadata(const std::string& csv) { return {csv, csv + "-me
 
 /// Exit code 2, nothing on standard output, one line on standard error that holds these words.
 inline void expect_refused(const Arguments& arguments, const std::vector<std::string>& words) {
-  const Outcome outcome = hbvm(arguments);
-  std::string command = "hbvm";
-  for (const std::string& argument : arguments) command += " '" + argument + "'";
-  SCOPED_TRACE(command);
-  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  SCOPED_TRACE(::testing::PrintToString(arguments));
+  const Outcome outcome = ended_with(2, arguments);
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
   EXPECT_TRUE(outcome.err.ends_with('\n'));

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "cli/program.hpp"
+#include "cli/json.hpp"
 #include "read_file.hpp"
 #include "verification/sources.hpp"
 
@@ -31,6 +30,11 @@ struct MarkdownTable {
       if (header[i] == name && nth-- == 0) return i;
     ADD_FAILURE() << "there is no column " << name;
     return 0;
+  }
+  /// The only row of a kind. \throws if there is none, or another
+  const Row& row(const std::function<bool(const Row&)>& is) const {
+    if (std::count_if(rows.begin(), rows.end(), is) != 1) throw std::runtime_error("no such row, or several");
+    return *std::find_if(rows.begin(), rows.end(), is);
   }
 };
 
@@ -78,19 +82,12 @@ void expect_quoted(const std::string& quoted, const std::string& computed, doubl
       << where << ": " << quoted << ", computed " << computed;
 }
 
-nlohmann::json json_result(const Arguments& arguments) {
-  const Outcome outcome = hbvm(arguments + Arguments{"--json"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  return nlohmann::json::parse(outcome.out);
-}
-
 TEST(ReadmeFigures, OfTheSatellitesAreThoseOfTheRuns) {
   const MarkdownTable quoted = table_of(page("studies/tethered_satellites/README.md"), "| k | s | until |");
   ASSERT_EQ(quoted.rows.size(), 5u);
   for (const Row& row : quoted.rows) {
     const std::string method = "hbvm:" + row[0] + "," + row[1], where = method + " until " + row[2];
-    const auto run =
-        json_result({"run", "tethered_satellites", "--method", method, "--step", "0.1", "--until", row[2]});
+    const auto run = json_of(run_of("tethered_satellites", method, "0.1", row[2]));
     const double e_H = std::stod(row[quoted.column("e_H")]);
     if (row[2] == "1000" &&
         e_H > 1e-11) {  // after t = 450 the motion is another one with every last bit, as the page says
@@ -103,25 +100,20 @@ TEST(ReadmeFigures, OfTheSatellitesAreThoseOfTheRuns) {
   }
 }
 
-/// Its tables, and the sentence on their check.
-class Study {
- public:
-  Study(const std::string& name, const std::string& precision)
-      : outcome_(hbvm({"study", (project / "studies" / name).string(), "--check", "--precision", precision, "--out",
-                       folder_ / "out"},
-                      120)) {
-    EXPECT_EQ(outcome_.code, 0) << outcome_.err << outcome_.out;
+/// What a study prints, and its table.
+struct Study {
+  Study(const std::string& name, const std::string& precision) {
+    const Folder folder;
+    out = ended_with(0,
+                     {"study", (project / "studies" / name).string(), "--check", "--precision", precision, "--out",
+                      folder / "out"},
+                     120)
+              .out;
     std::string directory = precision;
     std::replace(directory.begin(), directory.end(), ':', '_');
-    table_ = text_of(std::filesystem::path(folder_ / "out") / name / directory / "table.md");
+    table = text_of(folder / ("out/" + name + "/" + directory + "/table.md"));
   }
-  const std::string& table() const { return table_; }
-  const std::string& out() const { return outcome_.out; }
-
- private:
-  Folder folder_;
-  Outcome outcome_;
-  std::string table_;
+  std::string out, table;
 };
 
 TEST(ReadmeFigures, CountWhatTheChecksCount) {
@@ -129,7 +121,7 @@ TEST(ReadmeFigures, CountWhatTheChecksCount) {
                                       {"table_2_modified_pendulum", "69 of 69"},
                                       {"table_3_conical_pendulum", "18 of 18"}}) {
     expect_words(page(std::string("studies/") + name + "/README.md"), {figures});
-    expect_words(Study(name, "double").out(), {std::string(figures) + " printed figures agree"});
+    expect_words(Study(name, "double").out, {std::string(figures) + " printed figures agree"});
   }
   expect_words(page("README.md"), {"165 of 165"});
 }
@@ -140,43 +132,34 @@ TEST(ReadmeFigures, OfTheNodesAreThoseOfTable2) {
   ASSERT_EQ(quoted.rows.size(), 4u);
   for (const auto& [precision, column, round_off] :
        {std::tuple("double", std::size_t{1}, 1e-15), {"mpfr:50", std::size_t{2}, 1e-45}}) {
-    const std::string table = Study("table_2_modified_pendulum", precision).table();
+    const std::string table = Study("table_2_modified_pendulum", precision).table;
     for (const Row& row : quoted.rows) {
       const std::size_t block = table.find("k = " + row[0]);
       ASSERT_NE(block, std::string::npos) << table;
       const MarkdownTable computed = table_of(table.substr(block), "| i ");
-      bool found = false;
-      for (const Row& of_i : computed.rows)
-        if (of_i[0] == "7") {
-          found = true;
-          const std::string where = std::string(precision) + ", k = " + row[0];
-          expect_quoted(row[column], of_i[computed.column("e_H")], round_off, where);
-          if (column == 2) {
-            EXPECT_EQ(row[3], of_i[computed.column("rate_H")]) << where;
-          }
-        }
-      EXPECT_TRUE(found) << table;
+      const Row& of_i = computed.row([](const Row& r) { return r[0] == "7"; });
+      const std::string where = std::string(precision) + ", k = " + row[0];
+      expect_quoted(row[column], of_i[computed.column("e_H")], round_off, where);
+      if (column == 2) {
+        EXPECT_EQ(row[3], of_i[computed.column("rate_H")]) << where;
+      }
     }
   }
 }
 
 TEST(ReadmeFigures, OfWhatIsConservedAreThoseOfTheStudy) {
   const MarkdownTable quoted = table_of(page("studies/conservation/README.md"), "| scene | k = s: e_H");
-  const MarkdownTable computed = table_of(Study("conservation", "mpfr:50").table(), "| scene ");
+  const MarkdownTable computed = table_of(Study("conservation", "mpfr:50").table, "| scene ");
   for (const Row& row : quoted.rows)
     for (const bool more : {false, true}) {
       const std::string where = row[0] + (more ? ", k = " + row[3] : ", k = s");
-      bool found = false;
-      for (const Row& result : computed.rows) {
-        if (result[0] != row[0] || (result[computed.column("nodes")] == "k > s") != more) continue;
-        found = true;
-        if (more) {
-          EXPECT_EQ(row[3], result[computed.column("k")]) << where;
-        }
-        expect_quoted(row[more ? 4 : 1], result[computed.column("e_H")], 1e-47, where + ", e_H");
-        expect_quoted(row[more ? 5 : 2], result[computed.column("e_L")], 1e-47, where + ", e_L");
+      const Row& result = computed.row(
+          [&](const Row& r) { return r[0] == row[0] && (r[computed.column("nodes")] == "k > s") == more; });
+      if (more) {
+        EXPECT_EQ(row[3], result[computed.column("k")]) << where;
       }
-      EXPECT_TRUE(found) << where;
+      expect_quoted(row[more ? 4 : 1], result[computed.column("e_H")], 1e-47, where + ", e_H");
+      expect_quoted(row[more ? 5 : 2], result[computed.column("e_L")], 1e-47, where + ", e_L");
     }
 }
 
@@ -188,22 +171,15 @@ TEST(ReadmeFigures, OfMoreNodesAreThoseOfTheRuns) {
     const int s = std::stoi(row[0].substr(16));
     for (std::size_t column = 1; column < 4; ++column) {
       const int k = s + std::stoi(quoted.header[column]);
-      const auto run =
-          json_result({"run", "tethered_satellites", "--method", "hbvm:" + std::to_string(k) + "," + std::to_string(s),
-                       "--step", "1/16", "--until", "8", "--precision", "mpfr:50", "--solver", "paper"});
+      const std::string method = "hbvm:" + std::to_string(k) + "," + std::to_string(s);
+      const auto run = json_of(run_of("tethered_satellites", method, "1/16", "8") +
+                               Arguments{"--precision", "mpfr:50", "--solver", "paper"});
       EXPECT_NEAR(std::stod(row[column]), double(run["iterations_per_step"]), 0.06) << row[0] << ", k = " << k;
     }
   }
 }
 
-/// Rows of a table in CSV, names first.
-std::vector<std::string> csv_rows(const std::string& file) {
-  std::vector<std::string> rows;
-  for (const std::string& line : lines_of(page(file)))
-    if (!line.empty()) rows.push_back(line);
-  return rows;
-}
-
+/// Of a table in CSV.
 long rows_with(const std::vector<std::string>& rows, const std::string& text) {
   return std::count_if(rows.begin(), rows.end(),
                        [&](const std::string& row) { return row.find(text) != std::string::npos; });
@@ -211,12 +187,12 @@ long rows_with(const std::vector<std::string>& rows, const std::string& text) {
 
 /// Hours of work made these tables, which stand beside the pages.
 TEST(ReadmeFigures, CountWhatTheLongTablesHold) {
-  const auto claims = csv_rows("studies/orders_beyond_round_off/tables/audit.csv");
+  const auto claims = lines_of(page("studies/orders_beyond_round_off/tables/audit.csv"));
   const std::string audit = page("studies/orders_beyond_round_off/README.md");
   expect_words(audit, {"All " + std::to_string(rows_with(claims, ",holds")) + " claims hold"});
   EXPECT_EQ(rows_with(claims, ",fails") + rows_with(claims, ",undecidable"), 0);
 
-  const auto cases = csv_rows("studies/stability/tables/stability.csv");
+  const auto cases = lines_of(page("studies/stability/tables/stability.csv"));
   long holds = 0, fails = 0, warns = 0;
   for (const std::string& row : cases) {
     holds += row.ends_with(",holds");

@@ -9,13 +9,8 @@ namespace {
 using nlohmann::ordered_json;
 
 TEST(ReferenceCommand, PrintsJson) {
-  const Outcome outcome =
-      hbvm({"reference", "simple_pendulum", "--until", "10", "--at", "5/2,10", "--digits", "40", "--json"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const ordered_json j = ordered_json::parse(outcome.out);
-  EXPECT_EQ(j["scene"], "simple_pendulum");
-  EXPECT_EQ(j["until"], "10");
-  EXPECT_EQ(j["digits"], 40);
+  const ordered_json j = json_of({"reference", "simple_pendulum", "--until", "10", "--at", "5/2,10", "--digits", "40"});
+  expect_members(j, {{"scene", "simple_pendulum"}, {"until", "10"}, {"digits", 40}});
   ASSERT_EQ(j["times"].size(), 2u);
   EXPECT_EQ(j["times"][0]["t"], "5/2");
   for (const auto& state : j["times"]) {
@@ -37,11 +32,10 @@ TEST(ReferenceCommand, PrintsJson) {
 }
 
 TEST(ReferenceCommand, GivesTheClosedFormAloneIfThereIsOne) {
-  const Outcome known =
-      hbvm({"reference", "spherical_pendulum", "--until", "3", "--digits", "20", "--route", "closed_form"});
-  EXPECT_EQ(known.code, 0) << known.err;
-  expect_words(known.out, {"by one route", "closed form: spherical pendulum (elliptic integrals)"});
-  expect_refused({"reference", "heavy_top", "--until", "1", "--digits", "20", "--route", "closed_form"},
+  const Arguments alone{"--digits", "20", "--route", "closed_form"};
+  expect_words(ended_with(0, Arguments{"reference", "spherical_pendulum", "--until", "3"} + alone).out,
+               {"by one route", "closed form: spherical pendulum (elliptic integrals)"});
+  expect_refused(Arguments{"reference", "heavy_top", "--until", "1"} + alone,
                  {"no closed form of the motion of 'heavy_top' is known"});
 }
 
@@ -49,18 +43,16 @@ TEST(ReferenceCommand, GivesTheClosedFormAloneIfThereIsOne) {
 TEST(ReferenceCommand, GoesOnFromACheckpoint) {
   const Folder folder;
   const std::string file = folder / "way.jsonl";
-  const std::vector<std::string> command{"reference", "double_pendulum", "--until",      "3", "--digits",
-                                         "20",        "--json",          "--checkpoint", file};
-  const Outcome first = hbvm(command);
-  ASSERT_EQ(first.code, 0) << first.err;
+  const Arguments command = Arguments{"reference", "double_pendulum", "--until", "3", "--digits", "20", "--json"} +
+                            Arguments{"--checkpoint", file};
+  const Outcome first = ended_with(0, command);
   const auto legs = [&file] {
     std::vector<std::string> lines = lines_of(text_of(file));
     std::erase(lines, "");
     return lines.size();
   };
   EXPECT_EQ(legs(), 2u) << "one of either route";
-  const Outcome second = hbvm(command);
-  EXPECT_EQ(second.out, first.out) << "to the processor times, which are those of the first";
+  EXPECT_EQ(hbvm(command).out, first.out) << "to the processor times, which are those of the first";
   EXPECT_EQ(legs(), 2u);
   expect_refused({"reference", "double_pendulum", "--until", "3", "--checkpoint", folder / "."}, {folder / "."});
 }
@@ -70,13 +62,9 @@ TEST(ReferenceCommand, GoesOnFromACheckpoint) {
 TEST(ReferenceCommand, WritesAFileAndFindsAWrongDigitInIt) {
   const Folder folder;
   const std::string file = folder / "reference.toml";
-  const Outcome made =
-      hbvm({"reference", "conical_pendulum", "--until", "1", "--at", "1/2,1", "--digits", "25", "--out", file});
-  ASSERT_EQ(made.code, 0) << made.err;
-  expect_words(made.out, {"the routes agree in"});
-  const Outcome verified = hbvm({"reference", "--verify", file});
-  EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
-  expect_words(verified.out, {"all digits of 2 times"});
+  const Arguments make{"reference", "conical_pendulum", "--until", "1", "--at", "1/2,1", "--digits", "25"};
+  expect_words(ended_with(0, make + Arguments{"--out", file}).out, {"the routes agree in"});
+  expect_words(ended_with(0, {"reference", "--verify", file}).out, {"all digits of 2 times"});
   const std::string right = text_of(file);
   const std::size_t second = right.find("t = \"1\"");
   ASSERT_NE(second, std::string::npos);
@@ -96,8 +84,7 @@ TEST(ReferenceCommand, WritesAFileAndFindsAWrongDigitInIt) {
       ASSERT_NE(text[at], '.');
       text[at] = text[at] == '7' ? '8' : '7';
       folder.write("reference.toml", text);
-      const Outcome wrong = hbvm({"reference", "--verify", file, "--route", last ? "taylor" : "hbvm"});
-      EXPECT_EQ(wrong.code, 1) << place.name;
+      const Outcome wrong = ended_with(1, {"reference", "--verify", file, "--route", last ? "taylor" : "hbvm"});
       expect_words(wrong.out, {std::string("t = 1: ") + place.name + " is " + right.substr(begin, end - begin),
                                ", not " + text.substr(begin, end - begin), ": 1 numbers differ"});
     }
@@ -110,43 +97,29 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   std::string files;
   for (const char* steps : {"16", "32", "64", "128"}) {
     const std::string file = folder / (std::string(steps) + ".csv");
-    ASSERT_EQ(hbvm({"run", "simple_pendulum", "--method", "rattle", "--step", std::string("1/") + steps, "--until", "4",
-                    "--every", "8", "--out", file})
-                  .code,
-              0);
+    ended_with(0, run_of("simple_pendulum", "rattle", std::string("1/") + steps, "4") +
+                      Arguments{"--every", "8", "--out", file});
     files += (files.empty() ? "" : ",") + file;
   }
-  const Outcome text = hbvm({"reference", "simple_pendulum", "--against", files});
-  EXPECT_EQ(text.code, 0) << text.err;
-  expect_words(text.out, {"right digits beside a reference of ", ", computed now\n", "1 times at the start",
-                          "most is lost between t = "});
-  const Outcome json = hbvm({"reference", "--scene", "simple_pendulum", "--against", files, "--json"});
-  ASSERT_EQ(json.code, 0) << json.err;
-  const ordered_json j = ordered_json::parse(json.out);
+  const auto against = [](const std::string& results) {
+    return Arguments{"reference", "simple_pendulum", "--against", results};
+  };
+  expect_words(ended_with(0, against(files)).out, {"right digits beside a reference of ", ", computed now\n",
+                                                   "1 times at the start", "most is lost between t = "});
+  const ordered_json j = json_of({"reference", "--scene", "simple_pendulum", "--against", files});
   ASSERT_EQ(j["files"].size(), 4u);
   ASSERT_EQ(j["orders"].size(), 3u);
   for (const auto& order : j["orders"]) EXPECT_NEAR(order.get<double>(), 2, 0.05);
   // A step is stored beside each file, and the order of their names says nothing.
-  const Outcome shuffled = hbvm({"reference", "simple_pendulum", "--against",
-                                 (folder / "32.csv") + "," + (folder / "128.csv") + "," + (folder / "64.csv"),
-                                 "--expect-order", "2", "--require", "2.5"});
-  EXPECT_EQ(shuffled.code, 0) << shuffled.err;
-  expect_words(shuffled.out, {"32.csv to "});
-  const Outcome fourth = hbvm({"reference", "simple_pendulum", "--against", files, "--expect-order", "4"});
-  EXPECT_EQ(fourth.code, 1);
-  expect_words(fourth.err, {"the order is 2.0"});
-  const Outcome more = hbvm({"reference", "simple_pendulum", "--against", files, "--require", "12"});
-  EXPECT_EQ(more.code, 1);
-  expect_words(more.err, {"digits are right, and not 12"});
-  EXPECT_EQ(hbvm({"reference", "simple_pendulum", "--against", files, "--steps", "1,2"}).code, 2);
-  EXPECT_EQ(hbvm({"reference", "simple_pendulum", "--steps", "1"}).code, 2);
+  const Arguments shuffled = against((folder / "32.csv") + "," + (folder / "128.csv") + "," + (folder / "64.csv"));
+  expect_words(ended_with(0, shuffled + Arguments{"--expect-order", "2", "--require", "2.5"}).out, {"32.csv to "});
+  expect_words(ended_with(1, against(files) + Arguments{"--expect-order", "4"}).err, {"the order is 2.0"});
+  expect_words(ended_with(1, against(files) + Arguments{"--require", "12"}).err, {"digits are right, and not 12"});
+  ended_with(2, against(files) + Arguments{"--steps", "1,2"});
+  ended_with(2, {"reference", "simple_pendulum", "--steps", "1"});
   const std::string file = folder / "hbvm.csv";
-  ASSERT_EQ(hbvm({"run", "simple_pendulum", "--method", "hbvm:8,8", "--step", "1/8", "--until", "4", "--precision",
-                  "mpfr:40", "--out", file})
-                .code,
-            0);
-  const ordered_json many =
-      ordered_json::parse(hbvm({"reference", "simple_pendulum", "--against", file, "--json"}).out);
+  ended_with(0, run_of("simple_pendulum", "hbvm:8,8", "1/8", "4") + Arguments{"--precision", "mpfr:40", "--out", file});
+  const ordered_json many = json_of(against(file));
   for (const auto& [name, digits] : many["files"][0]["right_digits"].items())
     for (const auto& right : digits) EXPECT_GT(right.get<double>(), 12) << name;
 }
@@ -165,16 +138,15 @@ TEST(ReferenceCommand, SaysFirstThatAStartIsAnother) {
 }
 
 TEST(ReferenceCommand, RefusesWhatItCannotDo) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"reference"},
-        {"reference", "simple_pendulum"},
-        {"reference", "simple_pendulum", "--until", "-1"},
-        {"reference", "simple_pendulum", "--until", "x"},
-        {"reference", "simple_pendulum", "--until", "1", "--digits", "0"},
-        {"reference", "simple_pendulum", "--until", "1", "--route", "euler"},
-        {"reference", "nonsense", "--until", "1"},
-        {"reference", "--verify", "/nonexistent"},
-        {"reference", "--show", "nonsense"}})
+  for (const Arguments& arguments : {Arguments{"reference"},
+                                     {"reference", "simple_pendulum"},
+                                     {"reference", "simple_pendulum", "--until", "-1"},
+                                     {"reference", "simple_pendulum", "--until", "x"},
+                                     {"reference", "simple_pendulum", "--until", "1", "--digits", "0"},
+                                     {"reference", "simple_pendulum", "--until", "1", "--route", "euler"},
+                                     {"reference", "nonsense", "--until", "1"},
+                                     {"reference", "--verify", "/nonexistent"},
+                                     {"reference", "--show", "nonsense"}})
     expect_refused(arguments, {});
 }
 
@@ -182,9 +154,8 @@ TEST(ReferenceCommand, RefusesWhatItCannotDo) {
 TEST(ReferenceCommand, SaysWhereTheMotionEnds) {
   const Folder folder;
   const std::string file = folder.write("fall.toml", fall());
-  const Outcome outcome = hbvm({"reference", file, "--until", "2", "--digits", "20"});
-  EXPECT_EQ(outcome.code, 3);
-  expect_words(outcome.err, {"singularity at about t = 1.11"});
+  expect_words(ended_with(3, {"reference", file, "--until", "2", "--digits", "20"}).err,
+               {"singularity at about t = 1.11"});
 }
 
 }  // namespace

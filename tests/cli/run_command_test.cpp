@@ -7,10 +7,10 @@
 
 #include "cli/json.hpp"
 #include "cli/program.hpp"
-#include "csv_line.hpp"
 #include "integrate/drift.hpp"
 #include "integrate/output_state.hpp"
 #include "integrate/runs.hpp"
+#include "report/csv_table.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
@@ -21,13 +21,6 @@ namespace {
 using nlohmann::ordered_json;
 using Texts = std::vector<std::string>;
 
-ordered_json json_of(const Arguments& arguments, const Arguments& files = {}) {
-  const Outcome outcome = hbvm(arguments + Arguments{"--json"});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, written(files));
-  return ordered_json::parse(outcome.out);
-}
-
 template <Scalar S>
 Texts to_texts(const Vector<S>& v) {
   Texts result;
@@ -36,81 +29,68 @@ Texts to_texts(const Vector<S>& v) {
 }
 
 TEST(RunJson, HasExactlyTheFieldsOfTheIssue) {
-  const ordered_json j = json_of({"run", "simple_pendulum", "--method", "hbvm:3,2", "--step", "1/8", "--until", "2",
-                                  "--precision", "quad", "--solver", "paper"});
+  const ordered_json j = json_of(run_of("simple_pendulum", "hbvm:3,2", "1/8", "2") +
+                                 Arguments{"--precision", "quad", "--solver", "paper"});
   EXPECT_EQ(keys_of(j), words_of("scene method solver precision step until steps t q p q_carry p_carry lambda output "
                                  "e_H e_g e_hid health iterations_per_step cpu_seconds version command title "
                                  "scene_text"));
   EXPECT_EQ(keys_of(j["output"]), (Texts{"p", "lambda", "delta_H"}));
-  EXPECT_EQ(j["scene"], "simple_pendulum");
-  EXPECT_EQ(j["method"], "hbvm:3,2");
-  EXPECT_EQ(j["solver"], "paper");
-  EXPECT_EQ(j["precision"], "quad");
-  EXPECT_EQ(j["step"], "0.125");
-  EXPECT_EQ(j["until"], "2");
-  EXPECT_EQ(j["steps"], 16);
-  EXPECT_EQ(j["t"], "2");
+  expect_members(j, ordered_json::parse(R"({"scene": "simple_pendulum", "method": "hbvm:3,2", "solver": "paper",
+      "precision": "quad", "step": "0.125", "until": "2", "steps": 16, "t": "2", "title": "Simple pendulum", "command":
+      "hbvm run simple_pendulum --method hbvm:3,2 --step '1/8' --until '2' --precision quad --solver paper"})"));
+  EXPECT_EQ(j["version"], lines_of(hbvm({"--version"}).out).at(0));
+  EXPECT_EQ(j["scene_text"], write_scene(load_scene("simple_pendulum")));
   EXPECT_EQ(j["q"].size(), 2u);
   EXPECT_EQ(j["p"].size(), 2u);
   EXPECT_EQ(j["lambda"].size(), 1u);
   EXPECT_GT(j["iterations_per_step"].get<double>(), 2);
   EXPECT_GE(j["cpu_seconds"].get<double>(), 0);
-  EXPECT_EQ(j["version"], lines_of(hbvm({"--version"}).out).at(0));
-  EXPECT_EQ(j["command"],
-            "hbvm run simple_pendulum --method hbvm:3,2 --step '1/8' --until '2' --precision quad --solver paper");
-  EXPECT_EQ(j["title"], "Simple pendulum");
-  EXPECT_EQ(j["scene_text"], write_scene(load_scene("simple_pendulum")));
 }
 
 TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
   for (const char* precision : {"double", "quad", "mpfr:50", "mpfr:300"}) {
-    const ordered_json j = json_of({"run", "modified_pendulum", "--method", "hbvm:3,2", "--step", "1/16", "--until",
-                                    "1", "--solver", "fixed-point", "--precision", precision});
+    const ordered_json j = json_of(run_of("modified_pendulum", "hbvm:3,2", "1/16", "1") +
+                                   Arguments{"--solver", "fixed-point", "--precision", precision});
     with_scalar(Precision::parse(precision), [&]<Scalar S>() {
       SceneRun<S> run(load_scene("modified_pendulum"), 3, 2, "1/16", "1");
       Drift<S> drift(run.scene.problem);
       const Integration<S> result = run({&drift});
       StateEvaluator<S> point(run.scene.problem);
       const OutputState<S> output = output_state(point, result.end.q, result.end.p);
-      EXPECT_EQ(j["q"], to_texts<S>(result.end.q));
-      EXPECT_EQ(j["p"], to_texts<S>(result.end.p));
+      expect_members(j, {{"q", to_texts<S>(result.end.q)}, {"p", to_texts<S>(result.end.p)}});
       EXPECT_EQ(j["lambda"], to_texts<S>(result.end.lambda));
-      EXPECT_EQ(j["output"]["p"], to_texts<S>(output.p));
-      EXPECT_EQ(j["output"]["lambda"], to_texts<S>(output.lambda));
+      expect_members(j["output"], {{"p", to_texts<S>(output.p)}, {"lambda", to_texts<S>(output.lambda)}});
       EXPECT_EQ(j["output"]["delta_H"], to_text(S(point.energy(result.end.q, output.p) - drift.H0())));
-      EXPECT_EQ(j["e_H"], to_text(drift.e_H()));
-      EXPECT_EQ(j["e_g"], to_text(drift.e_g()));
-      EXPECT_EQ(j["e_hid"], to_text(drift.e_hid()));
+      expect_members(j,
+                     {{"e_H", to_text(drift.e_H())}, {"e_g", to_text(drift.e_g())}, {"e_hid", to_text(drift.e_hid())}});
       return 0;
     });
   }
 }
 
 TEST(RunHealth, IsInTheJsonAndTheText) {
-  const Arguments lossy{"run", "tethered_satellites", "--method", "hbvm:1,1", "--step", "0.1", "--until", "20"};
+  const Arguments lossy = run_of("tethered_satellites", "hbvm:1,1", "0.1", "20");
   const ordered_json health = json_of(lossy)["health"];
   EXPECT_EQ(keys_of(health), (Texts{"condition", "worst_e_H", "worst_hidden", "warnings"}));
   EXPECT_NEAR(number(health["condition"]), 2, 0.01);
   ASSERT_EQ(health["warnings"].size(), 1u);
   EXPECT_EQ(keys_of(health["warnings"][0]), (Texts{"name", "text"}));
   EXPECT_EQ(health["warnings"][0]["name"], "energy_lost");
-  const std::string text = hbvm(lossy).out;
-  expect_words(text, {"energy error", "condition", "tangent space", "WARNING energy_lost"});
+  expect_words(hbvm(lossy).out, {"energy error", "condition", "tangent space", "WARNING energy_lost"});
 }
 
 TEST(RunStrict, MakesWarningsExitCode3AndPrintsAll) {
-  const auto arguments = [](const char* method) {
-    return Arguments{"run", "tethered_satellites", "--method", method, "--step", "0.1", "--until", "20", "--json"};
+  const auto run = [](const char* method) {
+    return run_of("tethered_satellites", method, "0.1", "20") + Arguments{"--json"};
   };
-  const Outcome strict = hbvm(arguments("hbvm:1,1") + Arguments{"--strict"});
-  EXPECT_EQ(strict.code, 3);
+  const Outcome strict = ended_with(3, run("hbvm:1,1") + Arguments{"--strict"});
   EXPECT_EQ(ordered_json::parse(strict.out)["health"]["warnings"].size(), 1u);
-  EXPECT_EQ(hbvm(arguments("hbvm:1,1")).code, 0);
-  EXPECT_EQ(hbvm(arguments("hbvm:5,1") + Arguments{"--strict"}).code, 0);
+  ended_with(0, run("hbvm:1,1"));
+  ended_with(0, run("hbvm:5,1") + Arguments{"--strict"});
 }
 
 TEST(RunShadow, IsInTheJsonAndTheTextIfAskedFor) {
-  const Arguments run{"run", "double_pendulum", "--method", "hbvm:2,2", "--step", "1/16", "--until", "2"};
+  const Arguments run = run_of("double_pendulum", "hbvm:2,2", "1/16", "2");
   EXPECT_FALSE(json_of(run).contains("shadow"));
   const ordered_json shadow = json_of(run + Arguments{"--shadow"})["shadow"];
   EXPECT_EQ(shadow["precision"], "mpfr:32");
@@ -120,20 +100,16 @@ TEST(RunShadow, IsInTheJsonAndTheTextIfAskedFor) {
   }
   EXPECT_EQ(keys_of(shadow["worst"]), (Texts{"component", "digits", "t", "every"}));
   EXPECT_EQ(hbvm(run).out.find(" digits\n"), std::string::npos);
-  const std::string text = hbvm(run + Arguments{"--shadow"}).out;
-  expect_words(text, {" digits\n", "against mpfr:32"});
+  expect_words(hbvm(run + Arguments{"--shadow"}).out, {" digits\n", "against mpfr:32"});
 }
 
 TEST(RunJson, WithoutConstraintsHasNoMultipliers) {
   const Folder folder;
   const std::string scene = folder.write("fall.toml", fall());
-  const ordered_json j = json_of({"run", scene, "--method", "hbvm:2,2", "--step", "0.1", "--until", "0.5"});
-  EXPECT_EQ(j["scene"], scene);
-  EXPECT_EQ(j["lambda"], ordered_json::array());
-  EXPECT_EQ(j["output"]["lambda"], ordered_json::array());
-  EXPECT_EQ(j["output"]["p"], j["p"]);
-  EXPECT_EQ(j["e_g"], "0");
-  EXPECT_EQ(j["e_hid"], "0");
+  const ordered_json j = json_of(run_of(scene, "hbvm:2,2", "0.1", "0.5"));
+  const ordered_json none = ordered_json::array();
+  expect_members(j, {{"scene", scene}, {"lambda", none}, {"e_g", "0"}, {"e_hid", "0"}});
+  expect_members(j["output"], {{"lambda", none}, {"p", j["p"]}});
 }
 
 TEST(RunJson, IsWrittenForASceneOfAnyName) {
@@ -141,15 +117,14 @@ TEST(RunJson, IsWrittenForASceneOfAnyName) {
        {"space here.toml", "\"quotes\".toml", "Übung.toml", "two\nlines.toml", "not_utf8_\xFF.toml"}) {
     const Folder folder;
     const std::string scene = folder.write(name, pendulum("1"));
-    const Outcome outcome = hbvm({"run", scene, "--method", "hbvm:1,1", "--step", "1/8", "--until", "1", "--json"});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = ended_with(0, run_of(scene, "hbvm:1,1", "1/8", "1") + Arguments{"--json"});
     EXPECT_TRUE(ordered_json::accept(outcome.out)) << outcome.out;
   }
 }
 
 TEST(Run, StepsAndTimesAreExpressions) {
-  const ordered_json j = json_of({"run", "conical_pendulum", "--method", "hbvm:2,2", "--step", "2^(3/4)*pi/10",
-                                  "--until", "2^(3/4)*pi", "--precision", "mpfr:30"});
+  const ordered_json j = json_of(run_of("conical_pendulum", "hbvm:2,2", "2^(3/4)*pi/10", "2^(3/4)*pi") +
+                                 Arguments{"--precision", "mpfr:30"});
   EXPECT_EQ(j["steps"], 10);
   const PrecisionScope digits(30);
   EXPECT_EQ(j["t"], to_text(literal<Mpfr>("2^(3/4)*pi")));
@@ -157,15 +132,14 @@ TEST(Run, StepsAndTimesAreExpressions) {
 }
 
 TEST(Run, WithoutJsonPrintsTextForReaders) {
-  const Outcome outcome = hbvm({"run", "simple_pendulum", "--method", "hbvm:2,2", "--step", "1/8", "--until", "1"});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = ended_with(0, run_of("simple_pendulum", "hbvm:2,2", "1/8", "1"));
   EXPECT_EQ(outcome.err, "");
   expect_words(outcome.out, {"simple_pendulum", "Simple pendulum", "hbvm:2,2", "double", "e_H", "e_g", "e_hid"});
 }
 
 /// The lines of the account, by name.
 std::map<std::string, ordered_json> account_of(const std::string& scene, const char* method) {
-  const ordered_json j = json_of({"run", scene, "--method", method, "--step", "1/16", "--until", "1/2", "--account"});
+  const ordered_json j = json_of(run_of(scene, method, "1/16", "1/2") + Arguments{"--account"});
   std::map<std::string, ordered_json> lines;
   for (const ordered_json& line : j["account"]) lines[line["name"]] = line;
   lines["run"] = j;
@@ -188,13 +162,12 @@ TEST(RunAccount, CountsWhatTheSceneNames) {
   EXPECT_EQ(lines["coulomb"]["calls"], n);
   EXPECT_EQ(lines["coulomb"]["evaluations"], 3 * n);
   // x = q - (2, 0); r^2, 1/r and c/r^3; two products and the sum into the force.
-  const ordered_json& operations = lines["coulomb"]["operations"];
-  EXPECT_EQ(operations["add"], (2 + 1 + 2) * 3 * n);
-  EXPECT_EQ(operations["multiply"], (2 + 3 + 2) * 3 * n);
-  EXPECT_EQ(operations["divide"], 3 * n);
-  EXPECT_EQ(operations["sqrt"], 3 * n);
-  EXPECT_EQ(operations["subtract"], 0);
-  EXPECT_EQ(operations["cos"], 0);
+  expect_members(lines["coulomb"]["operations"], {{"add", (2 + 1 + 2) * 3 * n},
+                                                  {"multiply", (2 + 3 + 2) * 3 * n},
+                                                  {"divide", 3 * n},
+                                                  {"sqrt", 3 * n},
+                                                  {"subtract", 0},
+                                                  {"cos", 0}});
   EXPECT_EQ(lines["constraint gradients"]["calls"], n);
   EXPECT_EQ(lines["multipliers at the nodes (29)"]["calls"], n);
   EXPECT_FALSE(lines["multipliers at the nodes (29)"].contains("evaluations"));
@@ -224,8 +197,8 @@ TEST(RunAccount, AddsUpToTheProcessorTime) {
                                                       {"restored_hbvm:4,2", "double"}, {"rkf78", "double"}};
   for (const auto& [method, precision] : runs)
     for (const char* solver : {"newton", "fixed-point"}) {
-      const ordered_json j = json_of({"run", "tethered_satellites", "--method", method, "--step", "1/4", "--until", "4",
-                                      "--precision", precision, "--solver", solver, "--account"});
+      const ordered_json j = json_of(run_of("tethered_satellites", method, "1/4", "4") +
+                                     Arguments{"--precision", precision, "--solver", solver, "--account"});
       double sum = 0;
       for (const ordered_json& line : j["account"]) {
         EXPECT_GE(line["seconds"], 0) << line["name"];
@@ -239,9 +212,8 @@ TEST(RunAccount, AddsUpToTheProcessorTime) {
 
 /// What Newton's solver does in double stands apart, and is not the sum of more digits.
 TEST(RunAccount, KeepsWhatIsInDoubleApart) {
-  const Arguments run{
-      "run",      "tethered_satellites", "--method", "hbvm:6,6", "--step", "1/4", "--until", "1", "--solver", "newton",
-      "--account"};
+  const Arguments run =
+      run_of("tethered_satellites", "hbvm:6,6", "1/4", "1") + Arguments{"--solver", "newton", "--account"};
   for (const bool digits : {false, true}) {
     const Arguments all = digits ? run + Arguments{"--precision", "mpfr:60"} : run;
     int in_double = 0;
@@ -259,19 +231,17 @@ TEST(RunAccount, KeepsWhatIsInDoubleApart) {
 }
 
 TEST(RunAccount, IsPrintedOnlyIfAskedFor) {
-  const Arguments run{"run", "kepler", "--method", "hbvm:2,2", "--step", "1/16", "--until", "1/2"};
+  const Arguments run = run_of("kepler", "hbvm:2,2", "1/16", "1/2");
   EXPECT_EQ(hbvm(run).out.find("central_gravity"), std::string::npos);
   EXPECT_FALSE(json_of(run).contains("account"));
-  const std::string text = hbvm(run + Arguments{"--account"}).out;
-  expect_words(text, {"8 steps, ", "central_gravity", "all effects", "momentum coefficients gamma (54)", "all parts"});
+  expect_words(hbvm(run + Arguments{"--account"}).out,
+               {"8 steps, ", "central_gravity", "all effects", "momentum coefficients gamma (54)", "all parts"});
 }
 
 TEST(RunAuto, ReportsTheKOfAPolynomial) {
-  const ordered_json j =
-      json_of({"run", "quartic_oscillator", "--method", "hbvm:auto,2", "--step", "1/16", "--until", "1"});
+  const ordered_json j = json_of(run_of("quartic_oscillator", "hbvm:auto,2", "1/16", "1"));
   EXPECT_EQ(j["method"], "hbvm:4,2");
-  EXPECT_EQ(j["chosen"]["k"], 4);
-  EXPECT_EQ(j["chosen"]["verified"], true);
+  expect_members(j["chosen"], {{"k", 4}, {"verified", true}});
   expect_words(j["chosen"]["because"].get<std::string>(), {"degree 4"});
   EXPECT_LT(number(j["e_H"]), 1e-14);
 }
@@ -318,16 +288,14 @@ TEST(RunAuto, RaisesKOnTheWay) {
   EXPECT_GT(number(j["chosen"]["raised"][0]["t"]), 0.5);
   EXPECT_LT(number(j["e_H"]), 1e-12);
   EXPECT_GT(number(json_of(run + Arguments{"hbvm:8,2"})["e_H"]), 1e-6) << "a hard case";
-  const std::string text = hbvm(run + Arguments{"hbvm:auto,2"}).out;
-  expect_words(text, {"\nraised to "});
+  expect_words(hbvm(run + Arguments{"hbvm:auto,2"}).out, {"\nraised to "});
 }
 
 /// Two bodies that nearly collide: steps too large for it fail typed, and vouch for nothing.
 TEST(RunAuto, VouchesForNoNearCollisionThatItsStepsDoNotResolve) {
   const Folder folder;
   const std::string scene = folder.write("scene.toml", two_bodies("1e-6"));
-  const Outcome outcome = hbvm({"run", scene, "--method", "hbvm:auto,3", "--step", "1/256", "--until", "3"});
-  EXPECT_EQ(outcome.code, 3);
+  const Outcome outcome = ended_with(3, run_of(scene, "hbvm:auto,3", "1/256", "3"));
   expect_words(outcome.err, {"stage_equations_diverge"});
   EXPECT_EQ(outcome.out.find("conserved to round-off"), std::string::npos) << outcome.out;
 }
@@ -349,8 +317,7 @@ TEST(RunAuto, RaisesNoFalseAlarm) {
                                                                       {"modified_pendulum", "1/16", "20"},
                                                                       {"quartic_oscillator", "1/8", "40"}})
     for (const char* precision : {"double", "quad"}) {
-      const ordered_json j = json_of(
-          {"run", scene, "--method", "hbvm:auto,2", "--step", step, "--until", until, "--precision", precision});
+      const ordered_json j = json_of(run_of(scene, "hbvm:auto,2", step, until) + Arguments{"--precision", precision});
       EXPECT_EQ(j["chosen"]["verified"], true) << scene << " " << precision << j["chosen"];
     }
 }
@@ -360,31 +327,29 @@ TEST(RunOnFailure, HalvesWhatCannotBeMade) {
   const Folder folder;
   const std::string scene = folder.write("scene.toml", pendulum("8"));
   for (const char* solver : {"paper", "fixed-point"}) {
-    const Arguments run{"run", scene, "--method", "hbvm:2,2", "--step", "1", "--until", "12", "--solver", solver};
-    EXPECT_EQ(hbvm(run).code, 3);
-    EXPECT_EQ(hbvm(run + Arguments{"--on-failure", "stop"}).code, 3);
-    const Arguments halve = run + Arguments{"--on-failure", "halve"};
-    const ordered_json j = json_of(halve);
-    EXPECT_EQ(keys_of(j["halved"]), (Texts{"steps", "substeps", "smallest", "first_t"}));
-    EXPECT_EQ(j["halved"]["steps"], 12);
-    EXPECT_GE(j["halved"]["substeps"], 48);
-    EXPECT_LE(number(j["halved"]["smallest"]), 0.25);
-    EXPECT_EQ(number(j["halved"]["first_t"]), 0);
+    const Arguments run = run_of(scene, "hbvm:2,2", "1", "12") + Arguments{"--solver", solver},
+                    halve = run + Arguments{"--on-failure", "halve"};
+    ended_with(3, run);
+    ended_with(3, run + Arguments{"--on-failure", "stop"});
+    const ordered_json j = json_of(halve), halved = j["halved"];
+    EXPECT_EQ(keys_of(halved), (Texts{"steps", "substeps", "smallest", "first_t"}));
+    EXPECT_EQ(halved["steps"], 12);
+    EXPECT_GE(halved["substeps"], 48);
+    EXPECT_LE(number(halved["smallest"]), 0.25);
+    EXPECT_EQ(number(halved["first_t"]), 0);
     EXPECT_LT(number(j["e_H"]), 1e-12);
     EXPECT_LT(number(j["e_g"]), 1e-13);
     EXPECT_EQ(j["steps"], 12);
-    const std::string text = hbvm(halve).out;
-    expect_words(text, {"12 steps were divided, down to h/"});
+    expect_words(hbvm(halve).out, {"12 steps were divided, down to h/"});
   }
 }
 
 TEST(RunOnFailure, HalvesNothingThatCanBeMade) {
-  const Arguments run{"run", "simple_pendulum", "--method", "hbvm:2,2", "--step", "1/8", "--until", "2"};
+  const Arguments run = run_of("simple_pendulum", "hbvm:2,2", "1/8", "2");
   const ordered_json plain = json_of(run), j = json_of(run + Arguments{"--on-failure", "halve"});
   EXPECT_FALSE(plain.contains("halved"));
   EXPECT_EQ(j["halved"]["steps"], 0);
-  EXPECT_EQ(j["q"], plain["q"]);
-  EXPECT_EQ(j["p"], plain["p"]);
+  expect_members(j, {{"q", plain["q"]}, {"p", plain["p"]}});
   EXPECT_EQ(hbvm(run).out.find("divided"), std::string::npos);
 }
 
@@ -395,7 +360,7 @@ TEST(RunObservables, AreThoseTheSceneNamesAndTheMotionConserves) {
   scene.replace(scene.find("velocity = [0, 0]"), 17, "velocity = [0, 0.5]");
   const auto observed = [&](const std::string& names, const char* method) {
     const std::string path = folder.write("scene.toml", "observables = [" + names + "]\n" + scene);
-    return json_of({"run", path, "--method", method, "--step", "1/16", "--until", "1/2"});
+    return json_of(run_of(path, method, "1/16", "1/2"));
   };
   const ordered_json gauss = observed("\"energy\", \"angular_momentum\", \"linear_momentum\"", "hbvm:1,1");
   // H = 1/8 - 1, L = 1/2; the centre takes the linear momentum.
@@ -413,7 +378,7 @@ TEST(RunObservables, AreThoseTheSceneNamesAndTheMotionConserves) {
 
 /// Done means 2 of the issue: the satellites at the paper's energy errors.
 ordered_json satellites(const char* method, const char* until) {
-  return json_of({"run", "tethered_satellites", "--method", method, "--step", "0.1", "--until", until});
+  return json_of(run_of("tethered_satellites", method, "0.1", until));
 }
 
 TEST(Satellites, KeepEnergyAndConstraintsWithFiveNodes) {
@@ -430,43 +395,30 @@ TEST(Satellites, LoseEnergyWithOneNodeAsInThePaper) {
   EXPECT_LT(later, 1.35e-3);
 }
 
-/// A CSV file: a line of names, and lines of numbers.
-struct Csv {
-  Texts names;
-  std::vector<Texts> rows;
-  explicit Csv(const std::string& text) {
-    for (const std::string& line : lines_of(text)) {
-      const Texts cells = split_csv_line(line);
-      if (names.empty())
-        names = cells;
-      else
-        rows.push_back(cells);
-      EXPECT_EQ(cells.size(), names.size()) << line;
-    }
-  }
-  double at(std::size_t row, std::size_t column) const {
-    const std::string& cell = rows.at(row).at(column);
+/// The numbers of a row, which are finite.
+std::vector<double> numbers_of(const Texts& row) {
+  std::vector<double> numbers;
+  for (const std::string& cell : row) {
     std::size_t used = 0;
-    const double value = std::stod(cell, &used);
-    EXPECT_EQ(used, cell.size()) << cell;
-    return value;
+    numbers.push_back(std::stod(cell, &used));
+    EXPECT_TRUE(used == cell.size() && std::isfinite(numbers.back())) << cell;
   }
-};
+  return numbers;
+}
 
 TEST(RunCsv, HasNamesAndNumbersAndIsDescribedBesideIt) {
   const Folder folder;
   const std::string path = folder / "out.csv";
-  const ordered_json j = json_of({"run", "conical_pendulum", "--method", "hbvm:2,2", "--step", "pi/20", "--until", "pi",
-                                  "--precision", "mpfr:50", "--out", path, "--every", "3"},
+  const ordered_json j = json_of(run_of("conical_pendulum", "hbvm:2,2", "pi/20", "pi") +
+                                     Arguments{"--precision", "mpfr:50", "--out", path, "--every", "3"},
                                  with_metadata(path));
-  const Csv csv(text_of(path));
-  EXPECT_EQ(csv.names, (Texts{"t", "bob.x", "bob.y", "bob.z", "bob.px", "bob.py", "bob.pz", "lambda1", "output.bob.px",
-                              "output.bob.py", "output.bob.pz", "output.lambda1", "delta_H", "g", "hidden"}));
+  const CsvTable csv = read_csv_table(text_of(path), path);
+  EXPECT_EQ(csv.columns,
+            (Texts{"t", "bob.x", "bob.y", "bob.z", "bob.px", "bob.py", "bob.pz", "lambda1", "output.bob.px",
+                   "output.bob.py", "output.bob.pz", "output.lambda1", "delta_H", "g", "hidden"}));
   ASSERT_EQ(csv.rows.size(), 8u);  // 0, 3, …, 18 and 20
-  for (std::size_t n = 0; n < csv.rows.size(); ++n) {
-    EXPECT_NEAR(csv.at(n, 0), std::min(3.0 * static_cast<double>(n), 20.0) * std::acos(-1.0) / 20, 1e-14);
-    for (std::size_t i = 0; i < csv.names.size(); ++i) EXPECT_TRUE(std::isfinite(csv.at(n, i)));
-  }
+  for (std::size_t n = 0; n < csv.rows.size(); ++n)
+    EXPECT_NEAR(numbers_of(csv.rows[n])[0], std::min(3.0 * static_cast<double>(n), 20.0) * std::acos(-1.0) / 20, 1e-14);
   EXPECT_EQ(j["t"], csv.rows.back()[0]);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(j["q"][i], csv.rows.back()[1 + i]);
@@ -474,16 +426,14 @@ TEST(RunCsv, HasNamesAndNumbersAndIsDescribedBesideIt) {
   }
 
   const ordered_json metadata = ordered_json::parse(text_of(path + "-metadata.json"));
-  EXPECT_EQ(metadata["@context"], "http://www.w3.org/ns/csvw");
-  EXPECT_EQ(metadata["url"], "out.csv");
+  expect_members(metadata, {{"@context", "http://www.w3.org/ns/csvw"}, {"url", "out.csv"}, {"hbvm:step", "pi/20"}});
   for (const char* const key : {"version", "method", "solver", "precision"})
     EXPECT_EQ(metadata["hbvm:" + std::string(key)], j[key]);
-  EXPECT_EQ(metadata["hbvm:step"], "pi/20");
   EXPECT_EQ(metadata["hbvm:command"], j["command"].get<std::string>() + " --every 3");
   EXPECT_EQ(metadata["dc:source"], j["scene_text"]);
   Texts titles;
   for (const ordered_json& column : metadata["tableSchema"]["columns"]) titles.push_back(column["titles"]);
-  EXPECT_EQ(titles, csv.names);
+  EXPECT_EQ(titles, csv.columns);
 }
 
 /// Whatever bodies are called, the names are one line that a reader can part.
@@ -493,20 +443,17 @@ TEST(RunCsv, QuotesOddNames) {
   for (std::size_t at = 0; (at = scene.find("\"bob\"", at)) != std::string::npos; ++at)
     scene.replace(at, 5, "\"a, \\\"b\\\"\\nc\"");
   const std::string path = folder.write("scene.toml", scene), out = folder / "out.csv";
-  const Outcome outcome = hbvm({"run", path, "--method", "hbvm:1,1", "--step", "1/8", "--until", "1", "--out", out});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const Csv csv(text_of(out));
+  ended_with(0, run_of(path, "hbvm:1,1", "1/8", "1") + Arguments{"--out", out});
+  const CsvTable csv = read_csv_table(text_of(out), out);
   EXPECT_EQ(csv.rows.size(), 9u);
-  EXPECT_EQ(csv.names.at(1), "a, \"b\" c.x");
+  EXPECT_EQ(csv.columns.at(1), "a, \"b\" c.x");
   EXPECT_TRUE(text_of(out).starts_with("t,\"a, \"\"b\"\" c.x\",")) << text_of(out).substr(0, 40);
 }
 
 /// Nothing can stand beside a device.
 TEST(RunCsv, IntoADeviceIsNotDescribed) {
-  const Outcome outcome =
-      hbvm({"run", "kepler", "--method", "hbvm:1,1", "--step", "1/8", "--until", "1", "--out", "/dev/null"});
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(outcome.err, written({"/dev/null"}));
+  const Arguments run = run_of("kepler", "hbvm:1,1", "1/8", "1") + Arguments{"--out", "/dev/null"};
+  EXPECT_EQ(ended_with(0, run).err, written({"/dev/null"}));
 }
 
 TEST(FailedRun, ExitsWithThreeAndNoOutput) {
@@ -514,8 +461,7 @@ TEST(FailedRun, ExitsWithThreeAndNoOutput) {
   const std::string scene = folder.write("swinging.toml", pendulum("3"));
   for (const char* solver : {"fixed-point", "paper"}) {
     const Outcome outcome =
-        hbvm({"run", scene, "--method", "hbvm:1,1", "--step", "3/2", "--until", "15", "--json", "--solver", solver});
-    EXPECT_EQ(outcome.code, 3);
+        ended_with(3, run_of(scene, "hbvm:1,1", "3/2", "15") + Arguments{"--json", "--solver", solver});
     EXPECT_EQ(outcome.out, "");
     ASSERT_EQ(lines_of(outcome.err).size(), 1u) << outcome.err;
     expect_words(outcome.err, {"step", "t = ", "increment", "smaller step"});
@@ -525,20 +471,17 @@ TEST(FailedRun, ExitsWithThreeAndNoOutput) {
 TEST(FailedRun, LeavesWhatWasComputedOnDisk) {
   const Folder folder;
   const std::string scene = folder.write("fall.toml", fall()), path = folder / "out.csv";
-  const Outcome outcome = hbvm({"run", scene, "--method", "hbvm:2,2", "--step", "1/100", "--until", "2", "--solver",
-                                "fixed-point", "--out", path, "--json"});
-  EXPECT_EQ(outcome.code, 3);
+  const Arguments run = run_of(scene, "hbvm:2,2", "1/100", "2");
+  const Outcome outcome = ended_with(3, run + Arguments{"--solver", "fixed-point", "--out", path, "--json"});
   EXPECT_EQ(outcome.out, "");
   EXPECT_TRUE(outcome.err.starts_with(written(with_metadata(path)))) << outcome.err;
-  const Csv csv(text_of(path));
+  const CsvTable csv = read_csv_table(text_of(path), path);
   ASSERT_GT(csv.rows.size(), 65u);
   const std::size_t at = outcome.err.find("step ");
   ASSERT_NE(at, std::string::npos) << outcome.err;
   EXPECT_EQ(csv.rows.size(), static_cast<std::size_t>(std::stoul(outcome.err.substr(at + 5))));  // 0 .. step - 1
-  for (std::size_t n = 0; n < csv.rows.size(); ++n) {
-    EXPECT_NEAR(csv.at(n, 0), 0.01 * static_cast<double>(n), 1e-14);
-    for (std::size_t i = 0; i < csv.rows[0].size(); ++i) EXPECT_TRUE(std::isfinite(csv.at(n, i)));
-  }
+  for (std::size_t n = 0; n < csv.rows.size(); ++n)
+    EXPECT_NEAR(numbers_of(csv.rows[n])[0], 0.01 * static_cast<double>(n), 1e-14);
 }
 
 /// The multipliers of all constraints are told, in JSON and in every line of the CSV.
@@ -548,56 +491,48 @@ TEST(Run, IntegratesRedundantConstraints) {
   twice += "[[constraint]]\nkind = \"rod\"\nbetween = [\"bob\", \"O\"]\nlength = 1\n";
   const std::string once = folder.write("once.toml", pendulum("1")), path = folder.write("twice.toml", twice),
                     csv = folder / "twice.csv";
-  const auto run = [](const std::string& scene) {
-    return Arguments{"run", scene, "--method", "hbvm:2,2", "--step", "1/8", "--until", "1"};
-  };
+  const auto run = [](const std::string& scene) { return run_of(scene, "hbvm:2,2", "1/8", "1"); };
   const ordered_json one = json_of(run(once)), two = json_of(run(path) + Arguments{"--out", csv}, with_metadata(csv));
-  EXPECT_EQ(two["q"], one["q"]);
-  EXPECT_EQ(two["e_g"], one["e_g"]);
+  expect_members(two, {{"q", one["q"]}, {"e_g", one["e_g"]}});
   expect_words(two["health"]["warnings"].dump(), {"redundant_constraints"});
   EXPECT_EQ(one["health"]["warnings"].dump().find("redundant_constraints"), std::string::npos);
   ASSERT_EQ(two["lambda"].size(), 2u);
   ASSERT_EQ(two["output"]["lambda"].size(), 2u);
   for (const ordered_json& lambda : two["lambda"]) EXPECT_NEAR(number(lambda), number(one["lambda"][0]) / 2, 1e-14);
-  const Texts names = Csv(text_of(csv)).names;
+  const Texts names = read_csv_table(text_of(csv), csv).columns;
   for (const char* name : {"lambda2", "output.lambda2"}) EXPECT_EQ(std::count(names.begin(), names.end(), name), 1);
+}
+
+/// What a short run draws.
+std::string drawn(const std::string& scene, const std::string& file) {
+  const Arguments run = run_of(scene, "hbvm:3,3", "1/64", "1/4") + Arguments{"--plot", file};
+  EXPECT_EQ(ended_with(0, run).err, written({file}));
+  return text_of(file);
 }
 
 TEST(RunPlot, DrawsAnyScene) {
   const Folder folder;
-  for (const auto& [name, text] : built_in_scenes()) {
-    const std::string file = folder / (name + ".svg");
-    const Outcome outcome =
-        hbvm({"run", name, "--method", "hbvm:3,3", "--step", "1/64", "--until", "1/4", "--plot", file});
-    EXPECT_EQ(outcome.code, 0) << name << outcome.err;
-    EXPECT_EQ(outcome.err, "written to " + file + "\n");
-    const std::string svg = text_of(file);
-    expect_words(svg, {"Motion", "hbvm run " + name});
-  }
+  for (const auto& [name, text] : built_in_scenes())
+    expect_words(drawn(name, folder / (name + ".svg")), {"Motion", "hbvm run " + name});
 }
 
 TEST(RunPlot, MakesAPageThatMoves) {
   const Folder folder;
-  const std::string file = folder / "a.html";
-  const Outcome outcome =
-      hbvm({"run", "kepler", "--method", "hbvm:3,3", "--step", "1/64", "--until", "1/4", "--plot", file});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "written to " + file + "\n");
-  EXPECT_TRUE(text_of(file).starts_with("<!DOCTYPE html>"));
-  expect_words(text_of(file), {"hbvm run kepler --method hbvm:3,3"});
+  const std::string page = drawn("kepler", folder / "a.html");
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  expect_words(page, {"hbvm run kepler --method hbvm:3,3"});
 }
 
 TEST(RunPlot, ShowsWhatWasComputedBeforeAFailure) {
   const Folder folder;
-  const Outcome outcome = hbvm({"run", "kepler", "--method", "tableau:" HBVM_SOURCE_DIR "/tests/cli/none.toml",
-                                "--step", "1/8", "--until", "1", "--plot", folder / "a.svg"});
-  EXPECT_EQ(outcome.code, 2);
+  ended_with(2, run_of("kepler", "tableau:" HBVM_SOURCE_DIR "/tests/cli/none.toml", "1/8", "1") +
+                    Arguments{"--plot", folder / "a.svg"});
   EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
 }
 
 TEST(RunPlot, RefusesWhatCannotBeDrawn) {
   const Folder folder;
-  const Arguments run{"run", "simple_pendulum", "--method", "hbvm:2,2", "--step", "1/8", "--until", "1", "--plot"};
+  const Arguments run = run_of("simple_pendulum", "hbvm:2,2", "1/8", "1") + Arguments{"--plot"};
   expect_refused(run + Arguments{folder / "a.jpg"}, {"--plot", ".svg", ".pdf", ".png", ".html", "a.jpg"});
   expect_refused(run + Arguments{folder / "none/a.html"}, {"--plot", "cannot write"});
   expect_refused(run + Arguments{folder / "none/a.svg"}, {"--plot", "cannot write"});
@@ -607,20 +542,15 @@ TEST(RunError, SaysWhatTheRunWasComparedWith) {
   const Arguments run{"run", "modified_pendulum", "--method", "hbvm:4,2", "--step", "1/16", "--error", "--until"};
   const ordered_json stored = json_of(run + Arguments{"10"})["error"],
                      computed = json_of(run + Arguments{"1"})["error"];
-  EXPECT_EQ(stored["reference"], "stored reference, 50 digits");
-  EXPECT_TRUE(stored["method"].is_null() && stored["precision"].is_null());
-  EXPECT_EQ(computed["reference"], "computed now");
-  EXPECT_EQ(computed["method"], "taylor");
+  expect_members(stored, {{"reference", "stored reference, 50 digits"}, {"method", nullptr}, {"precision", nullptr}});
+  expect_members(computed, {{"reference", "computed now"}, {"method", "taylor"}});
   expect_words(hbvm(run + Arguments{"1"}).out, {"error, against taylor, mpfr:32, computed now\n"});
 }
 
 TEST(RunError, PrintsRightDigitsAndOneMore) {
-  const Arguments run{"run",  "modified_pendulum", "--method", "hbvm:4,2",    "--step",
-                      "1/16", "--until",           "20",       "--precision", "mpfr:50"};
-  const Outcome without = hbvm(run);
-  expect_words(without.out, {"digits not assessed (--error)"});
-  const Outcome with = hbvm(run + Arguments{"--error"});
-  EXPECT_EQ(with.code, 0) << with.err;
+  const Arguments run = run_of("modified_pendulum", "hbvm:4,2", "1/16", "20") + Arguments{"--precision", "mpfr:50"};
+  expect_words(hbvm(run).out, {"digits not assessed (--error)"});
+  const Outcome with = ended_with(0, run + Arguments{"--error"});
   EXPECT_EQ(with.out.find("not assessed"), std::string::npos);
   const ordered_json j = json_of(run + Arguments{"--error"});
   EXPECT_EQ(j["error"]["reference"], "stored reference, 100 digits");

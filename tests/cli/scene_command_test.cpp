@@ -11,10 +11,15 @@ std::string inconsistent_pendulum() {
   return text.replace(text.find("[0, -1]"), 7, "[0.9, -1.2]");
 }
 
+/// Its rod once more.
+std::string with_two_rods(const std::string& scene) {
+  const std::size_t rod = scene.find("[[constraint]]");
+  return scene + scene.substr(rod, scene.find("[[effect]]") - rod);
+}
+
 TEST(SceneCheck, ExplainsEverySceneThatIsShipped) {
   for (const auto& [name, text] : built_in_scenes()) {
-    const Outcome outcome = hbvm({"scene", "check", name});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = ended_with(0, {"scene", "check", name});
     EXPECT_EQ(outcome.err, "");
     EXPECT_TRUE(outcome.out.starts_with(name + ": ")) << outcome.out;
     expect_words(outcome.out, {"degrees of freedom", "energy H", "L_z"});
@@ -71,14 +76,10 @@ on = ["probe"]
 TEST(SceneProject, InDoubleServesMoreDigits) {
   const Folder folder;
   const std::string from = folder.write("from.toml", inconsistent_pendulum()), to = folder / "to.toml";
-  ASSERT_EQ(hbvm({"scene", "project", from, "--out", to}).code, 0);
-  const Outcome check = hbvm({"scene", "check", to, "--precision", "60"});
-  EXPECT_EQ(check.code, 0) << check.err;
-  expect_words(check.out, {"to its own 1"});
-  const Arguments run{"run", to, "--method", "hbvm:3,3", "--step", "1/8", "--until", "1", "--precision", "mpfr:30"};
-  const Outcome outcome = hbvm(run);
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  expect_words(outcome.out, {"the start is consistent to its own 1"});
+  ended_with(0, {"scene", "project", from, "--out", to});
+  expect_words(ended_with(0, {"scene", "check", to, "--precision", "60"}).out, {"to its own 1"});
+  const Arguments run = run_of(to, "hbvm:3,3", "1/8", "1") + Arguments{"--precision", "mpfr:30"};
+  expect_words(ended_with(0, run).out, {"the start is consistent to its own 1"});
   expect_words(hbvm(run + Arguments{"--json"}).out, {"\"start_settled\""});
 }
 
@@ -94,8 +95,7 @@ TEST(SceneCheck, RefusesBadInput) {
   expect_refused({"scene", "check", folder.write("bad.toml", "dimension = 4\n")}, {"bad.toml:1", "'dimension'"});
   expect_refused({"scene", "check", folder.write("off.toml", inconsistent_pendulum())},
                  {"off.toml", "position", "rod", "1.25e+00", "hbvm scene project"});
-  std::string twice = pendulum("1");
-  twice += twice.substr(twice.find("[[constraint]]"), twice.find("[[effect]]") - twice.find("[[constraint]]"));
+  std::string twice = with_two_rods(pendulum("1"));
   const std::string report = hbvm({"scene", "check", folder.write("twice.toml", twice)}).out;
   expect_words(report, {"constraints nu        1\n", "  redundant", "constraint 2 (rod", "follows from constraint 1"});
   twice.replace(twice.rfind("length = 1"), 10, "length = 2");
@@ -107,13 +107,11 @@ TEST(SceneProject, WritesASceneThatChecks) {
   const Folder folder;
   const std::string from = folder.write("from.toml", inconsistent_pendulum()), to = folder / "to.toml";
   for (const char* precision : {"double", "quad", "mpfr:60"}) {
-    const Outcome outcome = hbvm({"scene", "project", from, "--precision", precision, "--out", to});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = ended_with(0, {"scene", "project", from, "--precision", precision, "--out", to});
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(outcome.err, written({to}));
-    EXPECT_EQ(hbvm({"scene", "check", to, "--precision", precision}).code, 0) << precision;
-    EXPECT_EQ(
-        hbvm({"run", to, "--method", "hbvm:1,1", "--step", "1/8", "--until", "1/8", "--precision", precision}).code, 0);
+    ended_with(0, {"scene", "check", to, "--precision", precision});
+    ended_with(0, run_of(to, "hbvm:1,1", "1/8", "1/8") + Arguments{"--precision", precision});
     // The nearest point of the circle is (3, -4)/5; (1, 0) loses 3/5 of (3, -4)/5.
     const Scene scene = load_scene(to);
     const double position[2] = {0.6, -0.8}, velocity[2] = {0.64, 0.48};
@@ -128,11 +126,10 @@ TEST(SceneProject, WritesASceneThatChecks) {
 TEST(SceneProject, PrintsTheSceneWithoutAFile) {
   const Folder folder;
   const std::string from = folder.write("from.toml", inconsistent_pendulum()), to = folder / "to.toml";
-  const Outcome printed = hbvm({"scene", "project", from});
-  EXPECT_EQ(printed.code, 0) << printed.err;
-  EXPECT_EQ(hbvm({"scene", "project", from, "--out", to}).code, 0);
-  EXPECT_EQ(printed.out, text_of(to));
-  EXPECT_EQ(read_scene(printed.out, "printed").title, "Pendulum");
+  const std::string printed = ended_with(0, {"scene", "project", from}).out;
+  ended_with(0, {"scene", "project", from, "--out", to});
+  EXPECT_EQ(printed, text_of(to));
+  EXPECT_EQ(read_scene(printed, "printed").title, "Pendulum");
 }
 
 TEST(SceneProject, KeepsComments) {
@@ -148,8 +145,7 @@ TEST(SceneProject, KeepsComments) {
 TEST(SceneProject, RefusesBadInput) {
   const Folder folder;
   const std::string good = folder.write("good.toml", inconsistent_pendulum());
-  std::string text = inconsistent_pendulum();
-  text += text.substr(text.find("[[constraint]]"), text.find("[[effect]]") - text.find("[[constraint]]"));
+  std::string text = with_two_rods(inconsistent_pendulum());
   text.replace(text.rfind("length = 1"), 10, "length = 2");
   expect_refused({"scene", "project", folder.write("twice.toml", text)}, {"twice.toml", "no consistent position"});
   expect_refused({"scene", "project"}, {"scene"});
@@ -173,9 +169,7 @@ TEST(SceneShow, DrawsAScene) {
   const Folder folder;
   for (const char* const name : {"four_bar_linkage", "heavy_top", "charged_tetrahedron"}) {
     const std::string file = folder / (std::string(name) + ".svg");
-    const Outcome outcome = hbvm({"scene", "show", name, "--plot", file});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.err, "written to " + file + "\n");
+    EXPECT_EQ(ended_with(0, {"scene", "show", name, "--plot", file}).err, written({file}));
     expect_words(text_of(file), {"Start"});
   }
   expect_refused({"scene", "show", "four_bar_linkage", "--plot", folder / "a.gif"}, {".svg", "a.gif"});

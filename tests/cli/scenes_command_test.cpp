@@ -6,8 +6,7 @@ namespace hbvm::core {
 namespace {
 
 TEST(Scenes, ListsThePapersFourWithTheirTitles) {
-  const Outcome outcome = hbvm({"scenes"});
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = ended_with(0, {"scenes"});
   EXPECT_EQ(outcome.err, "");
   for (const std::string name : {"simple_pendulum", "modified_pendulum", "conical_pendulum", "tethered_satellites"}) {
     int found = 0;
@@ -21,11 +20,8 @@ TEST(Scenes, ListsThePapersFourWithTheirTitles) {
 }
 
 TEST(Scenes, ListsOnlyScenesThatRun) {
-  for (const std::string& line : lines_of(hbvm({"scenes"}).out)) {
-    const std::string name = line.substr(0, line.find(' '));
-    const Outcome run = hbvm({"run", name, "--method", "hbvm:2,2", "--step", "0.01", "--until", "0.01"});
-    EXPECT_EQ(run.code, 0) << name << ": " << run.err;
-  }
+  for (const std::string& line : lines_of(hbvm({"scenes"}).out))
+    ended_with(0, run_of(line.substr(0, line.find(' ')), "hbvm:2,2", "0.01", "0.01"));
 }
 
 }  // namespace

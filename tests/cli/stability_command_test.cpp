@@ -1,23 +1,18 @@
-#include <nlohmann/json.hpp>
-
 #include "checksum.hpp"
-#include "cli/program.hpp"
+#include "cli/json.hpp"
 
 namespace hbvm::core {
 namespace {
 
-using Json = nlohmann::json;
+using nlohmann::ordered_json;
 
 /// Quick ones that hold whatever the solvers do.
 const Arguments sure{"stability", "--cases", "Gauss-Legendre"};
 
 TEST(StabilityCommand, PrintsOneJsonObject) {
-  const Outcome outcome = hbvm(sure + Arguments{"--json"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err << outcome.out;
-  const Json json = Json::parse(outcome.out);
-  const Json& cases = json.at("cases");
+  const ordered_json cases = json_of(sure).at("cases");
   ASSERT_EQ(cases.size(), 9u);
-  for (const Json& c : cases) {
+  for (const ordered_json& c : cases) {
     for (const char* const key : {"case", "parameter", "precision", "expected", "verdict"})
       EXPECT_TRUE(c.at(key).is_string()) << key;
     for (const char* const key : {"figure", "bound"}) EXPECT_TRUE(c.at(key).is_number()) << key;
@@ -29,13 +24,12 @@ TEST(StabilityCommand, PrintsOneJsonObject) {
 TEST(StabilityCommand, GoesOnFromWhatItFound) {
   const Folder folder;
   const Arguments arguments = sure + Arguments{"--out", folder / "out"};
-  const Outcome first = hbvm(arguments);
-  EXPECT_EQ(first.code, 0) << first.err << first.out;
+  const Outcome first = ended_with(0, arguments);
   for (const char* const file : {"stability.csv", "stability.md", "stability.json", "results.jsonl"})
     EXPECT_FALSE(text_of(folder / ("out/" + std::string(file))).empty()) << file;
   // As if it had been ended in the middle of a line.
   const std::string store = folder / "out/results.jsonl", all = text_of(store);
-  std::ofstream(store, std::ios::binary) << all.substr(0, all.size() / 2);
+  folder.write(store, all.substr(0, all.size() / 2));
   EXPECT_EQ(hbvm(arguments).out, first.out);
   EXPECT_EQ(text_of(store), all);
   // A line that was changed is not believed.
@@ -43,15 +37,13 @@ TEST(StabilityCommand, GoesOnFromWhatItFound) {
   const std::string holds = "\"verdict\":\"holds\"";
   ASSERT_NE(wrong.find(holds), std::string::npos);
   wrong.replace(wrong.find(holds), holds.size(), "\"verdict\":\"not as expected\"");
-  std::ofstream(store, std::ios::binary) << wrong;
-  EXPECT_EQ(hbvm(arguments).code, 0);
+  folder.write(store, wrong);
+  ended_with(0, arguments);
   EXPECT_EQ(text_of(store), all);
   // What it found counts: a case that is wrong ends the program with 1.
   const std::string line = wrong.substr(0, wrong.find(",\"checksum\":"));
-  std::ofstream(store, std::ios::binary) << line << ",\"checksum\":\"" << Checksum(line).text() << "\"}\n";
-  const Outcome third = hbvm(arguments);
-  EXPECT_EQ(third.code, 1) << third.err;
-  expect_words(third.out, {"8 hold, 0 fail as expected, 0 warn as expected, 1 is not as expected"});
+  folder.write(store, line + ",\"checksum\":\"" + Checksum(line).text() + "\"}\n");
+  expect_words(ended_with(1, arguments).out, {"8 hold, 0 fail as expected, 0 warn as expected, 1 is not as expected"});
 }
 
 TEST(StabilityCommand, MergesShardsToTheSameFiles) {
@@ -59,15 +51,14 @@ TEST(StabilityCommand, MergesShardsToTheSameFiles) {
   Arguments merged = sure + Arguments{"--out", folder / "merged", "--merge"};
   for (const char* const shard : {"1/2", "2/2"}) {
     const std::string out = folder / (std::string("shard") + shard[0]);
-    const Outcome outcome = hbvm(sure + Arguments{"--shard", shard, "--out", out});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = ended_with(0, sure + Arguments{"--shard", shard, "--out", out});
     expect_words(outcome.out, {shard[0] == '1' ? "5 cases: 5 hold" : "4 cases: 4 hold"});
     expect_refused(sure + Arguments{"--out", folder / "part", "--merge", out + "/results.jsonl"},
                    {"in none of these files"});
     merged.push_back(out + "/results.jsonl");
   }
-  const Outcome all = hbvm(merged), one = hbvm(sure + Arguments{"--jobs", "1", "--out", folder / "one"});
-  EXPECT_EQ(all.code, 0) << all.err;
+  ended_with(0, merged);
+  ended_with(0, sure + Arguments{"--jobs", "1", "--out", folder / "one"});
   for (const char* const name : {"results.jsonl", "stability.csv", "stability.md"})
     EXPECT_EQ(text_of(folder / ("merged/" + std::string(name))), text_of(folder / ("one/" + std::string(name))))
         << name;
