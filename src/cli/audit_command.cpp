@@ -90,14 +90,6 @@ std::vector<Claim> claims_of(const AuditArguments& o) {
   return o.claims ? filtered(std::move(claims), *o.claims) : claims;
 }
 
-/// Where results go: nowhere unless it is said.
-std::optional<fs::path> folder_of(const AuditArguments& o) {
-  if (!o.work.out) return std::nullopt;
-  const fs::path folder = make_out_folder(*o.work.out);
-  write_file(folder / "audit.csv", "this audit is not finished\n");
-  return folder;
-}
-
 /// \throws InputError
 Expression time_from(const std::string& text) {
   try {
@@ -119,15 +111,15 @@ void audit_command(const AuditArguments& o) {
   command += o.work.provenance();
   if (o.limit != AuditArguments().limit) command += fmt::format(" --limit {}", o.limit);
 
-  const std::optional<fs::path> folder = folder_of(o);
+  const std::optional<fs::path> folder = o.work.make_folder();
+  if (folder) write_file(*folder / "audit.csv", "this audit is not finished\n");
   AuditOptions options;
   options.starts = o.full ? 3 : 2;
   options.limit = o.limit;
   if (o.until) options.until = time_from(*o.until);
   std::vector<Finding> findings;
   {
-    LongWork work(o.work, o.full || o.work.is_divided() ? folder : std::nullopt, "audit");
-    work.set(options);
+    LongWork work(o.work, o.full || o.work.is_divided() ? folder : std::nullopt, "audit", options);
     findings = audit(claims, options);
   }
   Table table = audit_table(findings);

@@ -11,7 +11,6 @@
 
 #include "compare/comparison.hpp"
 #include "hbvm/error.hpp"
-#include "interruption.hpp"
 #include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "progress_bar.hpp"
@@ -234,11 +233,7 @@ void compare_results(const std::optional<std::string>& scene, bool json, const C
   request.map = read_map(arguments.map);
   ProgressBar bar("reference");
   end_runs_on_signals();
-  request.progress = [&bar](double part) {
-    constexpr long parts = 10'000;
-    bar.update(static_cast<long>(part * parts), parts);
-    end_if_asked("the comparison was not finished");
-  };
+  request.progress = bar.part_done("the comparison was not finished");
   const Comparison against = compare_with_reference(request);
   if (arguments.plot) {
     draw(comparison_figure(request, against, "against"), *arguments.plot);

@@ -12,7 +12,6 @@
 #include "cost/planner.hpp"
 #include "door/door.hpp"
 #include "hbvm/version.hpp"
-#include "interruption.hpp"
 #include "long_work.hpp"
 #include "output_files.hpp"
 #include "processes/draw.hpp"
@@ -70,14 +69,7 @@ CostStudy study_of(const CostArguments& o) {
   return study;
 }
 
-/// A progress bar that lets signals end the work.
-std::function<void(double)> part_done(ProgressBar& bar) {
-  return [&bar](double part) {
-    constexpr long parts = 10'000;
-    bar.update(static_cast<long>(part * parts), parts);
-    end_if_asked("the work was not finished");
-  };
-}
+const char* const unfinished = "the work was not finished";
 
 std::string quoted_words(const std::vector<std::string>& words) {
   std::string text;
@@ -98,17 +90,15 @@ void grid_command(const CostArguments& o) {
   std::string command = command_of(o) + " --digits-range " + o.range;
   if (o.seconds != CostArguments().seconds) command += fmt::format(" --seconds {:g}", o.seconds);
   command += o.work.provenance();
-  std::optional<fs::path> folder;
-  if (o.work.out) folder = make_out_folder(*o.work.out);
+  const std::optional<fs::path> folder = o.work.make_folder();
   study.with_steps_and_energy = folder.has_value();
   CostOutcome outcome;
   {
-    LongWork work(o.work, folder, "cost");
-    ProgressBar bar("reference");
     CostOptions options;
     options.apart = in_processes;
-    work.set(options);
-    options.reference_progress = part_done(bar);
+    LongWork work(o.work, folder, "cost", options);
+    ProgressBar bar("reference");
+    options.reference_progress = bar.part_done(unfinished);
     outcome = run_cost_study(study, options);
   }
   const std::string json = to_json(study, outcome, command);
@@ -170,7 +160,7 @@ void plan_command(const CostArguments& o) {
   std::optional<Plan> plan;
   {
     ProgressBar bar("cost");
-    request.progress = part_done(bar);
+    request.progress = bar.part_done(unfinished);
     plan = plan_cost(request);
   }
   if (o.json)

@@ -46,29 +46,28 @@ void WorkArguments::add_to(CLI::App& command, const std::string& help_of_out, co
   command.add_option("--jobs", jobs, workers)->check(CLI::Range(1, 1024))->capture_default_str();
 }
 
-fs::path make_out_folder(const std::string& out) {
-  refuse_dash("--out", out);
+std::optional<fs::path> WorkArguments::make_folder() const {
+  if (!out) return std::nullopt;
+  refuse_dash("--out", *out);
   std::error_code failure;
-  fs::create_directories(out, failure);
-  if (failure) throw InputError("--out: cannot make the folder '" + out + "': " + failure.message());
+  fs::create_directories(*out, failure);
+  if (failure) throw InputError("--out: cannot make the folder '" + *out + "': " + failure.message());
   // Held to the end of the program: two at once would mix their results.
   static std::map<fs::path, FileLock> held;
   try {
-    held.try_emplace(fs::canonical(out), out);
+    held.try_emplace(fs::canonical(*out), *out);
   } catch (const InputError& error) {
     throw InputError(std::string("--out: ") + error.what());
   }
   return out;
 }
 
-LongWork::LongWork(const WorkArguments& arguments, const std::optional<fs::path>& folder, const std::string& title)
+LongWork::LongWork(const WorkArguments& arguments, const std::optional<fs::path>& folder, const std::string& title,
+                   CellOptions& options)
     : arguments_(arguments), bar_(title) {
   if (arguments.is_divided() && !folder) throw InputError("--out is needed: the folder for " + arguments.store);
   if (folder) store_.emplace(*folder / arguments.store);
   for (const std::string& file : arguments.merge) store_->merge(file);
-}
-
-void LongWork::set(CellOptions& options) {
   options.jobs = arguments_.jobs;
   if (arguments_.shard) options.shard = Shard::parse(*arguments_.shard);
   if (store_) options.store = &*store_;

@@ -23,23 +23,20 @@ struct WorkArguments {
   /// Adds --out with this help, --shard, --merge and --jobs, of threads or processes.
   void add_to(CLI::App& command, const std::string& help_of_out, const std::string& workers);
   bool is_divided() const { return shard || !merge.empty(); }
+  /// Makes the folder that --out says, if it does. \throws InputError if that cannot be done
+  std::optional<std::filesystem::path> make_folder() const;
   /// What of these options is told of results: " --shard 3/7", or nothing.
   std::string provenance() const { return shard ? " --shard " + *shard : ""; }
 };
 
-/// Makes the folder that --out says. \throws InputError if that cannot be done
-std::filesystem::path make_out_folder(const std::string& out);
-
 /// Long work as its arguments ask for it, with a progress bar as long as this lives.
 class LongWork {
  public:
+  /// Sets threads, shard, store and progress of the options, for as long as this lives.
   /// \param folder where results are kept and found again; if absent they are not \throws InputError
-  LongWork(const WorkArguments& arguments, const std::optional<std::filesystem::path>& folder,
-           const std::string& title);
+  LongWork(const WorkArguments& arguments, const std::optional<std::filesystem::path>& folder, const std::string& title,
+           CellOptions& options);
   LongWork(const LongWork&) = delete;
-
-  /// Threads, shard, store and progress, for as long as this lives.
-  void set(CellOptions& options);
 
  private:
   const WorkArguments& arguments_;

@@ -32,18 +32,12 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   app.require_subcommand(1);
   app.set_version_flag("--version", hbvm::version());
   app.footer("Example: hbvm run modified_pendulum --method hbvm:4,2 --step 1/16 --until 20 --precision mpfr:50 --json");
-  hbvm::core::add_run_command(app);
-  hbvm::core::add_nodes_command(app);
-  hbvm::core::add_scenes_command(app);
-  hbvm::core::add_scene_command(app);
-  hbvm::core::add_study_command(app);
-  hbvm::core::add_audit_command(app);
-  hbvm::core::add_stability_command(app);
-  hbvm::core::add_reference_command(app);
-  hbvm::core::add_cost_command(app);
-  hbvm::core::add_report_command(app);
-  hbvm::core::add_completion_command(app);
-  hbvm::core::add_help_command(app);
+  for (const auto add :
+       {hbvm::core::add_run_command, hbvm::core::add_nodes_command, hbvm::core::add_scenes_command,
+        hbvm::core::add_scene_command, hbvm::core::add_study_command, hbvm::core::add_audit_command,
+        hbvm::core::add_stability_command, hbvm::core::add_reference_command, hbvm::core::add_cost_command,
+        hbvm::core::add_report_command, hbvm::core::add_completion_command, hbvm::core::add_help_command})
+    add(app);
   try {
     const CLI::App* command = &app;
     for (int i = 1; i < argc && argv[i][0] != '-' && command->get_require_subcommand_min() > 0; ++i)

@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "interruption.hpp"
+
 namespace hbvm::core {
 
 using Clock = std::chrono::steady_clock;
@@ -33,6 +35,14 @@ void ProgressBar::update(long done, long total) {
     std::fprintf(stderr, ", %.0f s left",
                  elapsed * static_cast<double>(total - done) / static_cast<double>(done - first_));
   std::fflush(stderr);
+}
+
+std::function<void(double)> ProgressBar::part_done(std::string unfinished) {
+  return [this, unfinished = std::move(unfinished)](double part) {
+    constexpr long parts = 10'000;
+    update(static_cast<long>(part * parts), parts);
+    end_if_asked(unfinished.c_str());
+  };
 }
 
 }  // namespace hbvm::core

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace hbvm::core {
@@ -11,6 +12,8 @@ class ProgressBar {
   explicit ProgressBar(std::string what);
   ~ProgressBar();
   void update(long done, long total);
+  /// Shows which part of the work is done, as it is told, and lets signals end it. \param unfinished what is said then
+  std::function<void(double)> part_done(std::string unfinished);
 
  private:
   std::string what_;

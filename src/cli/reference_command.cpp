@@ -14,7 +14,6 @@
 #include "door/door.hpp"
 #include "hbvm/reference.hpp"
 #include "hbvm/version.hpp"
-#include "interruption.hpp"
 #include "long_work/cells.hpp"
 #include "output_files.hpp"
 #include "progress_bar.hpp"
@@ -67,14 +66,9 @@ Reference compute(ReferenceRequest request, const std::optional<std::string>& fi
     if (effort.seconds > long_work)
       fmt::print(stderr, "route {}: about {}\n", effort.route, duration_text(effort.seconds));
   };
-  request.progress = [&](double part) {
-    constexpr long parts = 10'000;
-    bar.update(static_cast<long>(part * parts), parts);
-    if (stop_asked())
-      throw Interrupted(stop_request->number(),
-                        file ? "the reference was not finished; the same command goes on from '" + *file + "'"
-                             : "the reference was not finished: nothing is given out");
-  };
+  request.progress =
+      bar.part_done(file ? "the reference was not finished; the same command goes on from '" + *file + "'"
+                         : "the reference was not finished: nothing is given out");
   return compute_reference(request);
 }
 

@@ -281,8 +281,11 @@ void run_command(const RunArguments& o, const CLI::App& command) {
       written = write_metadata(o, request, made_by, columns);
     };
   }
-  const auto say_all_written = [&] { std::for_each(written.begin(), written.end(), say_written); };
   std::optional<Plot> plot;
+  const auto show_files = [&] {
+    std::for_each(written.begin(), written.end(), say_written);
+    if (plot) plot->draw(request, made_by);
+  };
   if (o.plot) hooks.recording = plot.emplace(*o.plot).recording();
   Account account;
   hooks.account = &account;
@@ -294,14 +297,11 @@ void run_command(const RunArguments& o, const CLI::App& command) {
       } catch (const InputError&) {
         throw;  // there may be no room for the files
       } catch (const Error&) {
-        // What was computed before is to be seen.
-        say_all_written();
-        if (plot) plot->draw(request, made_by);
+        show_files();  // what was computed before is to be seen
         throw;
       }
     }();
-    say_all_written();
-    if (plot) plot->draw(request, made_by);
+    show_files();
     result.command = made_by;
     if (o.json)
       std::cout << to_json(result) << std::endl;

@@ -50,14 +50,12 @@ void stability_command(const StabilityArguments& o) {
   if (o.cases) command += " --cases '" + *o.cases + "'";
 
   command += o.work.provenance();
-  std::optional<fs::path> folder;
-  if (o.work.out) folder = make_out_folder(*o.work.out);
+  const std::optional<fs::path> folder = o.work.make_folder();
   StabilityOptions options;
   options.collection = o.collection();
   std::vector<CaseFinding> findings;
   {
-    LongWork work(o.work, folder, "stability");
-    work.set(options);
+    LongWork work(o.work, folder, "stability", options);
     findings = stability(cases, options);
   }
   Table table = stability_table(findings);

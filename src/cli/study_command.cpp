@@ -45,11 +45,10 @@ void study_command(const StudyArguments& o) {
   StudyOptions options;
   options.draw = draw;
   options.check = o.check;
-  if (o.work.out) options.out = make_out_folder(*o.work.out);
+  options.out = o.work.make_folder();
   std::vector<std::optional<StudyOutcome>> outcomes;
   {
-    LongWork work(o.work, options.out, "study");
-    work.set(options);
+    LongWork work(o.work, options.out, "study", options);
     outcomes = run_studies(requests, options);
   }
   long agreed = 0, stated = 0;
