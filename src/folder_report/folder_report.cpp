@@ -1,6 +1,7 @@
 #include "folder_report/folder_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -95,11 +96,9 @@ class FolderReport {
     body += "</ul></nav>\n";
     for (const auto& [heading, section] : sections_)
       body += "<section id=\"" + html(heading) + "\">\n<h2>" + html(heading) + "</h2>\n" + section + "</section>\n";
-    if (!others_.empty()) {
-      std::string list;
-      for (const std::string& other : others_) list += (list.empty() ? "" : ", ") + other;
-      body += "<p class=\"note\">In the folder, and not shown: " + html(list) + "</p>\n";
-    }
+    if (!others_.empty())
+      body += fmt::format("<p class=\"note\">In the folder, and not shown: {}</p>\n",
+                          html(fmt::format("{}", fmt::join(others_, ", "))));
     body += "<p class=\"note\">Made by hbvm " + html(version) + ": <code>" + html(command) + "</code></p>\n";
     return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -174,11 +173,7 @@ class FolderReport {
       longest_ = csv.rows.size();
     }
     if (!description.title.empty()) section += "<p>" + html(description.title) + "</p>\n";
-    std::vector<std::size_t> rows;
-    const std::size_t count = csv.rows.size();
-    // From the first to the last, as far apart as it takes.
-    const std::size_t shown = std::min(count, limits_.rows);
-    for (std::size_t i = 0; i < shown; ++i) rows.push_back(shown > 1 ? i * (count - 1) / (shown - 1) : 0);
+    const std::size_t count = csv.rows.size(), shown = std::min(count, limits_.rows);
     if (shown < count)
       section += fmt::format("<p class=\"note\">{} of {} rows, from the first to the last.</p>\n", shown, count);
     section += "<div class=\"table\"><table>\n<thead><tr>";
@@ -189,9 +184,10 @@ class FolderReport {
                      : "<th title=\"" + html(meaning->second) + "\">" + html(column) + "</th>";
     }
     section += "</tr></thead><tbody>\n";
-    for (const std::size_t row : rows) {
+    for (std::size_t i = 0; i < shown; ++i) {
       section += "<tr>";
-      for (const std::string& cell : csv.rows[row]) {
+      // From the first to the last, as far apart as it takes.
+      for (const std::string& cell : csv.rows[shown > 1 ? i * (count - 1) / (shown - 1) : 0]) {
         constexpr std::size_t is_long = 60;
         section += (cell.size() > is_long ? "<td class=\"long\">" : "<td>") + html(cell) + "</td>";
       }

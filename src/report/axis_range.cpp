@@ -119,17 +119,9 @@ AxisRange widened(const AxisRange& range, double share) {
 }
 
 Tics tics_of(const AxisRange& range, AxisScale scale, int most) {
-  switch (scale) {
-    case AxisScale::linear:
-      return linear_tics(range, most);
-    case AxisScale::binary:
-      return power_tics(range, 2, most);
-    case AxisScale::decimal:
-      return decimal_tics(range, most);
-    case AxisScale::falling:
-      return power_tics(range, 10, most, -1);
-  }
-  return {};
+  if (scale == AxisScale::linear) return linear_tics(range, most);
+  if (scale == AxisScale::decimal) return decimal_tics(range, most);
+  return scale == AxisScale::binary ? power_tics(range, 2, most) : power_tics(range, 10, most, -1);
 }
 
 }  // namespace hbvm::core

@@ -22,17 +22,8 @@ std::string variable(const std::string& name) {
 }
 
 Json datatype(CsvType type) {
-  switch (type) {
-    case CsvType::text:
-      return "string";
-    case CsvType::integer:
-      return "integer";
-    case CsvType::binary64:
-      return "double";
-    case CsvType::decimal:
-      break;
-  }
-  return {{"base", "string"}, {"format", R"(-?[0-9]+(\.[0-9]+)?(e[-+]?[0-9]+)?)"}};
+  if (type == CsvType::decimal) return {{"base", "string"}, {"format", R"(-?[0-9]+(\.[0-9]+)?(e[-+]?[0-9]+)?)"}};
+  return type == CsvType::text ? "string" : type == CsvType::integer ? "integer" : "double";
 }
 
 }  // namespace

@@ -54,17 +54,10 @@ double right_of(const Panel& panel) {
 using Json = nlohmann::ordered_json;
 
 const char* name_of(AxisScale scale) {
-  switch (scale) {
-    case AxisScale::binary:
-      return "binary";
-    case AxisScale::decimal:
-      return "decimal";
-    case AxisScale::falling:
-      return "falling";
-    case AxisScale::linear:
-      break;
-  }
-  return "linear";
+  return scale == AxisScale::binary    ? "binary"
+         : scale == AxisScale::decimal ? "decimal"
+         : scale == AxisScale::falling ? "falling"
+                                       : "linear";
 }
 
 /// Words of a figure as they are read: what lowers, raises and joins is for the eye alone.

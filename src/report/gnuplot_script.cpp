@@ -174,25 +174,12 @@ class PanelScript {
 
   void add(const Mark& mark) {
     if (!any({mark.at})) return;
-    const char* style = "";
-    switch (mark.look) {
-      case Mark::Look::body:
-        style = "with points pt 7 ps 0.9 lc rgb 'black'";
-        break;
-      case Mark::Look::start:
-        style = "with points pt 6 ps 0.8 lc rgb '#666666'";
-        break;
-      case Mark::Look::fixed:
-        style = "with points pt 9 ps 1.3 lc rgb 'black'";
-        break;
-      case Mark::Look::positive:
-        style = "with points pt 1 ps 1.4 lw 1.5 lc rgb '#D55E00'";
-        break;
-      case Mark::Look::negative:
-        style = "with points pt 2 ps 1.2 lw 1.5 lc rgb '#0072B2'";
-        break;
-    }
-    parts_.push_back(data({mark.at}) + style + " notitle");
+    const char* const style = mark.look == Mark::Look::body       ? "pt 7 ps 0.9 lc rgb 'black'"
+                              : mark.look == Mark::Look::start    ? "pt 6 ps 0.8 lc rgb '#666666'"
+                              : mark.look == Mark::Look::fixed    ? "pt 9 ps 1.3 lc rgb 'black'"
+                              : mark.look == Mark::Look::positive ? "pt 1 ps 1.4 lw 1.5 lc rgb '#D55E00'"
+                                                                  : "pt 2 ps 1.2 lw 1.5 lc rgb '#0072B2'";
+    parts_.push_back(data({mark.at}) + "with points " + style + " notitle");
   }
 
   void write(const PlotPoint& at, const std::string& text, const std::string& colour, double lines_up,

@@ -1,28 +1,20 @@
 #include "html.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 namespace hbvm::core {
 
 std::string html(std::string_view text) {
+  constexpr std::pair<char, std::string_view> entities[] = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
   std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
+  for (const char c : text) {
+    const auto* const found =
+        std::find_if(std::begin(entities), std::end(entities), [c](const auto& e) { return e.first == c; });
+    result += found == std::end(entities) ? std::string_view(&c, 1) : found->second;
+  }
   return result;
 }
 
