@@ -93,27 +93,23 @@ TEST(AccountText, WithoutTimeHasNoShares) {
 }
 
 TEST(AccountBalance, BringsElapsedTimeToThatOfTheProcessorAndAddsTheRest) {
-  Account timed = account();
-  timed.lines.pop_back();  // 9 seconds are left
-  balance(timed, 8, 16);
-  EXPECT_EQ(timed.lines[0].seconds, 1 / double{2});
-  EXPECT_EQ(timed.lines.back().kind, Kind::rest);
-  EXPECT_EQ(timed.lines.back().seconds, 7 / double{2});
-  double sum = 0;
-  for (const AccountLine& line : timed.lines) sum += line.seconds;
-  EXPECT_EQ(sum, 8);
+  const auto expect_balanced = [](double cpu_seconds, double elapsed_seconds, double first, double rest) {
+    Account timed = account();
+    timed.lines.pop_back();  // 9 seconds are left
+    balance(timed, cpu_seconds, elapsed_seconds);
+    EXPECT_EQ(timed.lines[0].seconds, first);
+    EXPECT_EQ(timed.lines.back().kind, Kind::rest);
+    EXPECT_EQ(timed.lines.back().seconds, rest);
+    double sum = 0;
+    for (const AccountLine& line : timed.lines) sum += line.seconds;
+    EXPECT_EQ(sum, cpu_seconds);
+  };
+  constexpr double half = 1 / double{2};
+  expect_balanced(8, 16, half, 7 * half);
   // A clock of the processor that runs a little faster is none.
-  Account fast = account();
-  fast.lines.pop_back();
-  balance(fast, 10, 9);
-  EXPECT_EQ(fast.lines[0].seconds, 1);
-  EXPECT_EQ(fast.lines.back().seconds, 1);
+  expect_balanced(10, 9, 1, 1);
   // Nor is a line that was held up longer than all steps: 9 seconds of 8.
-  Account held = account();
-  held.lines.pop_back();
-  balance(held, 9 / double{2}, 8);
-  EXPECT_EQ(held.lines[0].seconds, 1 / double{2});
-  EXPECT_EQ(held.lines.back().seconds, 0);
+  expect_balanced(9 * half, 8, half, 0);
 }
 
 /// Parts of solvers with other numbers of nodes are one line, each with its own operations.

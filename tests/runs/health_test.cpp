@@ -31,6 +31,12 @@ std::string warnings(const char* scene, const char* method, const char* step, co
   return warnings(result_of(load_scene(scene), method, step, until).health);
 }
 
+std::string text_of(const Health& health, const std::string& name) {
+  for (const Warning& warning : health.warnings)
+    if (warning.name == name) return warning.text;
+  return {};
+}
+
 TEST(Health, OfOrderlyRunsHasNoWarnings) {
   EXPECT_EQ(warnings("double_pendulum", "hbvm:3,3", "1/16", "20"), "");
   EXPECT_EQ(warnings("tethered_satellites", "hbvm:5,1", "0.1", "100"), "");
@@ -52,10 +58,8 @@ TEST(Health, NamesWhatIsWrong) {
 }
 
 TEST(Health, SaysWhatWouldConserveTheEnergy) {
-  const auto text = [](const char* method) {
-    return result_of(load_scene("kepler"), method, "2*pi/64", "2*pi").health.warnings.at(0).text;
-  };
-  expect_words(text("hbvm:2,2"), {"hbvm:auto,2"});
+  const Health health = result_of(load_scene("kepler"), "hbvm:2,2", "2*pi/64", "2*pi").health;
+  expect_words(health.warnings.at(0).text, {"hbvm:auto,2"});
 }
 
 /// A body on a stiff spring, omega = 1e4.
@@ -117,27 +121,16 @@ TEST(Health, OfConstraintsThatLeaveLambdaFewDigitsWarns) {
 
 /// A double pendulum whose end is light, and a free heavy body beside it, in units of these lengths, masses and times.
 Scene in_units(const std::string& length, const std::string& mass, const std::string& time) {
-  const std::string speed = length + "/" + time;
-  const auto both = [](const char* x, const char* y, const std::string& unit) {
-    return std::string("[\"") + x + "*(" + unit + ")\", \"" + y + "*(" + unit + ")\"]";
-  };
-  return read_scene(
-      "dimension = 2\npoint = [{name = \"o\", position = [0, 0]}]\n"
-      "body = [{name = \"a\", mass = \"2*" +
-          mass + "\", position = " + both("0.8", "(-0.6)", length) + ", velocity = " + both("0.3", "0.4", speed) +
-          "},\n{name = \"b\", mass = \"" + mass + "/10^9\", position = " + both("1.3", "(-1.8)", length) +
-          ", velocity = " + both("(-0.3)", "0.15", speed) + "},\n{name = \"heavy\", mass = \"" + mass +
-          "*10^6\", position = " + both("5", "5", length) + ", velocity = " + both("1", "7", speed) +
-          "}]\n"
-          "constraint = [{kind = \"rod\", between = [\"o\", \"a\"], length = \"" +
-          length +
-          "\"},\n"
-          "{kind = \"rod\", between = [\"a\", \"b\"], length = \"1.3*" +
-          length +
-          "\"}]\n"
-          "effect = [{kind = \"uniform_gravity\", acceleration = [0, \"-(" +
-          length + ")/(" + time + ")^2\"]}]\n",
-      "units");
+  return read_scene("constants = { L = \"" + length + "\", M = \"" + mass + "\", T = \"" + time + "\" }\n" + R"(
+dimension = 2
+point = [{ name = "o", position = [0, 0] }]
+body = [{ name = "a", mass = "2*M", position = ["0.8*L", "-0.6*L"], velocity = ["0.3*L/T", "0.4*L/T"] },
+        { name = "b", mass = "M/10^9", position = ["1.3*L", "-1.8*L"], velocity = ["-0.3*L/T", "0.15*L/T"] },
+        { name = "heavy", mass = "M*10^6", position = ["5*L", "5*L"], velocity = ["L/T", "7*L/T"] }]
+constraint = [{ kind = "rod", between = ["o", "a"], length = "L" }, { kind = "rod", between = ["a", "b"], length = "1.3*L" }]
+effect = [{ kind = "uniform_gravity", acceleration = [0, "-L/T^2"] }]
+)",
+                    "units");
 }
 
 TEST(Health, DoesNotDependOnTheUnits) {
@@ -161,10 +154,7 @@ TEST(Health, OfALightEndIsThatOfTheLightEnd) {
   // A heavy body moves fast and freely; the light end of the pendulum is what the step does not resolve.
   const Health health = result_of(in_units("1", "1", "1"), "hbvm:2,2", "1/2", "32").health;
   expect_words(warnings(health), {"step_too_large"});
-  for (const Warning& warning : health.warnings)
-    if (warning.name == "step_too_large") {
-      expect_words(warning.text, {"q_3..q_4"});
-    }
+  expect_words(text_of(health, "step_too_large"), {"q_3..q_4"});
   EXPECT_EQ(warnings(result_of(in_units("1", "1", "1"), "hbvm:3,3", "1/64", "8").health), "");
 }
 
@@ -177,12 +167,6 @@ hbvm::Run result_of(const Scene& scene, MethodPtr method, const char* step, cons
   request.method = std::move(method);
   request.on_failure = on_failure;
   return run(request, {});
-}
-
-std::string text_of(const Health& health, const std::string& name) {
-  for (const Warning& warning : health.warnings)
-    if (warning.name == name) return warning.text;
-  return {};
 }
 
 /// What is lost is seen of every method by what it did.

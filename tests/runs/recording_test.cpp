@@ -4,27 +4,14 @@
 
 #include <cmath>
 
-#include "run/simulate.hpp"
+#include "runs/request_of.hpp"
 #include "scalar/precision.hpp"
 
 namespace hbvm::core {
 namespace {
 
-template <Scalar S>
-Recording recorded(const std::string& name, const std::string& step, const std::string& until,
-                   std::optional<Simulated<S>>* end = nullptr) {
-  const Assembled<S> scene = assemble<S>(load_scene(name));
-  const TimeGrid<S> grid(Expression::parse(step), Expression::parse(until));
-  Recording recording;
-  MotionRecorder<S> recorder(scene.problem, grid.steps(), recording);
-  const Simulated<S> run =
-      simulate(scene, make_hbvm<S>(2, 2), SolverKind::automatic, grid, std::vector<Observer<S>*>{&recorder});
-  if (end) *end = run;
-  return recording;
-}
-
 TEST(Recording, HoldsEveryMeshPointOfAShortRun) {
-  const Recording recording = recorded<double>("double_pendulum", "1/16", "2");
+  const Recording recording = recorded<double>(load_scene("double_pendulum"), "1/16", "2").first;
   EXPECT_EQ(recording.every, 1);
   ASSERT_EQ(recording.samples.size(), 33u);
   EXPECT_EQ(recording.samples[16].t, 1);
@@ -35,8 +22,7 @@ TEST(Recording, HoldsEveryMeshPointOfAShortRun) {
 
 /// 2500 steps and the last one, which is no multiple of 3: the greatest errors are among those kept all the same.
 TEST(Recording, OfALongRunLeavesNoErrorOut) {
-  std::optional<Simulated<double>> run;
-  const Recording recording = recorded<double>("double_pendulum", "1/16", "156.25", &run);
+  const auto [recording, run] = recorded<double>(load_scene("double_pendulum"), "1/16", "156.25");
   EXPECT_EQ(recording.every, 3);
   EXPECT_EQ(recording.samples.size(), 1u + 833 + 1);
   EXPECT_LE(static_cast<long>(recording.samples.size()), Recording::most + 2);
@@ -47,15 +33,15 @@ TEST(Recording, OfALongRunLeavesNoErrorOut) {
     constraints = std::max(constraints, sample.constraints);
     hidden = std::max(hidden, sample.hidden);
   }
-  EXPECT_EQ(energy, std::log10(run->e_H));
-  EXPECT_EQ(constraints, std::log10(run->e_g));
-  EXPECT_EQ(hidden, std::log10(run->e_hid));
+  EXPECT_EQ(energy, std::log10(run.e_H));
+  EXPECT_EQ(constraints, std::log10(run.e_g));
+  EXPECT_EQ(hidden, std::log10(run.e_hid));
 }
 
 /// Errors of 10^-400 are none in double.
 TEST(Recording, ShowsErrorsBeyondTheRangeOfDouble) {
   const PrecisionScope digits(420);
-  const Recording recording = recorded<Mpfr>("double_pendulum", "1/16", "1/2");
+  const Recording recording = recorded<Mpfr>(load_scene("double_pendulum"), "1/16", "1/2").first;
   double greatest = -INFINITY;
   for (const Recording::Sample& sample : recording.samples) greatest = std::max(greatest, sample.constraints);
   EXPECT_LT(greatest, -410);

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
+#include "run/recording.hpp"
 #include "run/run_request.hpp"
+#include "run/simulate.hpp"
 #include "step/registry.hpp"
 
 namespace hbvm::core {
@@ -15,6 +20,18 @@ inline RunRequest request_of(const Scene& scene, const std::string& method, cons
           Expression::parse(step),
           Expression::parse(until),
           Precision::parse(precision)};
+}
+
+/// What a picture shows of a run of HBVM(2,2), and how the run ended.
+template <Scalar S>
+std::pair<Recording, Simulated<S>> recorded(const Scene& text, const std::string& step, const std::string& until) {
+  const Assembled<S> scene = assemble<S>(text);
+  const TimeGrid<S> grid(Expression::parse(step), Expression::parse(until));
+  Recording recording;
+  MotionRecorder<S> recorder(scene.problem, grid.steps(), recording);
+  const std::vector<Observer<S>*> observers{&recorder};
+  Simulated<S> run = simulate(scene, make_hbvm<S>(2, 2), SolverKind::automatic, grid, observers);
+  return {std::move(recording), std::move(run)};
 }
 
 }  // namespace hbvm::core

@@ -4,23 +4,16 @@
 
 #include <cmath>
 
-#include "run/simulate.hpp"
+#include "runs/request_of.hpp"
 
 namespace hbvm::core {
 namespace {
 
-Recording recorded(const Scene& text) {
-  const Assembled<double> scene = assemble<double>(text);
-  const TimeGrid<double> grid(Expression::parse("1/16"), Expression::parse("1"));
-  Recording recording;
-  MotionRecorder<double> recorder(scene.problem, grid.steps(), recording);
-  simulate(scene, make_hbvm<double>(2, 2), SolverKind::automatic, grid, std::vector<Observer<double>*>{&recorder});
-  return recording;
-}
+Recording short_run(const Scene& scene) { return recorded<double>(scene, "1/16", "1").first; }
 
 TEST(RunFigure, ShowsAPlanarMotionInItsPlane) {
   const Scene scene = load_scene("double_pendulum");
-  const Recording recording = recorded(scene);
+  const Recording recording = short_run(scene);
   const Figure figure = run_figure(sketch(scene), recording);
   ASSERT_EQ(figure.panels.size(), 3u);
   const Panel& motion = figure.panels.front();
@@ -40,7 +33,7 @@ TEST(RunFigure, ShowsAPlanarMotionInItsPlane) {
 
 TEST(RunFigure, ShowsAMotionInSpaceFromTwoSides) {
   const Scene scene = load_scene("tethered_satellites");
-  const Recording recording = recorded(scene);
+  const Recording recording = short_run(scene);
   const Figure figure = run_figure(sketch(scene), recording);
   ASSERT_EQ(figure.panels.size(), 4u);
   const Recording::Sample& last = recording.samples.back();
@@ -53,7 +46,7 @@ TEST(RunFigure, ShowsAMotionInSpaceFromTwoSides) {
 TEST(RunFigure, ShowsMultipliersOfJointsBeforeThoseOfRigidity) {
   for (const auto& [name, curves] : {std::pair("double_physical_pendulum", 2u), std::pair("heavy_top", 6u)}) {
     const Scene scene = load_scene(name);
-    const Figure figure = run_figure(sketch(scene), recorded(scene));
+    const Figure figure = run_figure(sketch(scene), short_run(scene));
     const Panel& multipliers = figure.panels[figure.panels.size() - 2];
     EXPECT_EQ(multipliers.title, "Lagrange multipliers");
     EXPECT_EQ(multipliers.curves.size(), curves) << name;
@@ -64,7 +57,7 @@ TEST(RunFigure, ShowsMultipliersOfJointsBeforeThoseOfRigidity) {
 
 TEST(RunFigure, ShowsErrorsByTheirLogarithms) {
   const Scene scene = load_scene("double_pendulum");
-  const Recording recording = recorded(scene);
+  const Recording recording = short_run(scene);
   const Panel errors = run_figure(sketch(scene), recording).panels.back();
   EXPECT_EQ(errors.y.scale, AxisScale::decimal);
   ASSERT_EQ(errors.curves.size(), 3u);
@@ -84,7 +77,7 @@ TEST(SceneFigure, ShowsAScene) {
 
 TEST(RunFigure, OfAFreeMotionHasNoConstraints) {
   const Scene scene = load_scene("kepler");
-  const Figure figure = run_figure(sketch(scene), recorded(scene));
+  const Figure figure = run_figure(sketch(scene), short_run(scene));
   ASSERT_EQ(figure.panels.size(), 2u);
   EXPECT_EQ(figure.panels[1].curves.size(), 1u);
 }

@@ -7,7 +7,6 @@
 #include <regex>
 
 #include "hbvm/error.hpp"
-#include "run/simulate.hpp"
 #include "runs/request_of.hpp"
 #include "words.hpp"
 
@@ -18,13 +17,8 @@ using Json = nlohmann::json;
 
 RunRequest request_for(const Scene& scene) { return request_of(scene, "hbvm:2,2", "1/16", "1"); }
 
-Recording recording_of(const Scene& text, const std::string& until = "1") {
-  const Assembled<double> scene = assemble<double>(text);
-  const TimeGrid<double> grid(Expression::parse("1/16"), Expression::parse(until));
-  Recording recording;
-  MotionRecorder<double> recorder(scene.problem, grid.steps(), recording);
-  simulate(scene, make_hbvm<double>(2, 2), SolverKind::automatic, grid, std::vector<Observer<double>*>{&recorder});
-  return recording;
+Recording recording_of(const Scene& scene, const std::string& until = "1") {
+  return recorded<double>(scene, "1/16", until).first;
 }
 
 /// The text of the element that begins so.
@@ -110,9 +104,8 @@ TEST(RunPage, LetsNoTextOutOfItsPlace) {
   expect_words(page, {"&lt;/title&gt;&lt;script&gt;alert(1)&lt;/script&gt; &amp; &#39;more&#39; {{data}}"});
   EXPECT_EQ(page.find("<!--"), std::string::npos);
   const Json data = data_of(page);
-  bool found = false;
-  for (const Json& place : data["sketch"]["places"]) found = found || place["name"] == "</script><!--";
-  EXPECT_TRUE(found);
+  const Json& places = data["sketch"]["places"];
+  EXPECT_TRUE(std::any_of(places.begin(), places.end(), [](const Json& p) { return p["name"] == "</script><!--"; }));
 }
 
 /// A recording with as many coordinates as a large chain.

@@ -2,7 +2,7 @@
 
 #include "printing.hpp"
 #include "scalar/literal.hpp"
-#include "words.hpp"
+#include "scene/scene_text.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -17,12 +17,7 @@ class StartStateTest : public ::testing::Test {
   State<S> state(const std::string& json) const { return evaluate<S>(read_start_state(json, "a.json"), text, scene); }
   /// What it is refused with; empty if it is not.
   std::string start_refusal(const std::string& json) const {
-    try {
-      state(json);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
+    return refused([&] { state(json); });
   }
 };
 TYPED_TEST_SUITE(StartStateTest, AllScalars, ScalarNames);
