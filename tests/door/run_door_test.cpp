@@ -104,18 +104,15 @@ TEST(DoorRun, MakesPictures) {
 }
 
 TEST(DoorRun, RefusesWhatTheProgramRefuses) {
-  RunRequest request = pendulum();
-  request.method = "hbvn:4,2";
-  EXPECT_THROW(run(request), InputError);
-  request = pendulum();
-  request.step = "1/16 +";
-  EXPECT_THROW(run(request), InputError);
-  request = pendulum();
-  request.until = "1/30";
-  EXPECT_THROW(run(request), InputError);
-  request = pendulum();
-  request.precision = "mpfr:3";
-  EXPECT_THROW(run(request), InputError);
+  const auto expect_refused = [](auto RunRequest::*field, const char* value) {
+    RunRequest request = pendulum();
+    request.*field = value;
+    EXPECT_THROW(run(request), InputError) << value;
+  };
+  expect_refused(&RunRequest::method, "hbvn:4,2");
+  expect_refused(&RunRequest::step, "1/16 +");
+  expect_refused(&RunRequest::until, "1/30");
+  expect_refused(&RunRequest::precision, "mpfr:3");
 }
 
 /// A method that needs more than the steps know, by name and without a call before.

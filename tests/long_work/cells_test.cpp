@@ -34,12 +34,15 @@ class Cells : public ::testing::Test {
     for (const WorkCell& cell : cells) keys.push_back(cell.key);
     return keys;
   }
-  /// All of them by one thread.
-  std::string expected(const std::vector<WorkCell>& cells) {
-    CellStore store(path("expected"));
-    CellOptions options;
+  /// With what the file of this name stores.
+  auto run(const std::vector<WorkCell>& cells, const std::string& name, CellOptions options = {}) const {
+    CellStore store(path(name));
     options.store = &store;
-    run_cells(cells, options);
+    return run_cells(cells, options);
+  }
+  /// All of them by one thread.
+  std::string expected(const std::vector<WorkCell>& cells) const {
+    run(cells, "expected");
     return text("expected");
   }
 
@@ -59,7 +62,7 @@ TEST_F(Cells, GiveTheirResultsInOrder) {
     const auto results = run_cells(squares(50), options);
     ASSERT_EQ(results.size(), 50u);
     for (int i = 0; i < 50; ++i)
-      EXPECT_NE(results[static_cast<std::size_t>(i)]->find("\"square\":" + std::to_string(i * i)), std::string::npos);
+      expect_words(*results[static_cast<std::size_t>(i)], {"\"square\":" + std::to_string(i * i)});
     EXPECT_EQ(last, 50);
     EXPECT_EQ(total, 50);
   }
@@ -67,13 +70,7 @@ TEST_F(Cells, GiveTheirResultsInOrder) {
 
 TEST_F(Cells, AreNotRunAgain) {
   const auto cells = squares(20);
-  CellOptions options;
-  for (int n = 0; n < 2; ++n) {
-    CellStore store(path("store"));
-    options.store = &store;
-    const auto results = run_cells(cells, options);
-    EXPECT_NE(results[3]->find("\"square\":9"), std::string::npos);
-  }
+  for (int n = 0; n < 2; ++n) expect_words(*run(cells, "store")[3], {"\"square\":9"});
   EXPECT_EQ(runs_, 20);
 }
 
@@ -86,11 +83,9 @@ TEST_F(Cells, GoOnFromAFileCutAnywhere) {
     const std::size_t length = random() % (whole.size() + 1);
     folder_.write("cut", whole.substr(0, length));
     runs_ = 0;
-    CellStore store(path("cut"));
     CellOptions options;
-    options.store = &store;
     options.jobs = 3;
-    run_cells(cells, options);
+    run(cells, "cut", options);
     const auto lines = std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length), '\n');
     EXPECT_LE(runs_, 12 - lines);
     EXPECT_GE(runs_, 12 - lines - 1);
@@ -110,10 +105,7 @@ TEST_F(Cells, SeeDamage) {
     CellStore other(path("other"));
     EXPECT_THROW(other.merge(path("damaged")), InputError) << i;
     runs_ = 0;
-    CellStore store(path("damaged"));
-    CellOptions options;
-    options.store = &store;
-    run_cells(cells, options);
+    run(cells, "damaged");
     EXPECT_EQ(runs_, 1) << i;
   }
 }
@@ -125,12 +117,10 @@ TEST_F(Cells, OfSevenShardsMergeToTheSameFile) {
   CellStore merged(path("merged"));
   for (const int i : {4, 1, 7, 2, 3, 6, 5}) {
     const std::string name = "shard" + std::to_string(i);
-    CellStore store(path(name));
     CellOptions options;
-    options.store = &store;
     options.jobs = 2;
     options.shard = Shard::parse(std::to_string(i) + "/7");
-    const auto results = run_cells(cells, options);
+    const auto results = run(cells, name, options);
     for (std::size_t c = 0; c < cells.size(); ++c) EXPECT_EQ(results[c].has_value(), options.shard.has(c));
     merged.merge(path(name));
   }
@@ -142,10 +132,7 @@ TEST_F(Cells, OfSevenShardsMergeToTheSameFile) {
 TEST_F(Cells, ThatFailEndAllAndLoseNothing) {
   auto cells = squares(30);
   cells[9].run = []() -> std::string { throw InputError("number nine"); };
-  CellStore store(path("store"));
-  CellOptions options;
-  options.store = &store;
-  EXPECT_EQ(message_of([&] { run_cells(cells, options); }), "number nine");
+  EXPECT_EQ(message_of([&] { run(cells, "store"); }), "number nine");
   EXPECT_EQ(runs_, 9);
   const CellStore again(path("store"));
   EXPECT_TRUE(again.find(cells[8].key));
@@ -159,10 +146,7 @@ TEST_F(Cells, OfAnotherVersionAreNotTaken) {
   other[place] = other[place] == '9' ? '8' : '9';
   folder_.write("other", other);
   runs_ = 0;
-  CellStore store(path("other"));
-  CellOptions options;
-  options.store = &store;
-  run_cells(cells, options);
+  run(cells, "other");
   EXPECT_EQ(runs_, 1);
 }
 

@@ -63,8 +63,7 @@ TEST_F(FigureTest, IsDrawnInSilenceInEveryFormatWhateverTheLocale) {
 
 TEST_F(FigureTest, NamesThePackageThatIsMissing) {
   const Environment path("PATH", folder_.path().c_str());
-  const std::string refusal = message_of<Error>([&] { draw(figure_, folder_ / "figure.svg"); });
-  EXPECT_NE(refusal.find("apt install gnuplot-nox"), std::string::npos) << refusal;
+  expect_words(message_of<Error>([&] { draw(figure_, folder_ / "figure.svg"); }), {"apt install gnuplot-nox"});
 }
 
 TEST_F(FigureTest, RefusesAFolderThatIsNotThere) {

@@ -4,6 +4,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/figure.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -16,16 +17,20 @@ std::string script(const Panel& panel) {
   return gnuplot_script(figure, "x.svg");
 }
 
+/// Where a name stands beside the panel, as a share of its height.
+double height_of(const std::string& name, const std::string& text) {
+  const std::string before = "'" + name + "' at graph 1.02,";
+  expect_words(text, {before});
+  return std::stod(text.substr(text.find(before) + before.size()));
+}
+
 /// What stood in the way of seeing energies of 1e-9: a range of +-0.02 whatever the data.
 TEST(GnuplotScript, ShowsSmallNumbersAtTheirSize) {
   Panel panel;
   panel.y.label = "H";
   panel.curves = {{"", {{0, 0}, {1, 1e-9}}}};
-  const std::string text = script(panel);
-  EXPECT_TRUE(has(text, "set xrange [0:1]\n"));
-  EXPECT_TRUE(has(text, "set yrange [-4e-11:1.04e-09]\n"));
-  EXPECT_TRUE(has(text, "set ylabel 'H / 10^{-9}'"));
-  EXPECT_FALSE(has(text, "offsets"));
+  expect_words(script(panel), {"set xrange [0:1]\n", "set yrange [-4e-11:1.04e-09]\n", "set ylabel 'H / 10^{-9}'"});
+  EXPECT_FALSE(has(script(panel), "offsets"));
 }
 
 TEST(GnuplotScript, NamesCurvesAtTheirEndsAndNotTheOnlyOne) {
@@ -34,51 +39,40 @@ TEST(GnuplotScript, NamesCurvesAtTheirEndsAndNotTheOnlyOne) {
   EXPECT_FALSE(has(script(panel), "it''s"));
   panel.curves.push_back({"other", {{0, 0}, {1, 1}}});
   const std::string text = script(panel);
-  EXPECT_TRUE(has(text, "'it''s' at graph 1.02"));
   // At the same place they would stand on each other: 14 of 270 pixels apart, and 1 and 1 are at 0.962 of the height.
-  const auto height = [&](const std::string& name) {
-    const std::string before = "'" + name + "' at graph 1.02,";
-    return std::stod(text.substr(text.find(before) + before.size()));
-  };
-  EXPECT_NEAR(std::abs(height("other") - height("it''s")), 14 / 270.0, 1e-4);
-  EXPECT_LE(std::max(height("other"), height("it''s")), 1);
+  const double other = height_of("other", text), its = height_of("it''s", text);
+  EXPECT_NEAR(std::abs(other - its), 14 / 270.0, 1e-4);
+  EXPECT_LE(std::max(other, its), 1);
 }
 
 TEST(GnuplotScript, NamesAllCurvesBesideThePanelWithTheirMarks) {
   Panel panel;
   panel.labels_beside = true;
   panel.curves = {{"a", {{0, 0}, {1, 1}}, true}, {"b", {{0, 1}, {0.2, 0.5}}, true}};
-  const std::string text = script(panel);
-  EXPECT_TRUE(has(text, "set label 'a' at graph 1.03,"));
-  EXPECT_TRUE(has(text, "set label 'b' at graph 1.03,0.5"));
-  EXPECT_TRUE(has(text, "point pt 7")) << text;
-  EXPECT_TRUE(has(text, "point pt 5")) << text;
+  expect_words(script(panel),
+               {"set label 'a' at graph 1.03,", "set label 'b' at graph 1.03,0.5", "point pt 7", "point pt 5"});
 }
 
 TEST(GnuplotScript, StacksBarsUnderTheirNames) {
   Panel panel;
   panel.x.names = {"double", "two\nlines \"quoted\""};
   panel.bars = {{0, 0, 40, 0}, {0, 40, 100, 1}, {1, 0, 100, 0}};
-  const std::string text = script(panel);
-  EXPECT_TRUE(has(text, "set xrange [-0.5:1.5]\n")) << text;
-  EXPECT_TRUE(has(text, "set yrange [0:100]\n")) << text;
-  EXPECT_TRUE(has(text, "set xtics (\"double\" 0, \"two\\nlines \\\"quoted\\\"\" 1)\n")) << text;
-  EXPECT_TRUE(has(text, "-0.35 0.35 40 100\n")) << text;
-  EXPECT_TRUE(has(text, "fs solid 1 noborder lc rgb '#D55E00'")) << text;
+  expect_words(script(panel), {"set xrange [-0.5:1.5]\n", "set yrange [0:100]\n",
+                               "set xtics (\"double\" 0, \"two\\nlines \\\"quoted\\\"\" 1)\n", "-0.35 0.35 40 100\n",
+                               "fs solid 1 noborder lc rgb '#D55E00'"});
 }
 
 TEST(GnuplotScript, NamesACurveThatEndsWithin) {
   Panel panel;
   panel.curves = {{"a", {{0, 0}, {1, 1}}}, {"b", {{1, 1}, {0.2, 0.5}}}};
-  EXPECT_TRUE(has(script(panel), "set label 'b' at 0.2,0.5 left"));
+  expect_words(script(panel), {"set label 'b' at 0.2,0.5 left"});
 }
 
 TEST(GnuplotScript, NamesCurvesThatEndTogetherOneAfterAnother) {
   Panel panel;
   panel.curves = {{"first", {{1, 1}, {0, 0.5}}}, {"second", {{1, 0}, {0, 0.5}}}};
-  const std::string text = script(panel);
-  EXPECT_TRUE(has(text, "set label 'first' at 0,0.5 left offset 0.7,"));
-  EXPECT_TRUE(has(text, "set label 'second' at 0,0.5 left offset 6.7,"));
+  expect_words(script(panel),
+               {"set label 'first' at 0,0.5 left offset 0.7,", "set label 'second' at 0,0.5 left offset 6.7,"});
 }
 
 TEST(GnuplotScript, KeepsManyNamesApart) {
@@ -87,11 +81,7 @@ TEST(GnuplotScript, KeepsManyNamesApart) {
     panel.curves.push_back({"c" + std::to_string(i), {{0, 0}, {1, i == 0 ? 1.0 : 1e-3 * i}}});
   const std::string text = script(panel);
   std::vector<double> heights;
-  for (int i = 0; i < 19; ++i) {
-    const std::string before = "'c" + std::to_string(i) + "' at graph 1.02,";
-    ASSERT_TRUE(has(text, before));
-    heights.push_back(std::stod(text.substr(text.find(before) + before.size())));
-  }
+  for (int i = 0; i < 19; ++i) heights.push_back(height_of("c" + std::to_string(i), text));
   std::sort(heights.begin(), heights.end());
   EXPECT_GE(heights.front(), 0);
   EXPECT_LE(heights.back(), 1);
@@ -102,9 +92,9 @@ TEST(GnuplotScript, InterruptsCurvesWhereThereIsNoNumber) {
   Panel panel;
   panel.y.scale = AxisScale::decimal;
   panel.curves = {{"", {{0, -INFINITY}, {1, -3}, {2, -INFINITY}, {3, -4}, {4, -5}}}};
-  EXPECT_TRUE(has(script(panel), "<< EOD\n1 -3\n\n3 -4\n4 -5\nEOD\n"));
+  expect_words(script(panel), {"<< EOD\n1 -3\n\n3 -4\n4 -5\nEOD\n"});
   panel.curves = {{"", {{0, -INFINITY}}}};
-  EXPECT_TRUE(has(script(panel), "plot NaN notitle"));
+  expect_words(script(panel), {"plot NaN notitle"});
 }
 
 /// 330 pixels show as many units as 270 do: the same length each.
@@ -125,26 +115,24 @@ TEST(GnuplotScript, LeavesNamesOfScenesAsTheyAre) {
   EXPECT_EQ(plain("a_1^{2}@~&\\"), "a\\_1\\^\\{2\\}\\@\\~\\&\\\\");
   Panel panel;
   panel.marks = {{{0, 0}, Mark::Look::body, "upper_1"}};
-  EXPECT_TRUE(has(script(panel), "'upper\\_1'"));
+  expect_words(script(panel), {"'upper\\_1'"});
 }
 
 TEST(GnuplotScript, NamesMarksThatHideEachOtherInOneLine) {
   Panel panel;
   panel.marks = {{{0, 0}, Mark::Look::body, "a"}, {{0, 1e-3}, Mark::Look::body, "b"}, {{1, 1}, Mark::Look::body, "c"}};
-  const std::string text = script(panel);
-  EXPECT_TRUE(has(text, "set label 'a, b' at 0,0 "));
-  EXPECT_TRUE(has(text, "set label 'c' at 1,1 "));
+  expect_words(script(panel), {"set label 'a, b' at 0,0 ", "set label 'c' at 1,1 "});
 }
 
 TEST(GnuplotScript, QuotesItsTexts) {
   Panel panel;
   panel.title = "the bob's path";
-  EXPECT_TRUE(has(script(panel), "set title 'the bob''s path'"));
+  expect_words(script(panel), {"set title 'the bob''s path'"});
 }
 
 TEST(GnuplotScript, RefusesAnotherEnding) {
   EXPECT_THROW(gnuplot_script({}, "picture.jpg"), InputError);
-  for (const char* const file : {"a.svg", "b.pdf", "c.png"}) EXPECT_TRUE(has(gnuplot_script({}, file), file));
+  for (const char* const file : {"a.svg", "b.pdf", "c.png"}) expect_words(gnuplot_script({}, file), {file});
 }
 
 }  // namespace
