@@ -107,10 +107,11 @@ TEST(AuditCommand, TellsByItsCodeWhetherAllCouldBeDecided) {
   EXPECT_EQ(verdicts(degenerate + fails + holds, 1), (Verdicts{"degenerate", "fails", "holds"}));
   EXPECT_EQ(verdicts(holds, 4, {"--limit", "0.001"}), Verdicts{"undecidable"});
   // The start lies on the singularity of the potential.
-  folder.write(
-      "impossible.toml",
-      "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = 1, position "
-      "= [0, 0], velocity = [0, 1] }]\neffect = [{ kind = \"central_gravity\", center = \"o\", strength = 1 }]\n");
+  folder.write("impossible.toml", R"(dimension = 2
+point = [{ name = "o", position = [0, 0] }]
+body = [{ name = "a", mass = 1, position = [0, 0], velocity = [0, 1] }]
+effect = [{ kind = "central_gravity", center = "o", strength = 1 }]
+)");
   const std::string impossible = claim("q", "impossible.toml", "hbvm:1,1", "2");
   EXPECT_EQ(verdicts(impossible + holds, 4), (Verdicts{"not run", "holds"}));
 }

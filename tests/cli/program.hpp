@@ -59,11 +59,7 @@ inline Outcome run_program(const Arguments& arguments, const std::function<void(
   if (meanwhile) meanwhile(child);
   int status = 0;
   if (waitpid(child, &status, 0) != child) throw std::runtime_error("the program is lost");
-  Outcome result;
-  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  result.out = text_of(out);
-  result.err = text_of(err);
-  return result;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), text_of(out), text_of(err)};
 }
 
 /// Sanitizers make a program so many times slower.

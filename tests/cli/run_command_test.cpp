@@ -263,23 +263,16 @@ TEST(RunAuto, ReportsTheKThatReachesRoundOff) {
 }
 
 /// A bob on a circle of radius 1, and a like charge 1/10 outside of it.
-std::string charged_pendulum() {
-  return "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }, { name = \"C\", position = [\"1.1\", 0], charge "
-         "= "
-         "1 }]\nbody = [{ name = \"bob\", mass = 1, charge = 1, position = [0, -1], velocity = [4, 0] }]\n"
-         "constraint = [{ kind = \"rod\", between = [\"O\", \"bob\"], length = 1 }]\neffect = [{ kind = "
-         "\"uniform_gravity\", acceleration = [0, -1] }, { kind = \"coulomb\", strength = -1 }]\n";
-}
-
-std::string two_bodies(const std::string& speed) {
-  return "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [-1, 0], velocity = [0, \"" + speed +
-         "\"] }, { name = \"b\", mass = 1, position = [1, 0], velocity = [0, \"-(" + speed +
-         ")\"] }]\neffect = [{ kind = \"mutual_gravity\", strength = 1 }]\n";
-}
+const char* const charged_pendulum = R"(dimension = 2
+point = [{ name = "O", position = [0, 0] }, { name = "C", position = ["1.1", 0], charge = 1 }]
+body = [{ name = "bob", mass = 1, charge = 1, position = [0, -1], velocity = [4, 0] }]
+constraint = [{ kind = "rod", between = ["O", "bob"], length = 1 }]
+effect = [{ kind = "uniform_gravity", acceleration = [0, -1] }, { kind = "coulomb", strength = -1 }]
+)";
 
 TEST(RunAuto, RaisesKOnTheWay) {
   const Folder folder;
-  const std::string scene = folder.write("scene.toml", charged_pendulum());
+  const std::string scene = folder.write("scene.toml", charged_pendulum);
   const Arguments run{"run", scene, "--step", "1/32", "--until", "10", "--method"};
   const ordered_json j = json_of(run + Arguments{"hbvm:auto,2"});
   EXPECT_EQ(j["chosen"]["verified"], true);
@@ -294,7 +287,11 @@ TEST(RunAuto, RaisesKOnTheWay) {
 /// Two bodies that nearly collide: steps too large for it fail typed, and vouch for nothing.
 TEST(RunAuto, VouchesForNoNearCollisionThatItsStepsDoNotResolve) {
   const Folder folder;
-  const std::string scene = folder.write("scene.toml", two_bodies("1e-6"));
+  const std::string scene = folder.write("scene.toml", R"toml(dimension = 2
+body = [{ name = "a", mass = 1, position = [-1, 0], velocity = [0, "1e-6"] },
+        { name = "b", mass = 1, position = [1, 0], velocity = [0, "-(1e-6)"] }]
+effect = [{ kind = "mutual_gravity", strength = 1 }]
+)toml");
   const Outcome outcome = ended_with(3, run_of(scene, "hbvm:auto,3", "1/256", "3"));
   expect_words(outcome.err, {"stage_equations_diverge"});
   EXPECT_EQ(outcome.out.find("conserved to round-off"), std::string::npos) << outcome.out;
@@ -302,11 +299,11 @@ TEST(RunAuto, VouchesForNoNearCollisionThatItsStepsDoNotResolve) {
 
 TEST(RunAuto, RaisesNoFalseAlarm) {
   const Folder folder;
-  const std::string stiff = folder.write(
-      "stiff.toml",
-      "dimension = 2\npoint = [{ name = \"O\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = 1, position = "
-      "[\"3/5\", \"-4/5\"], velocity = [\"2/5\", \"3/10\"] }]\neffect = [{ kind = \"spring\", between = [\"O\", "
-      "\"a\"], stiffness = \"10^6\", rest_length = 1 }]\n");
+  const std::string stiff = folder.write("stiff.toml", R"(dimension = 2
+point = [{ name = "O", position = [0, 0] }]
+body = [{ name = "a", mass = 1, position = ["3/5", "-4/5"], velocity = ["2/5", "3/10"] }]
+effect = [{ kind = "spring", between = ["O", "a"], stiffness = "10^6", rest_length = 1 }]
+)");
   for (const auto& [scene, step, until] :
        std::vector<std::tuple<std::string, const char*, const char*>>{{"kepler", "2*pi/64", "20*pi"},
                                                                       {stiff, "1/1024", "2"},

@@ -38,9 +38,10 @@ TEST(SceneCheck, ReadsAFileInThePrecisionAsked) {
 TEST(SceneCheck, SaysOnWhomEffectsAct) {
   const Folder folder;
   const std::string scene = R"(dimension = 3
-[[point]]
-name = "Earth"
-position = [0, 0, 0]
+point = [{ name = "Earth", position = [0, 0, 0] }]
+body = [{ name = "probe", mass = 20, position = [8, 0, 0], velocity = [0, 1, 0] }]
+effect = [{ kind = "central_gravity", center = "Earth", strength = 3 },
+          { kind = "trap", center = "Earth", stiffness = 3, exponent = 2, on = ["probe"] }]
 [[rigid_body]]
 name = "sat"
 position = [7, 0, 0]
@@ -50,21 +51,6 @@ center = [0, 0, 0]
 second_moment = [[3e-4, 0, 0], [0, 2e-4, 0], [0, 0, 1e-4]]
 directors = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
 angular_velocity = [0, 0, 0]
-[[body]]
-name = "probe"
-mass = 20
-position = [8, 0, 0]
-velocity = [0, 1, 0]
-[[effect]]
-kind = "central_gravity"
-center = "Earth"
-strength = 3
-[[effect]]
-kind = "trap"
-center = "Earth"
-stiffness = 3
-exponent = 2
-on = ["probe"]
 )";
   const std::string report = hbvm({"scene", "check", folder.write("scene.toml", scene)}).out;
   expect_words(report, {"central_gravity, 2 in all", "on                  'probe', 'sat'\n",

@@ -146,6 +146,12 @@ class Browser:
             raise RuntimeError(details.get("exception", {}).get("description", details["text"]))
         return result["result"].get("value")
 
+    def check_quiet(self, what):
+        """It complains of nothing, and asks the network for nothing."""
+        check(not self.complaints, f"{what}: {self.complaints}")
+        asked = [url for url in self.requests if not url.startswith(("file:", "data:", "about:"))]
+        check(not asked, f"{what} asks for {asked}")
+
     def resize(self, width, height):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 

@@ -44,10 +44,8 @@ def run(program, scene, folder):
 
 def positions_are_those_of(chromium, rows):
     """Of every place that is a body, which one block of coordinates moves; and of all places at two times."""
-    count = chromium.evaluate("player.motion.count")
-    every = chromium.evaluate("player.motion.every")
-    places = chromium.evaluate("player.motion.places")
-    dimension = chromium.evaluate("player.motion.dimension")
+    count, every, places, dimension = (
+        chromium.evaluate(f"player.motion.{name}") for name in ("count", "every", "places", "dimension"))
     compared = 0
     for index in {0, 1, count // 2, count - 1}:
         row = rows[-1] if index == count - 1 else rows[index * every]
@@ -213,18 +211,17 @@ def pages(program, chromium, folder, pictures):
     for scene in RUNS:
         path, names, rows = run(program, scene, folder)
         chromium.open(path)
-        check(not chromium.complaints, f"{scene}: {chromium.complaints}")
-        check(all(url.startswith(("file:", "data:", "about:")) for url in chromium.requests),
-              f"{scene} asks for {chromium.requests}")
+        chromium.check_quiet(scene)
         check(not chromium.evaluate("player.playing"), f"{scene} plays though motion is not wanted")
-        for part in (lambda: positions_are_those_of(chromium, rows), lambda: it_moves(chromium),
-                     lambda: cursor_values_are_those_of(chromium, names, rows), lambda: curves_go_to_a_time(chromium), lambda: curves_are_drawn_in_order(chromium),
-                     lambda: bodies_are_drawn_where_they_are(chromium), lambda: it_can_be_turned(chromium),
-                     lambda: views_show_two_axes(chromium), lambda: names_are_not_cut(chromium)):
-            try:
-                part()
-            except Failure as failure:
-                raise Failure(f"{scene}: {failure}") from None
+        try:
+            positions_are_those_of(chromium, rows)
+            it_moves(chromium)
+            cursor_values_are_those_of(chromium, names, rows)
+            for part in (curves_go_to_a_time, curves_are_drawn_in_order, bodies_are_drawn_where_they_are,
+                         it_can_be_turned, views_show_two_axes, names_are_not_cut):
+                part(chromium)
+        except Failure as failure:
+            raise Failure(f"{scene}: {failure}") from None
         check(not chromium.complaints, f"{scene}: {chromium.complaints}")
         if pictures:
             chromium.evaluate("player.choose(Math.round(player.last * 0.6))")
@@ -240,8 +237,8 @@ def with_data(path, change):
     """A copy of a page whose data `change` has made others."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
-    begin = text.index('<script type="application/json" id="run">')
-    begin = text.index(">", begin) + 1
+    tag = '<script type="application/json" id="run">'
+    begin = text.index(tag) + len(tag)
     end = text.index("</script>", begin)
     data = json.loads(text[begin:end])
     change(data)

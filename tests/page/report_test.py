@@ -21,12 +21,6 @@ def command(program, *words):
     return subprocess.run([program, *words], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
-def is_quiet(chromium):
-    check(not chromium.complaints, f"complaints: {chromium.complaints}")
-    asked = [url for url in chromium.requests if not url.startswith(("file:", "data:", "about:"))]
-    check(not asked, f"asks for {asked}")
-
-
 def has_what_is_there(chromium, folder):
     files = sorted(os.listdir(folder))
     drawings = [name for name in files if name.endswith(".svg")]
@@ -132,7 +126,7 @@ def nothing_acts(chromium, program, folder):
           "there is another picture than the drawing")
     check(chromium.evaluate("document.querySelectorAll('svg, script:not([type]), [onload], [onclick], [href^=j]').length") == 1,
           "something was left that may act")
-    is_quiet(chromium)
+    chromium.check_quiet("the page of bad files")
 
 
 def report(program, page, folder, pictures):
@@ -148,7 +142,7 @@ def report(program, page, folder, pictures):
         fits(page, width)
         pointing_reads_values(page, os.path.join(out, "steps.csv"))
     follows_the_scheme(page)
-    is_quiet(page)
+    page.check_quiet("the page")
     if pictures:
         page.resize(1280, 2400)
         page.screenshot(os.path.join(pictures, "report.png"))

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "folder.hpp"
 #include "hbvm/error.hpp"
 #include "read_file.hpp"
@@ -17,35 +19,14 @@ TEST(Csvw, DescribesAFileAndItsColumns) {
                      {{"version", "1.2"}, {"command", "hbvm run"}},
                      {{"t", CsvType::binary64, "time"}, {"k", CsvType::integer, ""}, {"word", CsvType::text, ""}}},
                     "folder/my file.csv"),
-            R"({
-  "@context": "http://www.w3.org/ns/csvw",
-  "url": "my%20file.csv",
-  "dc:title": "A title",
-  "hbvm:version": "1.2",
-  "hbvm:command": "hbvm run",
-  "dc:source": "body = []\n",
-  "tableSchema": {
-    "columns": [
-      {
-        "name": "t",
-        "titles": "t",
-        "datatype": "double",
-        "dc:description": "time"
-      },
-      {
-        "name": "k",
-        "titles": "k",
-        "datatype": "integer"
-      },
-      {
-        "name": "word",
-        "titles": "word",
-        "datatype": "string"
-      }
-    ]
-  }
-}
-)");
+            nlohmann::ordered_json::parse(R"({"@context": "http://www.w3.org/ns/csvw", "url": "my%20file.csv",
+                "dc:title": "A title", "hbvm:version": "1.2", "hbvm:command": "hbvm run", "dc:source": "body = []\n",
+                "tableSchema": {"columns": [
+                    {"name": "t", "titles": "t", "datatype": "double", "dc:description": "time"},
+                    {"name": "k", "titles": "k", "datatype": "integer"},
+                    {"name": "word", "titles": "word", "datatype": "string"}]}})")
+                    .dump(2) +
+                "\n");
 }
 
 /// What double cannot hold is text of the form of a number, which a reader does not round.

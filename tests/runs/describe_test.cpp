@@ -159,16 +159,9 @@ TEST(Describe, HasAllDigitsOfThePrecision) {
 }
 
 TEST(Describe, SaysOnWhomEffectsAct) {
-  const std::string springs = dumb_bell + R"(
-[[effect]]
-kind = "uniform_gravity"
-acceleration = [0, -1]
-on = ["b"]
-[[effect]]
-kind = "spring"
-stiffness = 1
-)";
-  const Description d(springs);
+  const Description d(dumb_bell + R"(
+effect = [{ kind = "uniform_gravity", acceleration = [0, -1], on = ["b"] }, { kind = "spring", stiffness = 1 }]
+)");
   EXPECT_EQ(d.all("on"), (std::vector<std::string>{"'b'", "'a'-'b'"}));
   EXPECT_EQ(d["not on"], "'a' (not named)");
 }
@@ -183,6 +176,7 @@ TEST(Describe, RefusesAnEffectWithoutAValue) {
 
 TEST(Describe, ShowsMomentsOfInertia) {
   const Description d(R"(dimension = 2
+effect = [{ kind = "uniform_gravity", acceleration = [0, -1] }]
 [[rigid_body]]
 name = "bar"
 fixed_at = [0, 0]
@@ -191,9 +185,6 @@ center = ["1/2", 0]
 second_moment = [[1, 0], [0, "1/4"]]
 directors = [[1, 0], [0, 1]]
 angular_velocity = 1
-[[effect]]
-kind = "uniform_gravity"
-acceleration = [0, -1]
 )");
   EXPECT_EQ(d["'bar'"], "inertia 0.5 about the centre of mass");
   EXPECT_EQ(d["on"], "'bar'");

@@ -13,11 +13,12 @@
 namespace hbvm::core {
 namespace {
 
-hbvm::Run assessed_run(const std::string& scene, const char* method, const char* step, const char* until,
-                       const char* precision) {
+/// A run whose error is asked for.
+RunRequest assessed(const std::string& scene, const char* method, const char* step, const char* until,
+                    const char* precision) {
   RunRequest request = request_of(load_scene(scene), method, step, until, precision);
   request.error = true;
-  return run(request, {});
+  return request;
 }
 
 double digits_of(const std::string& number, const std::string& exact) {
@@ -42,7 +43,7 @@ TEST(ErrorEstimate, PromisesTheDigitsThatAreRight) {
                         {"double_pendulum", "hbvm:auto,3", "1/16", "quad"},
                         {"heavy_top", "lobatto:3", "1/16", "double"},
                         {"kepler", "hbvm:3,3", "1/8", "double"}}) {
-    const hbvm::Run found = assessed_run(c.scene, c.method, c.step, "2", c.precision),
+    const hbvm::Run found = run(assessed(c.scene, c.method, c.step, "2", c.precision), {}),
                     exact = run(request_of(load_scene(c.scene), "hbvm:20,20", "1/16", "2", "mpfr:60"), {});
     ASSERT_TRUE(found.error);
     const ErrorEstimate& error = *found.error;
@@ -74,8 +75,7 @@ TEST(ErrorEstimate, TakesTheStoredReferenceIfThereIsOne) {
   const PrecisionScope digits(60);
   for (const char* scene : {"modified_pendulum", "double_physical_pendulum", "heavy_top", "four_bar_linkage", "kepler"})
     for (const char* precision : {"double", "mpfr:40"}) {
-      RunRequest request = request_of(load_scene(scene), "hbvm:4,2", "1/32", "20/2", precision);
-      request.error = true;
+      RunRequest request = assessed(scene, "hbvm:4,2", "1/32", "20/2", precision);
       request.scene.name = "another name";
       const ErrorEstimate stored = *run(request, {}).error;
       EXPECT_EQ(stored.reference, "stored reference, 50 digits");
@@ -103,8 +103,7 @@ TEST(ErrorEstimate, TakesTheStoredReferenceIfThereIsOne) {
 TEST(ErrorEstimate, LeavesAStoredReferenceThatDoesNotTell) {
   const auto against = [](const char* method, const char* step, const char* until, const char* precision,
                           Direction direction = Direction::forward) {
-    RunRequest request = request_of(load_scene("modified_pendulum"), method, step, until, precision);
-    request.error = true;
+    RunRequest request = assessed("modified_pendulum", method, step, until, precision);
     request.direction = direction;
     return run(request, {}).error->reference;
   };

@@ -127,7 +127,8 @@ point = [{ name = "o", position = [0, 0] }]
 body = [{ name = "a", mass = "2*M", position = ["0.8*L", "-0.6*L"], velocity = ["0.3*L/T", "0.4*L/T"] },
         { name = "b", mass = "M/10^9", position = ["1.3*L", "-1.8*L"], velocity = ["-0.3*L/T", "0.15*L/T"] },
         { name = "heavy", mass = "M*10^6", position = ["5*L", "5*L"], velocity = ["L/T", "7*L/T"] }]
-constraint = [{ kind = "rod", between = ["o", "a"], length = "L" }, { kind = "rod", between = ["a", "b"], length = "1.3*L" }]
+constraint = [{ kind = "rod", between = ["o", "a"], length = "L" },
+              { kind = "rod", between = ["a", "b"], length = "1.3*L" }]
 effect = [{ kind = "uniform_gravity", acceleration = [0, "-L/T^2"] }]
 )",
                     "units");

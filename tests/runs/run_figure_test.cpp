@@ -9,12 +9,15 @@
 namespace hbvm::core {
 namespace {
 
-Recording short_run(const Scene& scene) { return recorded<double>(scene, "1/16", "1").first; }
+/// A short run of a scene and its figure.
+std::pair<Recording, Figure> shown(const char* name) {
+  const Scene scene = load_scene(name);
+  const Recording recording = recorded<double>(scene, "1/16", "1").first;
+  return {recording, run_figure(sketch(scene), recording)};
+}
 
 TEST(RunFigure, ShowsAPlanarMotionInItsPlane) {
-  const Scene scene = load_scene("double_pendulum");
-  const Recording recording = short_run(scene);
-  const Figure figure = run_figure(sketch(scene), recording);
+  const auto [recording, figure] = shown("double_pendulum");
   ASSERT_EQ(figure.panels.size(), 3u);
   const Panel& motion = figure.panels.front();
   EXPECT_TRUE(motion.equal_axes);
@@ -32,9 +35,7 @@ TEST(RunFigure, ShowsAPlanarMotionInItsPlane) {
 }
 
 TEST(RunFigure, ShowsAMotionInSpaceFromTwoSides) {
-  const Scene scene = load_scene("tethered_satellites");
-  const Recording recording = short_run(scene);
-  const Figure figure = run_figure(sketch(scene), recording);
+  const auto [recording, figure] = shown("tethered_satellites");
   ASSERT_EQ(figure.panels.size(), 4u);
   const Recording::Sample& last = recording.samples.back();
   EXPECT_EQ(figure.panels[0].curves[2].points.back(), (PlotPoint{last.q[6], last.q[7]}));
@@ -45,8 +46,7 @@ TEST(RunFigure, ShowsAMotionInSpaceFromTwoSides) {
 /// A planar pin of two rigid bodies is two constraints, beside six that keep them rigid; a top has no others.
 TEST(RunFigure, ShowsMultipliersOfJointsBeforeThoseOfRigidity) {
   for (const auto& [name, curves] : {std::pair("double_physical_pendulum", 2u), std::pair("heavy_top", 6u)}) {
-    const Scene scene = load_scene(name);
-    const Figure figure = run_figure(sketch(scene), short_run(scene));
+    const Figure figure = shown(name).second;
     const Panel& multipliers = figure.panels[figure.panels.size() - 2];
     EXPECT_EQ(multipliers.title, "Lagrange multipliers");
     EXPECT_EQ(multipliers.curves.size(), curves) << name;
@@ -56,9 +56,8 @@ TEST(RunFigure, ShowsMultipliersOfJointsBeforeThoseOfRigidity) {
 }
 
 TEST(RunFigure, ShowsErrorsByTheirLogarithms) {
-  const Scene scene = load_scene("double_pendulum");
-  const Recording recording = short_run(scene);
-  const Panel errors = run_figure(sketch(scene), recording).panels.back();
+  const auto [recording, figure] = shown("double_pendulum");
+  const Panel& errors = figure.panels.back();
   EXPECT_EQ(errors.y.scale, AxisScale::decimal);
   ASSERT_EQ(errors.curves.size(), 3u);
   EXPECT_EQ(errors.curves[0].points[5][1], recording.samples[5].energy);
@@ -76,8 +75,7 @@ TEST(SceneFigure, ShowsAScene) {
 }
 
 TEST(RunFigure, OfAFreeMotionHasNoConstraints) {
-  const Scene scene = load_scene("kepler");
-  const Figure figure = run_figure(sketch(scene), short_run(scene));
+  const Figure figure = shown("kepler").second;
   ASSERT_EQ(figure.panels.size(), 2u);
   EXPECT_EQ(figure.panels[1].curves.size(), 1u);
 }
