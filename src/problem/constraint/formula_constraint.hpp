@@ -31,9 +31,7 @@ struct FormulaConstraint {
   ConstraintValue<S> value(Index dimension, const Vector<S>& q) const {
     const At at(*this, dimension, q);
     ConstraintValue<S> result;
-    Execution<S> g(term.value, term.value_coefficients, at.x, 1);
-    g.run();
-    set(result.g, g.output(0, 0));
+    set(result.g, outputs_of(term.value, term.value_coefficients, at.x)(0, 0));
     set(result.size, at.sizes(term.value, term.value_coefficients).front());
     return result;
   }
@@ -50,11 +48,10 @@ struct FormulaConstraint {
   /// (nabla^2 g)(v, v) at q.
   S curvature(Index dimension, const Vector<S>& q, const Vector<S>& v) const {
     const At at(*this, dimension, q), along(*this, dimension, v, At::moving);
-    Execution<S> hessian(term.hessian, term.hessian_coefficients, at.x, 1);
-    hessian.run();
+    const Matrix<S> hessian = outputs_of(term.hessian, term.hessian_coefficients, at.x);
     S sum = 0;
     for_each_pair(at.x.cols(), [&](Index n, Index i, Index j) {
-      sum += (i == j ? 1 : 2) * hessian.output(n, 0) * along.x(0, i) * along.x(0, j);
+      sum += (i == j ? 1 : 2) * hessian(0, n) * along.x(0, i) * along.x(0, j);
     });
     return sum;
   }

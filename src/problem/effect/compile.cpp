@@ -1,27 +1,15 @@
 #include "problem/effect/compile.hpp"
 
+#include <algorithm>
+
 #include "hbvm/error.hpp"
+#include "problem/effect/execution.hpp"
 
 namespace hbvm::core {
 namespace {
 
 /// Second derivatives by very many inputs take that many; what compiles would take as long to run.
 constexpr std::size_t most_operations = 200'000;
-
-/// What a program's coefficients are for each instance: instances x coefficients.
-template <Scalar S>
-Matrix<S> coefficients_of(const Program<S>& program, const std::vector<std::vector<S>>& values) {
-  Matrix<S> result(static_cast<Index>(values.size()), static_cast<Index>(program.outputs()));
-  Matrix<S> registers = program.make_registers(1);
-  for (std::size_t n = 0; n < values.size(); ++n) {
-    std::vector<const S*> inputs;
-    for (const S& p : values[n]) inputs.push_back(&p);
-    program.run(registers, inputs);
-    for (std::size_t i = 0; i < program.outputs(); ++i)
-      result(static_cast<Index>(n), static_cast<Index>(i)) = program.output(i, 0, registers, inputs);
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -41,9 +29,12 @@ void compile(Trace<S>& trace, typename Trace<S>::Id U, std::size_t inputs, std::
   term.degree = trace.degree(U);
   term.constant_force = true;
   for (const auto id : gradient_ids) term.constant_force = term.constant_force && trace.degree(id) == 0;
-  term.value_coefficients = coefficients_of(value.coefficients, values);
-  term.gradient_coefficients = coefficients_of(gradient.coefficients, values);
-  term.hessian_coefficients = coefficients_of(hessian.coefficients, values);
+  Matrix<S> own(static_cast<Index>(values.size()), static_cast<Index>(parameters));
+  for (std::size_t n = 0; n < values.size(); ++n)
+    std::copy(values[n].begin(), values[n].end(), own.row(static_cast<Index>(n)).begin());
+  term.value_coefficients = outputs_of(value.coefficients, Matrix<S>(), own);
+  term.gradient_coefficients = outputs_of(gradient.coefficients, Matrix<S>(), own);
+  term.hessian_coefficients = outputs_of(hessian.coefficients, Matrix<S>(), own);
   term.value = std::move(value.program);
   term.gradient = std::move(gradient.program);
   term.hessian = std::move(hessian.program);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hbvm/error.hpp"
+#include "problem/effect/execution.hpp"
 #include "problem/effect/trace.hpp"
 
 namespace hbvm::core {
@@ -182,19 +183,7 @@ class PairedTrace {
 template <Scalar S>
 DiscreteGradient<S> discrete_gradient(const EffectTerm<S>& term, Index inputs) {
   auto compiled = PairedTrace<S>(term.value, static_cast<std::size_t>(inputs)).compile();
-  const Program<S>& code = compiled.coefficients;
-  DiscreteGradient<S> result;
-  result.coefficients.resize(term.value_coefficients.rows(), static_cast<Index>(code.outputs()));
-  Matrix<S> registers = code.make_registers(1);
-  for (Index n = 0; n < result.coefficients.rows(); ++n) {
-    std::vector<const S*> given;
-    for (Index j = 0; j < term.value_coefficients.cols(); ++j) given.push_back(&term.value_coefficients(n, j));
-    code.run(registers, given);
-    for (std::size_t i = 0; i < code.outputs(); ++i)
-      result.coefficients(n, static_cast<Index>(i)) = code.output(i, 0, registers, given);
-  }
-  result.program = std::move(compiled.program);
-  return result;
+  return {std::move(compiled.program), outputs_of(compiled.coefficients, Matrix<S>(), term.value_coefficients)};
 }
 
 #define HBVM_DEFINE(S) template DiscreteGradient<S> discrete_gradient<S>(const EffectTerm<S>&, Index);

@@ -36,4 +36,15 @@ class Execution {
   std::vector<const S*> inputs_;
 };
 
+/// The outputs of a program, a row for each row of inputs x and of coefficients.
+template <Scalar S>
+Matrix<S> outputs_of(const Program<S>& code, const Matrix<S>& per_instance, const Matrix<S>& x) {
+  Execution<S> execution(code, per_instance, x, 1);
+  execution.run();
+  Matrix<S> result(x.rows(), static_cast<Index>(code.outputs()));
+  for (Index n = 0; n < result.rows(); ++n)
+    for (Index i = 0; i < result.cols(); ++i) result(n, i) = execution.output(i, n);
+  return result;
+}
+
 }  // namespace hbvm::core

@@ -48,6 +48,15 @@ void displace(const EffectTerm<S>& term, Index dimension, Lanes<const S> q, S* o
       displace(term.displacement(n, a), dimension, q, out + a * dimension * stride + n * q.count, stride);
 }
 
+/// The displacements of one instance at q, one after the other.
+template <Scalar S>
+Vector<S> displaced(const EffectTerm<S>& term, Index instance, Index dimension, const Vector<S>& q) {
+  Vector<S> x(term.arguments * dimension);
+  for (Index a = 0; a < term.arguments; ++a)
+    x.segment(a * dimension, dimension) = displaced(term.displacement(instance, a), dimension, q);
+  return x;
+}
+
 /// The term with all numbers rounded to double.
 template <Scalar S>
 EffectTerm<double> in_double(const EffectTerm<S>& term);

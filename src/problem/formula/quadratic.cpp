@@ -17,12 +17,7 @@ struct Quadratic {
 };
 
 Vector<Mpfr> at_origin(const Program<Mpfr>& program, const Matrix<Mpfr>& coefficients, Index inputs) {
-  const Matrix<Mpfr> origin = Matrix<Mpfr>::Zero(1, inputs);
-  Execution<Mpfr> execution(program, coefficients, origin, 1);
-  execution.run();
-  Vector<Mpfr> result(static_cast<Index>(program.outputs()));
-  for (Index i = 0; i < result.size(); ++i) result[i] = execution.output(i, 0);
-  return result;
+  return outputs_of<Mpfr>(program, coefficients, Matrix<Mpfr>::Zero(1, inputs)).transpose();
 }
 
 /// Of the displacements, one after the other.

@@ -63,12 +63,10 @@ class Sampling {
   std::optional<Program<Mpfr>> softened_gradient(Index instance, const Vector<Mpfr>& q) const {
     const Program<Mpfr> as_it_is = with_exponents_times(Mpfr(1), term_.gradient);
     if (as_it_is.outputs() == term_.gradient.outputs()) return std::nullopt;
-    const Matrix<Mpfr> x = displacements(instance, q), coefficients = term_.gradient_coefficients.row(instance);
-    Execution<Mpfr> execution(as_it_is, coefficients, x, 1);
-    execution.run();
+    const Matrix<Mpfr> found = outputs(as_it_is, instance, q);
     Mpfr greatest = 0;
-    for (std::size_t i = term_.gradient.outputs(); i < as_it_is.outputs(); ++i)
-      raise_to(greatest, magnitude(execution.output(static_cast<Index>(i), 0)));
+    for (Index i = static_cast<Index>(term_.gradient.outputs()); i < found.cols(); ++i)
+      raise_to(greatest, magnitude(found(0, i)));
     constexpr int far = 64;
     if (!(greatest > far && is_finite(greatest))) return std::nullopt;
     return with_exponents_times(far / greatest, term_.gradient);
@@ -76,9 +74,7 @@ class Sampling {
 
   /// The equation at q, by this program of the gradient; none where it has no value.
   std::optional<UncertainRow> row(const Program<Mpfr>& code, Index instance, const Vector<Mpfr>& q) const {
-    const Matrix<Mpfr> x = displacements(instance, q), coefficients = term_.gradient_coefficients.row(instance);
-    Execution<Mpfr> gradient(code, coefficients, x, 1);
-    gradient.run();
+    const Matrix<Mpfr> gradient = outputs(code, instance, q);
     UncertainRow result(columns());
     Mpfr force = 0, reach = 0;
     for (Index a = 0; a < term_.arguments; ++a) {
@@ -86,7 +82,7 @@ class Sampling {
       raise_to(reach, max_norm(at));
       const Mpfr T = translation(term_.displacement(instance, a));
       for (Index i = 0; i < d_; ++i) {
-        const Mpfr& g = gradient.output(a * d_ + i, 0);
+        const Mpfr& g = gradient(0, a * d_ + i);
         if (!is_finite(g)) return std::nullopt;
         raise_to(force, magnitude(g));
         result[static_cast<std::size_t>(rotations_ + i)].value += T * g;
@@ -100,11 +96,9 @@ class Sampling {
     return result;
   }
 
-  Matrix<Mpfr> displacements(Index instance, const Vector<Mpfr>& q) const {
-    Matrix<Mpfr> x(1, term_.arguments * d_);
-    for (Index a = 0; a < term_.arguments; ++a)
-      x.block(0, a * d_, 1, d_) = displaced(term_.displacement(instance, a), d_, q).transpose();
-    return x;
+  Matrix<Mpfr> outputs(const Program<Mpfr>& code, Index instance, const Vector<Mpfr>& q) const {
+    return outputs_of<Mpfr>(code, term_.gradient_coefficients.row(instance),
+                            displaced(term_, instance, d_, q).transpose());
   }
   /// T_a.
   Mpfr translation(const Displacement<Mpfr>& x) const {

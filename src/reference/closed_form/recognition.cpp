@@ -5,20 +5,6 @@
 #include "problem/effect/execution.hpp"
 
 namespace hbvm::core {
-namespace {
-
-/// The outputs of a program of an effect for one instance at x.
-Vector<Mpfr> outputs(const Program<Mpfr>& program, const Matrix<Mpfr>& coefficients, Index instance,
-                     const Vector<Mpfr>& x) {
-  const Matrix<Mpfr> own = coefficients.row(instance), displacement = x.transpose();
-  Execution<Mpfr> execution(program, own, displacement, 1);
-  execution.run();
-  Vector<Mpfr> result(static_cast<Index>(program.outputs()));
-  for (Index i = 0; i < result.size(); ++i) result[i] = execution.output(i, 0);
-  return result;
-}
-
-}  // namespace
 
 Mpfr inner(const Vector<Mpfr>& a, const Vector<Mpfr>& b) {
   Mpfr sum = 0;
@@ -40,22 +26,15 @@ Matrix<Mpfr> multiplied(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b) {
   return c;
 }
 
-Vector<Mpfr> Acting::place(const Vector<Mpfr>& q, Index dimension) const {
-  Vector<Mpfr> x(term->arguments * dimension);
-  for (Index a = 0; a < term->arguments; ++a)
-    x.segment(a * dimension, dimension) = displaced(term->displacement(instance, a), dimension, q);
-  return x;
-}
-
 Vector<Mpfr> Acting::gradient(const Vector<Mpfr>& x) const {
-  return outputs(term->gradient, term->gradient_coefficients, instance, x);
+  return outputs_of<Mpfr>(term->gradient, term->gradient_coefficients.row(instance), x.transpose()).transpose();
 }
 
 Matrix<Mpfr> Acting::hessian(const Vector<Mpfr>& x) const {
-  const Vector<Mpfr> lower = outputs(term->hessian, term->hessian_coefficients, instance, x);
+  const Matrix<Mpfr> lower = outputs_of<Mpfr>(term->hessian, term->hessian_coefficients.row(instance), x.transpose());
   Matrix<Mpfr> result(x.size(), x.size());
   for (Index i = 0, k = 0; i < x.size(); ++i)
-    for (Index j = 0; j <= i; ++j, ++k) result(i, j) = result(j, i) = lower[k];
+    for (Index j = 0; j <= i; ++j, ++k) result(i, j) = result(j, i) = lower(0, k);
   return result;
 }
 

@@ -16,7 +16,7 @@ struct Acting {
   /// Its only displacement, or the first.
   const Displacement<Mpfr>& displacement() const { return term->displacement(instance, 0); }
   /// Its displacements at q, one after the other.
-  Vector<Mpfr> place(const Vector<Mpfr>& q, Index dimension) const;
+  Vector<Mpfr> place(const Vector<Mpfr>& q, Index dimension) const { return displaced(*term, instance, dimension, q); }
   /// f(i, coordinate, weight) for every coordinate that component i of the displacements is made of.
   template <class F>
   void for_each_coordinate(Index dimension, F f) const {
