@@ -107,6 +107,14 @@ Hbvm<Mpfr> assemble(int k, int s, int r) {
   return m;
 }
 
+/// The method with f of each array.
+template <Scalar T, Scalar S, class F>
+Hbvm<T> converted(const Hbvm<S>& m, const F& f) {
+  return {
+      m.k,      m.s,        m.r,        f(m.c),   f(m.b),          f(m.c_hat),          f(m.b_hat), f(m.P_s),
+      f(m.I_s), f(m.P_hat), f(m.I_hat), f(m.X_s), f(m.projection), f(m.projection_hat), f(m.A),     f(m.lambda_at_1)};
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -114,53 +122,24 @@ Hbvm<S> make_hbvm(int k, int s, int r) {
   const HbvmName name{k, s, r};
   name.check();
   if (name.is_auto()) throw InputError("method " + name.text() + ": K is not chosen yet");
-  Hbvm<S> method;
-  method.k = k;
-  method.s = s;
-  method.r = r;
   const Quadrature<S> gauss = gauss_legendre<S>(r), gauss_hat = k == r ? gauss : gauss_legendre<S>(k);
-  method.c = gauss.c;
-  method.b = gauss.b;
-  method.c_hat = gauss_hat.c;
-  method.b_hat = gauss_hat.b;
   // The small integrals near 0 take the most digits.
   const unsigned guard = 20 + static_cast<unsigned>(s);
   const auto digits = static_cast<unsigned>(digits10<S>());
   const PrecisionScope guarded(digits + guard);
   const Hbvm<Mpfr> m = assemble(k, s, r);
   const PrecisionScope working(digits);
-  method.P_s = rounded<S>(m.P_s);
-  method.I_s = rounded<S>(m.I_s);
-  method.P_hat = rounded<S>(m.P_hat);
-  method.I_hat = rounded<S>(m.I_hat);
-  method.X_s = rounded<S>(m.X_s);
-  method.projection = rounded<S>(m.projection);
-  method.projection_hat = rounded<S>(m.projection_hat);
-  method.A = rounded<S>(m.A);
-  method.lambda_at_1 = rounded<S>(m.lambda_at_1);
+  Hbvm<S> method = converted<S>(m, [](const auto& a) { return rounded<S>(a); });
+  method.c = gauss.c;
+  method.b = gauss.b;
+  method.c_hat = gauss_hat.c;
+  method.b_hat = gauss_hat.b;
   return method;
 }
 
 template <Scalar S>
 Hbvm<double> in_double(const Hbvm<S>& method) {
-  Hbvm<double> r;
-  r.k = method.k;
-  r.s = method.s;
-  r.r = method.r;
-  r.c = in_double(method.c);
-  r.b = in_double(method.b);
-  r.c_hat = in_double(method.c_hat);
-  r.b_hat = in_double(method.b_hat);
-  r.P_s = in_double(method.P_s);
-  r.I_s = in_double(method.I_s);
-  r.P_hat = in_double(method.P_hat);
-  r.I_hat = in_double(method.I_hat);
-  r.X_s = in_double(method.X_s);
-  r.projection = in_double(method.projection);
-  r.projection_hat = in_double(method.projection_hat);
-  r.A = in_double(method.A);
-  r.lambda_at_1 = in_double(method.lambda_at_1);
-  return r;
+  return converted<double>(method, [](const auto& a) { return in_double(a); });
 }
 
 #define HBVM_DEFINE(S)                          \

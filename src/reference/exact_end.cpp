@@ -12,7 +12,7 @@ ExactPoint exact_end(const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const 
   if (route == Route::taylor) {
     TaylorMotion motion(problem, q, p, while_working);
     motion.advance_to(t);
-    return {motion.q(), motion.p(), motion.lambda()};
+    return motion.output();
   }
   if (route == Route::closed_form) throw InputError("the end of a motion is found by taylor or hbvm");
   constexpr int few = 3;

@@ -28,6 +28,8 @@ class HbvmMotion {
 
   /// The propagated state.
   const State<Mpfr>& state() const { return state_; }
+  const Vector<Mpfr>& q() const { return state_.q; }
+  const Vector<Mpfr>& p() const { return state_.p; }
   /// The output state: q, the tangential p and the multiplier there, which have order 2s.
   ExactPoint output();
   long steps() const { return steps_; }

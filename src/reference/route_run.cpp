@@ -20,38 +20,43 @@ namespace {
 
 unsigned working_digits() { return static_cast<unsigned>(digits10<Mpfr>()); }
 
-std::string hbvm_name(int s) { return "HBVM(" + std::to_string(s) + "," + std::to_string(s) + ")"; }
+/// The way by motions, one a leg, that make(q, p, length, done) begins. `done` stays the part of the time that is done.
+template <class Make>
+Leg way_by(const RouteWork& work, const Make& make) {
+  const auto run = [&](const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times, const Vector<Mpfr>& q,
+                       const Vector<Mpfr>& p) {
+    const double before = thread_seconds();
+    double done = approximately(Mpfr(begin / work.times.back()));
+    auto motion = make(q, p, Mpfr(end - begin), done);
+    const auto advance_to = [&](const Mpfr& t) {
+      motion.advance_to(t - begin, [&](const Mpfr& now) {
+        done = approximately(Mpfr((begin + now) / work.times.back()));
+        work.progress(done);
+      });
+    };
+    Leg leg;
+    for (const Mpfr& t : times) {
+      advance_to(t);
+      leg.points.push_back(motion.output());
+    }
+    advance_to(end);
+    leg.q = motion.q();
+    leg.p = motion.p();
+    leg.steps = motion.steps();
+    leg.cpu_seconds = thread_seconds() - before;
+    return leg;
+  };
+  return run_legs(work.scene, work.times, work.legs, work.keeper, run);
+}
 
 }  // namespace
 
 RouteRun taylor_route(const RouteWork& work) {
-  Index order = 0;
-  const Leg way = run_legs(work.scene, work.times, work.legs, work.keeper,
-                           [&](const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times,
-                               const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
-                             const double before = thread_seconds();
-                             double done = approximately(Mpfr(begin / work.times.back()));
-                             TaylorMotion motion(work.scene.problem, q, p, [&] { work.progress(done); });
-                             const auto advance_to = [&](const Mpfr& t) {
-                               motion.advance_to(t - begin, [&](const Mpfr& now) {
-                                 done = approximately(Mpfr((begin + now) / work.times.back()));
-                               });
-                             };
-                             Leg leg;
-                             for (const Mpfr& t : times) {
-                               advance_to(t);
-                               leg.points.push_back({motion.q(), motion.p(), motion.lambda()});
-                             }
-                             advance_to(end);
-                             leg.q = motion.q();
-                             leg.p = motion.p();
-                             leg.steps = motion.steps();
-                             order = motion.order();
-                             leg.cpu_seconds = thread_seconds() - before;
-                             return leg;
-                           });
-  if (order == 0) order = TaylorMotion::order_for(significand_bits<Mpfr>());
-  return {fmt::format("Taylor series of order {}, {} steps, {} digits", order, way.steps, working_digits()),
+  const Leg way = way_by(work, [&](const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Mpfr&, const double& done) {
+    return TaylorMotion(work.scene.problem, q, p, [&] { work.progress(done); });
+  });
+  return {fmt::format("Taylor series of order {}, {} steps, {} digits",
+                      TaylorMotion::order_for(significand_bits<Mpfr>()), way.steps, working_digits()),
           way.cpu_seconds, way.points};
 }
 
@@ -64,29 +69,10 @@ int stages_of_route(double digits) {
 RouteRun hbvm_route(const RouteWork& work, double digits) {
   const int s = stages_of_route(digits);
   const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
-  const Leg way = run_legs(work.scene, work.times, work.legs, work.keeper,
-                           [&](const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times,
-                               const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
-                             const double before = thread_seconds();
-                             HbvmMotion walk(work.scene.problem, method, q, p, digits, Mpfr(end - begin));
-                             const auto advance_to = [&](const Mpfr& t) {
-                               walk.advance_to(t - begin, [&](const Mpfr& now) {
-                                 work.progress(approximately(Mpfr((begin + now) / work.times.back())));
-                               });
-                             };
-                             Leg leg;
-                             for (const Mpfr& t : times) {
-                               advance_to(t);
-                               leg.points.push_back(walk.output());
-                             }
-                             advance_to(end);
-                             leg.q = walk.state().q;
-                             leg.p = walk.state().p;
-                             leg.steps = walk.steps();
-                             leg.cpu_seconds = thread_seconds() - before;
-                             return leg;
-                           });
-  return {fmt::format("{}, {} steps, {} digits", hbvm_name(s), way.steps, working_digits()), way.cpu_seconds,
+  const Leg way = way_by(work, [&](const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Mpfr& length, const double&) {
+    return HbvmMotion(work.scene.problem, method, q, p, digits, length);
+  });
+  return {fmt::format("HBVM({0},{0}), {1} steps, {2} digits", s, way.steps, working_digits()), way.cpu_seconds,
           way.points};
 }
 

@@ -6,6 +6,7 @@
 
 #include "linear/lu.hpp"
 #include "problem/problem.hpp"
+#include "reference/closed_form/closed_form.hpp"
 #include "reference/program_series.hpp"
 
 namespace hbvm::core {
@@ -52,6 +53,7 @@ class TaylorMotion {
   const Vector<Mpfr>& q() const { return q_; }
   const Vector<Mpfr>& p() const { return p_; }
   const Vector<Mpfr>& lambda() const { return lambda_; }
+  ExactPoint output() const { return {q_, p_, lambda_}; }
 
   Index order() const { return order_; }
   long steps() const { return steps_; }
