@@ -98,88 +98,55 @@ class Encloser {
   }
 
   Interval operation(const Node& node) {
-    Interval r = fresh();
+    if (node.kind == Kind::name) return named(node.text);
+    if (node.kind == Kind::decimal)
+      return bounds([&](mpfr_ptr x, mpfr_rnd_t to) { mpfr_set_str(x, node.text.c_str(), 10, to); });
+    if (node.kind == Kind::pi) return bounds(mpfr_const_pi);
+    Interval a = value(*node.left);
+    const std::optional<Interval> right = node.right ? std::optional(value(*node.right)) : std::nullopt;
     switch (node.kind) {
-      case Kind::decimal:
-        mpfr_set_str(raw(r.low), node.text.c_str(), 10, MPFR_RNDD);
-        mpfr_set_str(raw(r.high), node.text.c_str(), 10, MPFR_RNDU);
-        return r;
-      case Kind::pi:
-        mpfr_const_pi(raw(r.low), MPFR_RNDD);
-        mpfr_const_pi(raw(r.high), MPFR_RNDU);
-        return r;
-      case Kind::name:
-        return named(node.text);
-      case Kind::negate: {
-        const Interval a = value(*node.left);
-        mpfr_neg(raw(r.low), raw(a.high), MPFR_RNDD);
-        mpfr_neg(raw(r.high), raw(a.low), MPFR_RNDU);
-        return r;
-      }
-      case Kind::add: {
-        const Interval a = value(*node.left), b = value(*node.right);
-        mpfr_add(raw(r.low), raw(a.low), raw(b.low), MPFR_RNDD);
-        mpfr_add(raw(r.high), raw(a.high), raw(b.high), MPFR_RNDU);
-        return r;
-      }
-      case Kind::subtract: {
-        const Interval a = value(*node.left), b = value(*node.right);
-        mpfr_sub(raw(r.low), raw(a.low), raw(b.high), MPFR_RNDD);
-        mpfr_sub(raw(r.high), raw(a.high), raw(b.low), MPFR_RNDU);
-        return r;
-      }
+      case Kind::negate:
+        return negative(a);
+      case Kind::add:
+        return sum(a, *right);
+      case Kind::subtract:
+        return sum(a, negative(*right));
       case Kind::multiply:
-        return corners(value(*node.left), value(*node.right), mpfr_mul);
-      case Kind::divide: {
-        const Interval a = value(*node.left), b = value(*node.right);
-        if (holds_zero(b)) no_value(b, "division by 0");
-        return corners(a, b, mpfr_div);
-      }
+        return corners(a, *right, mpfr_mul);
+      case Kind::divide:
+        if (holds_zero(*right)) no_value(*right, "division by 0");
+        return corners(a, *right, mpfr_div);
       case Kind::power:
-        return power(value(*node.left), value(*node.right));
-      case Kind::sqrt: {
-        Interval a = value(*node.left);
+        return power(a, *right);
+      case Kind::sqrt:
         if (mpfr_sgn(raw(a.high)) < 0) throw ExpressionError("square root of a negative number");
         if (mpfr_sgn(raw(a.low)) < 0) take_for_zero(a, "square root of a number near 0");
         return monotone(a, mpfr_sqrt);
-      }
       case Kind::exp:
-        return monotone(value(*node.left), mpfr_exp);
-      case Kind::log: {
-        const Interval a = value(*node.left);
+        return monotone(a, mpfr_exp);
+      case Kind::log:
         if (mpfr_sgn(raw(a.high)) <= 0) throw ExpressionError("logarithm of a number that is not positive");
         if (mpfr_sgn(raw(a.low)) <= 0) no_value(a, "logarithm of 0");
         return monotone(a, mpfr_log);
-      }
       case Kind::sin:
-        return lipschitz(value(*node.left), mpfr_sin);
+        return lipschitz(a, mpfr_sin);
       case Kind::cos:
-        return lipschitz(value(*node.left), mpfr_cos);
+        return lipschitz(a, mpfr_cos);
       case Kind::tan: {
-        const Interval a = value(*node.left), c = lipschitz(a, mpfr_cos);
+        const Interval c = lipschitz(a, mpfr_cos);
         if (holds_zero(c)) no_value(c, "tangent of a right angle");
         return corners(lipschitz(a, mpfr_sin), c, mpfr_div);
       }
       case Kind::sinh:
-        return monotone(value(*node.left), mpfr_sinh);
-      case Kind::cosh: {
-        Interval a = value(*node.left);
-        if (mpfr_sgn(raw(a.low)) < 0) {  // cosh a = cosh |a|
-          mpfr_neg(raw(a.low), raw(a.low), MPFR_RNDN);
-          if (mpfr_sgn(raw(a.high)) > 0) {
-            mpfr_max(raw(a.high), raw(a.low), raw(a.high), MPFR_RNDN);
-            mpfr_set_zero(raw(a.low), 1);
-          } else {
-            mpfr_neg(raw(a.high), raw(a.high), MPFR_RNDN);
-            std::swap(a.low, a.high);
-          }
-        }
-        return monotone(a, mpfr_cosh);
-      }
+        return monotone(a, mpfr_sinh);
+      case Kind::cosh:
+        return monotone(magnitude(a), mpfr_cosh);  // cosh a = cosh |a|
       case Kind::tanh:
-        return monotone(value(*node.left), mpfr_tanh);
+        return monotone(a, mpfr_tanh);
       case Kind::atan:
-        return monotone(value(*node.left), mpfr_atan);
+        return monotone(a, mpfr_atan);
+      default:
+        break;
     }
     throw ExpressionError("unknown operation");
   }
@@ -188,9 +155,7 @@ class Encloser {
     const auto known = constants_.find(name);
     if (known == constants_.end()) throw ExpressionError("unknown name '" + name + "'");
     const auto [entry, fresh_entry] = values_.try_emplace(name);
-    if (fresh_entry) {
-      entry->second = value(known->second);
-    }
+    if (fresh_entry) entry->second = value(known->second);
     if (!entry->second) throw ExpressionError("the constant '" + name + "' is defined by itself");
     return *entry->second;
   }
@@ -209,12 +174,45 @@ class Encloser {
     mpfr_set_zero(raw(a.low), 1);
   }
 
+  /// f(bound, rounding) of both.
+  template <class F>
+  Interval bounds(F f) const {
+    Interval r = fresh();
+    f(raw(r.low), MPFR_RNDD);
+    f(raw(r.high), MPFR_RNDU);
+    return r;
+  }
+
   template <class F>
   Interval monotone(const Interval& a, F f) const {
     Interval r = fresh();
     f(raw(r.low), raw(a.low), MPFR_RNDD);
     f(raw(r.high), raw(a.high), MPFR_RNDU);
     return r;
+  }
+
+  Interval sum(const Interval& a, const Interval& b) const {
+    Interval r = fresh();
+    mpfr_add(raw(r.low), raw(a.low), raw(b.low), MPFR_RNDD);
+    mpfr_add(raw(r.high), raw(a.high), raw(b.high), MPFR_RNDU);
+    return r;
+  }
+
+  /// -a, with nothing rounded.
+  static Interval negative(Interval a) {
+    mpfr_neg(raw(a.low), raw(a.low), MPFR_RNDN);
+    mpfr_neg(raw(a.high), raw(a.high), MPFR_RNDN);
+    std::swap(a.low, a.high);
+    return a;
+  }
+
+  static Interval magnitude(Interval a) {
+    if (mpfr_sgn(raw(a.low)) >= 0) return a;
+    Interval opposite = negative(a);
+    if (mpfr_sgn(raw(a.high)) <= 0) return opposite;
+    mpfr_set_zero(raw(a.low), 1);
+    mpfr_max(raw(a.high), raw(a.high), raw(opposite.high), MPFR_RNDN);
+    return a;
   }
 
   /// sin and cos at the middle of a, give or take half its width.
@@ -255,23 +253,12 @@ class Encloser {
   Interval power(Interval a, const Interval& b) const {
     const bool whole = is_point(b) && mpfr_integer_p(raw(b.low));
     if (whole && mpfr_zero_p(raw(b.low))) {
-      Interval one = fresh();
-      mpfr_set_ui(raw(one.low), 1, MPFR_RNDN);
-      mpfr_set_ui(raw(one.high), 1, MPFR_RNDN);
-      return one;
+      return bounds([](mpfr_ptr x, mpfr_rnd_t to) { mpfr_set_ui(x, 1, to); });
     }
     if (mpfr_sgn(raw(a.low)) > 0) return corners(a, b, mpfr_pow);
     if (whole && mpfr_sgn(raw(a.high)) < 0) {
-      Interval mirrored = fresh();
-      mpfr_neg(raw(mirrored.low), raw(a.high), MPFR_RNDN);
-      mpfr_neg(raw(mirrored.high), raw(a.low), MPFR_RNDN);
-      Interval r = corners(mirrored, b, mpfr_pow);
-      if (is_odd(b.low)) {
-        mpfr_neg(raw(r.low), raw(r.low), MPFR_RNDN);
-        mpfr_neg(raw(r.high), raw(r.high), MPFR_RNDN);
-        std::swap(r.low, r.high);
-      }
-      return r;
+      Interval r = corners(negative(a), b, mpfr_pow);
+      return is_odd(b.low) ? negative(r) : r;
     }
     if (mpfr_sgn(raw(a.high)) < 0) {
       if (last_ || !holds_whole_number(b))

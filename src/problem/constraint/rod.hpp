@@ -4,9 +4,7 @@
 
 #include "hbvm/error.hpp"
 #include "linear/constant_count.hpp"
-#include "problem/constraint/gradient_shares.hpp"
-#include "problem/constraint/input.hpp"
-#include "problem/constraint/value.hpp"
+#include "problem/constraint/displacement_product.hpp"
 
 namespace hbvm::core {
 
@@ -26,38 +24,20 @@ struct Rod {
     return {input.pair("between"), S(length * length)};
   }
 
+  /// |x|^2 is the product of x with itself.
+  DisplacementProduct<S> as_product() const { return {x, x, square}; }
+
   std::set<Index> coordinates(Index dimension) const { return hbvm::core::coordinates(x, dimension); }
 
-  ConstraintValue<S> value(Index dimension, const Vector<S>& q) const {
-    const Vector<S> at = displaced(x, dimension, q);
-    // A displacement carries the round-off of what it is a difference of.
-    const S spread = max_norm(q);
-    ConstraintValue<S> sum;
-    for (Index i = 0; i < dimension; ++i) {
-      sum.add(at[i] * at[i]);
-      sum.size += spread * (magnitude(at[i]) + magnitude(at[i]));
-    }
-    sum.add(-square);
-    return sum;
-  }
+  ConstraintValue<S> value(Index dimension, const Vector<S>& q) const { return as_product().value(dimension, q); }
 
   S gradient_size(Index dimension, const S& r) const { return S(2 * dimension) * total_weight(x) * reach(x, r); }
 
-  S curvature(Index dimension, const Vector<S>& v) const {
-    const Vector<S> change = moved(x, dimension, v);
-    S sum = 0;
-    for (Index i = 0; i < dimension; ++i) sum += change[i] * change[i];
-    return 2 * sum;
-  }
+  S curvature(Index dimension, const Vector<S>& v) const { return as_product().curvature(dimension, v); }
 
   template <class Add>
   void second_derivatives(Index dimension, Add add) const {
-    for (const auto& a : x.blocks)
-      for (const auto& b : x.blocks)
-        for (Index i = 0; i < dimension; ++i) {
-          add(a.offset + i, b.offset + i, S(a.weight * b.weight));
-          add(b.offset + i, a.offset + i, S(a.weight * b.weight));
-        }
+    as_product().second_derivatives(dimension, add);
   }
 
   Rod positive() const { return {hbvm::core::positive(x), square}; }

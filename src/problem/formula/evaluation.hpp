@@ -85,53 +85,41 @@ class FormulaEvaluation {
   T operation(const Node& node) {
     using Kind = Node::Kind;
     using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
+    if (node.kind == Kind::name) return values_.find(node.text)->second;
+    if (node.kind == Kind::power) return power_of(node);
+    const T a = value(node.left);
     switch (node.kind) {
-      case Kind::name:
-        return values_.find(node.text)->second;
       case Kind::negate:
-        return -value(node.left);
-      case Kind::add: {
-        const T a = value(node.left);
+        return -a;
+      case Kind::add:
         return a + value(node.right);
-      }
-      case Kind::subtract: {
-        const T a = value(node.left);
+      case Kind::subtract:
         return a - value(node.right);
-      }
-      case Kind::multiply: {
-        const T a = value(node.left);
+      case Kind::multiply:
         return a * value(node.right);
-      }
-      case Kind::divide: {
-        const T a = value(node.left);
+      case Kind::divide:
         return a / value(node.right);
-      }
-      case Kind::power:
-        return power_of(node);
       case Kind::sqrt:
-        return sqrt(value(node.left));
+        return sqrt(a);
       case Kind::sin:
-        return sin(value(node.left));
+        return sin(a);
       case Kind::cos:
-        return cos(value(node.left));
-      case Kind::tan: {
-        const T a = value(node.left);
+        return cos(a);
+      case Kind::tan:
         return sin(a) / cos(a);
-      }
       case Kind::exp:
-        return exp(value(node.left));
+        return exp(a);
       case Kind::log:
-        return log(value(node.left));
+        return log(a);
       case Kind::sinh:
-        return sinh(value(node.left));
+        return sinh(a);
       case Kind::cosh:
-        return cosh(value(node.left));
+        return cosh(a);
       case Kind::tanh:
-        return tanh(value(node.left));
+        return tanh(a);
       case Kind::atan:
-        return atan(value(node.left));
-      case Kind::decimal:
-      case Kind::pi:
+        return atan(a);
+      default:  // decimal, pi
         break;
     }
     throw Error("a number does not vary");
