@@ -43,24 +43,11 @@ AlignedMatrix::AlignedMatrix(const Matrix<Mpfr>& a) : rows_(a.rows()), columns_(
   for (Index i = 0, n = 0; i < rows_; ++i)
     for (Index j = 0; j < columns_; ++j, ++n) {
       signs_[static_cast<std::size_t>(n)] = sign_of(raw(a(i, j)));
-      align(&entries_[static_cast<std::size_t>(n * limbs_)], raw(a(i, j)), exponent_);
+      set_limbs(&entries_[static_cast<std::size_t>(n * limbs_)], limbs_, raw(a(i, j)), exponent_);
     }
   x_.resize(static_cast<std::size_t>(columns_ * limbs_));
   x_signs_.resize(static_cast<std::size_t>(columns_));
   sum_.resize(static_cast<std::size_t>(limbs_ + 2));
-}
-
-void AlignedMatrix::align(Limb* to, mpfr_srcptr x, long exponent) const {
-  std::fill_n(to, limbs_, Limb{0});
-  if (!mpfr_regular_p(x)) return;
-  const long down = exponent - mpfr_get_exp(x), whole = down / limb_bits, kept = limbs_ - whole;
-  if (kept <= 0) return;
-  const auto* const digits = static_cast<const mp_limb_t*>(mpfr_custom_get_significand(x));
-  const long own = (bits_ + limb_bits - 1) / limb_bits;
-  // The highest limbs: of x all, or as many as are kept.
-  const long taken = std::min(own, kept);
-  std::copy_n(digits + own - taken, taken, to + kept - taken);
-  if (const auto bits = static_cast<unsigned>(down % limb_bits); bits != 0) mpn_rshift(to, to, kept, bits);
 }
 
 bool AlignedMatrix::times(Mpfr* r, const Mpfr* x, Index stride) {
@@ -73,7 +60,7 @@ bool AlignedMatrix::times(Mpfr* r, const Mpfr* x, Index stride) {
   }
   for (Index l = 0; l < columns_; ++l) {
     x_signs_[static_cast<std::size_t>(l)] = sign_of(raw(x[l * stride]));
-    align(&x_[static_cast<std::size_t>(l * limbs_)], raw(x[l * stride]), x_exponent);
+    set_limbs(&x_[static_cast<std::size_t>(l * limbs_)], limbs_, raw(x[l * stride]), x_exponent);
   }
   static thread_local LimbProducts products;
   const Limb* entry = entries_.data();

@@ -27,8 +27,6 @@ class AlignedMatrix {
 
  private:
   using Limb = unsigned long;
-  /// |x| / 2^exponent, cut to limbs_ limbs, from the lowest on.
-  void align(Limb* to, mpfr_srcptr x, long exponent) const;
 
   Index rows_ = 0, columns_ = 0;
   long bits_ = 0, limbs_ = 0, exponent_ = 0;  ///< of the largest entry

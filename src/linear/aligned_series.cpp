@@ -47,31 +47,17 @@ void AlignedSeries::shift(Index count, long up) {
 void AlignedSeries::set(Index n, const Mpfr& a) {
   if (n == 0) empty_ = finite_ = true;
   mpfr_srcptr const x = raw(a);
-  const auto index = static_cast<std::size_t>(n);
-  sign_[index] = 0;
-  used_[index] = 0;
   if (!mpfr_regular_p(x)) {
     finite_ = finite_ && mpfr_zero_p(x);
-    std::fill_n(at(n), limbs_, Limb{0});
-    return;
-  }
-  const long exponent = mpfr_get_exp(x);
-  if (empty_) {
+  } else if (const long exponent = mpfr_get_exp(x); empty_) {
     exponent_ = exponent + headroom;
     empty_ = false;
   } else if (exponent > exponent_) {
     shift(n, exponent + headroom - exponent_);
     exponent_ = exponent + headroom;
   }
-  Limb* const to = at(n);
-  std::fill_n(to, limbs_, Limb{0});
-  const long down = exponent_ - exponent, whole = down / limb_bits, kept = limbs_ - whole;
-  if (kept <= 0) return;
-  const auto* const digits = static_cast<const mp_limb_t*>(mpfr_custom_get_significand(x));
-  const long own = (mpfr_get_prec(x) + limb_bits - 1) / limb_bits, taken = std::min(own, kept);
-  std::copy_n(digits + own - taken, taken, to + kept - taken);
-  if (const auto bits = static_cast<unsigned>(down % limb_bits); bits != 0) mpn_rshift(to, to, kept, bits);
-  sign_[index] = static_cast<signed char>(mpfr_sgn(x));
+  set_limbs(at(n), limbs_, x, exponent_);
+  sign_[static_cast<std::size_t>(n)] = static_cast<signed char>(mpfr_regular_p(x) ? mpfr_sgn(x) : 0);
   count_limbs(n);
 }
 

@@ -35,15 +35,9 @@ void set_max_norm(S& norm, const Eigen::PlainObjectBase<Derived>& a) {
 }
 
 /// The same as a new value.
-template <Scalar S>
-S max_norm(const Matrix<S>& a) {
-  S norm = 0;
-  set_max_norm(norm, a);
-  return norm;
-}
-template <Scalar S>
-S max_norm(const Vector<S>& a) {
-  S norm = 0;
+template <class Array>
+typename Array::Scalar max_norm(const Eigen::PlainObjectBase<Array>& a) {
+  typename Array::Scalar norm = 0;
   set_max_norm(norm, a);
   return norm;
 }

@@ -8,12 +8,6 @@
 #include "linear/limb_sum.hpp"
 
 namespace hbvm::core {
-namespace {
-
-long limbs_of(mpfr_srcptr x) { return (mpfr_get_prec(x) + limb_bits - 1) / limb_bits; }
-const mp_limb_t* digits_of(mpfr_srcptr x) { return static_cast<const mp_limb_t*>(mpfr_custom_get_significand(x)); }
-
-}  // namespace
 
 bool dot(mpfr_ptr r, const Mpfr* x, long x_stride, const Mpfr* y, long y_stride, long n) {
   const long limbs = limbs_of(r);

@@ -27,7 +27,7 @@ Curvature<S>::Term::Term(const EffectTerm<S>& term, Index dimension, Index nodes
 
 template <Scalar S>
 void Curvature<S>::Term::add_to(Matrix<S>& values, Index dimension, Lanes<const S> q, S& t) {
-  displace(*effect, dimension, q, displacement.data(), displacement.rows());
+  displace(*effect, dimension, q, displacement);
   hessian.run();
   const Index nodes = values.rows();
   for (const Target& target : targets)

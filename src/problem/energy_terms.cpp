@@ -36,7 +36,7 @@ template <Scalar S>
 void EnergyTerms<S>::evaluate_potential(const Vector<S>& q) {
   set_zero(U_);
   for (Work& work : work_) {
-    displace(work.term, problem_.dimension, lanes(q), work.displacement.data(), work.displacement.rows());
+    displace(work.term, problem_.dimension, lanes(q), work.displacement);
     work.value.run();
     for (Index n = 0; n < work.displacement.rows(); ++n) set_sum(U_, U_, work.value.output(0, n));
   }

@@ -150,16 +150,10 @@ void PotentialEvaluator<S>::for_each_force(const EffectTerm<S>& term, F f) const
 }
 
 template <Scalar S>
-void PotentialEvaluator<S>::displace_all(const EffectTerm<S>& term, Work& work, Lanes<const S> q) {
-  Matrix<S>& x = work.displacement;
-  displace(term, potential_.dimension, q, x.data(), x.rows());
-}
-
-template <Scalar S>
 void PotentialEvaluator<S>::values(Lanes<const S> q, Vector<S>& U) {
   U.setZero(lanes_);
   for (std::size_t t = 0; t < potential_.terms.size(); ++t) {
-    displace_all(potential_.terms[t], work_[t], q);
+    displace(potential_.terms[t], potential_.dimension, q, work_[t].displacement);
     work_[t].value.run();
     for (Index lane = 0; lane < work_[t].displacement.rows(); ++lane) {
       S& u = U[lane % lanes_];
@@ -199,7 +193,7 @@ void PotentialEvaluator<S>::add_force(const Varying& own, Lanes<const S> q, Matr
     }
   }
   Joint& joint = *own.joint;
-  if (leads) displace_all(*own.term, *own.work, q);
+  if (leads) displace(*own.term, potential_.dimension, q, own.work->displacement);
   joint.gradient.run(own.first, own.end);
   for_each_force(*own.term, [&](Index output, Index instance, Index coordinate, const S& weight) {
     S* const f = force.data() + coordinate * lanes_;

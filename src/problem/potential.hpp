@@ -91,7 +91,6 @@ class PotentialEvaluator {
   void take_apart();
   /// force += the gradient of a term.
   void add_force(const Varying& own, Lanes<const S> q, Matrix<S>& force);
-  void displace_all(const EffectTerm<S>& term, Work& work, Lanes<const S> q);
   /// f(output of the gradient, instance, coordinate whose force it is part of, weight), for all of them.
   template <class F>
   void for_each_force(const EffectTerm<S>& term, F f) const;

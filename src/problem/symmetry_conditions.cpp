@@ -241,11 +241,6 @@ class Conditions {
   /// A rotation mixes the components of x = 0, so that all together stay where one does not. Those set aside follow
   /// from the others, and count.
   void common_points() {
-    const auto same = [](const Displacement<S>& x, const Displacement<S>& y) {
-      return x.shift.size() == y.shift.size() && x.shift == y.shift &&
-             std::equal(x.blocks.begin(), x.blocks.end(), y.blocks.begin(), y.blocks.end(),
-                        [](const auto& a, const auto& b) { return a.offset == b.offset && a.weight == b.weight; });
-    };
     std::vector<std::pair<const Displacement<S>*, Index>> all = vanishing_;
     for (const RedundantConstraint<S>& redundant : problem_.redundant)
       if (const auto* form = std::get_if<CommonPoint<S>>(&redundant.constraint.form))
@@ -253,7 +248,7 @@ class Conditions {
     for (const auto& [x, component] : vanishing_) {
       std::set<Index> components;
       for (const auto& [y, other] : all)
-        if (same(*x, *y)) components.insert(other);
+        if (is_same(*x, *y)) components.insert(other);
       if (components.size() == d_)
         length_stays(*x);
       else

@@ -11,58 +11,36 @@ namespace hbvm::core {
 
 namespace {
 
+int sine(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t to) {
+  set_sin(r, a, to);
+  return 0;
+}
+int cosine(mpfr_ptr r, mpfr_srcptr a, mpfr_rnd_t to) {
+  set_cos(r, a, to);
+  return 0;
+}
+
+/// The function of each Op that is one of MPFR; from sinc on it is divided by its operand.
+constexpr int (*functions[op_count])(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t) = {
+    nullptr,  nullptr,  nullptr,   mpfr_neg,  mpfr_abs,  nullptr,   nullptr, mpfr_sqrt, sine,       cosine,
+    mpfr_exp, mpfr_log, mpfr_sinh, mpfr_cosh, mpfr_tanh, mpfr_atan, sine,    mpfr_sinh, mpfr_atanh, mpfr_atan};
+
 /// r = op(a), of one operand. f(a)/a has the limit 1 at 0.
 void apply(Op op, Mpfr& r, const Mpfr& a) {
-  const auto set = [&](auto f) { f(raw(r), raw(a), MPFR_RNDN); };
-  const auto set_ratio = [&](auto f) {
-    if (mpfr_zero_p(raw(a)) != 0) {
-      mpfr_set_ui(raw(r), 1, MPFR_RNDN);
-      return;
-    }
+  const auto function = functions[static_cast<std::size_t>(op)];
+  if (op == Op::sign) {
+    mpfr_set_si(raw(r), mpfr_sgn(raw(a)), MPFR_RNDN);
+  } else if (op == Op::reciprocal) {
+    mpfr_ui_div(raw(r), 1, raw(a), MPFR_RNDN);
+  } else if (op < Op::sinc) {
+    function(raw(r), raw(a), MPFR_RNDN);
+  } else if (mpfr_zero_p(raw(a)) != 0) {
+    mpfr_set_ui(raw(r), 1, MPFR_RNDN);
+  } else {
     // r may be a.
     Mpfr& value = scratch<Mpfr>();
-    f(raw(value), raw(a), MPFR_RNDN);
+    function(raw(value), raw(a), MPFR_RNDN);
     mpfr_div(raw(r), raw(value), raw(a), MPFR_RNDN);
-  };
-  switch (op) {
-    case Op::negate:
-      return set(mpfr_neg);
-    case Op::abs:
-      return set(mpfr_abs);
-    case Op::sign:
-      mpfr_set_si(raw(r), mpfr_sgn(raw(a)), MPFR_RNDN);
-      return;
-    case Op::reciprocal:
-      mpfr_ui_div(raw(r), 1, raw(a), MPFR_RNDN);
-      return;
-    case Op::sqrt:
-      return set(mpfr_sqrt);
-    case Op::sin:
-      return set(set_sin);
-    case Op::cos:
-      return set(set_cos);
-    case Op::exp:
-      return set(mpfr_exp);
-    case Op::log:
-      return set(mpfr_log);
-    case Op::sinh:
-      return set(mpfr_sinh);
-    case Op::cosh:
-      return set(mpfr_cosh);
-    case Op::tanh:
-      return set(mpfr_tanh);
-    case Op::atan:
-      return set(mpfr_atan);
-    case Op::sinc:
-      return set_ratio(set_sin);
-    case Op::sinhc:
-      return set_ratio(mpfr_sinh);
-    case Op::atanhc:
-      return set_ratio(mpfr_atanh);
-    case Op::atanc:
-      return set_ratio(mpfr_atan);
-    default:
-      return;
   }
 }
 

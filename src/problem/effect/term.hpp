@@ -48,6 +48,12 @@ void displace(const EffectTerm<S>& term, Index dimension, Lanes<const S> q, S* o
       displace(term.displacement(n, a), dimension, q, out + a * dimension * stride + n * q.count, stride);
 }
 
+/// The same as rows of a matrix, one for each instance and lane.
+template <Scalar S>
+void displace(const EffectTerm<S>& term, Index dimension, Lanes<const S> q, Matrix<S>& out) {
+  displace(term, dimension, q, out.data(), out.rows());
+}
+
 /// The displacements of one instance at q, one after the other.
 template <Scalar S>
 Vector<S> displaced(const EffectTerm<S>& term, Index instance, Index dimension, const Vector<S>& q) {

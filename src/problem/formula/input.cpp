@@ -94,7 +94,7 @@ template <Scalar S>
 void check_formula(const FormulaInput<S>& input, const EffectTerm<S>& term, const Vector<S>& q) {
   const Index d = input.dimension;
   Matrix<S> x(term.instances(), term.arguments * d);
-  displace(term, d, lanes(q), x.data(), x.rows());
+  displace(term, d, lanes(q), x);
   for (Index n = 0; n < x.rows(); ++n) {
     const Vector<S> inputs = x.row(n).transpose();
     Checking<S>(input, {inputs.begin(), inputs.end()}, input.instances[static_cast<std::size_t>(n)].parameters).value();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 
+#include "linear/rounded.hpp"
 #include "problem/effect/execution.hpp"
 
 namespace hbvm::core {
@@ -148,17 +149,6 @@ std::unique_ptr<const Found> find(const FormulaInput<Mpfr>& input) {
   return found;
 }
 
-template <Scalar S>
-S rounded(const Mpfr& x) {
-  return rounded_to<S>(raw(x));
-}
-template <Scalar S>
-Vector<S> rounded(const Vector<Mpfr>& x) {
-  Vector<S> result(x.size());
-  for (Index i = 0; i < x.size(); ++i) result[i] = rounded<S>(x[i]);
-  return result;
-}
-
 }  // namespace
 
 template <Scalar S>
@@ -171,21 +161,19 @@ std::optional<ConstraintForms<S>> quadratic_form(const FormulaInput<S>& input) {
   }
   if (!found) return std::nullopt;
   if (found->length) {
-    Rod<S> rod{{}, rounded<S>(found->length->square)};
-    for (const auto& block : found->x.blocks) rod.x.blocks.push_back({block.offset, rounded<S>(block.weight)});
+    Rod<S> rod{{}, rounded_to<S>(raw(found->length->square))};
+    for (const auto& block : found->x.blocks) rod.x.blocks.push_back({block.offset, rounded_to<S>(raw(block.weight))});
     rod.x.shift = rounded<S>(found->x.shift);
     return rod;
   }
   const Quadratic& g = found->g;
   const bool linear = std::all_of(g.A.data(), g.A.data() + g.A.size(), [](const Mpfr& a) { return a == 0; });
   if (linear && found->blocks.size() == 1) {
-    Plane<S> plane{found->blocks, rounded<S>(g.b), rounded<S>(g.c)};
+    Plane<S> plane{found->blocks, rounded<S>(g.b), rounded_to<S>(raw(g.c))};
     plane.offset = -plane.offset;
     return plane;
   }
-  Quadric<S> quadric{found->blocks, Matrix<S>(g.A.rows(), g.A.cols()), rounded<S>(g.b), rounded<S>(g.c)};
-  for (Index i = 0; i < g.A.size(); ++i) quadric.A.data()[i] = rounded<S>(g.A.data()[i]);
-  return quadric;
+  return Quadric<S>{found->blocks, rounded<S>(g.A), rounded<S>(g.b), rounded_to<S>(raw(g.c))};
 }
 
 #define HBVM_DEFINE(S) template std::optional<ConstraintForms<S>> quadratic_form<S>(const FormulaInput<S>&);

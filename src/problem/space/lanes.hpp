@@ -17,21 +17,13 @@ struct Lanes {
   operator Lanes<const T, Count>() const requires(!std::is_const_v<T>) { return {data, count}; }
 };
 
-template <Scalar S>
-Lanes<const S> lanes(const Matrix<S>& rows) {
-  return {rows.data(), rows.rows()};
+template <class Array>
+Lanes<const typename Array::Scalar> lanes(const Eigen::PlainObjectBase<Array>& x) {
+  return {x.data(), Array::ColsAtCompileTime == 1 ? 1 : x.rows()};
 }
-template <Scalar S>
-Lanes<const S> lanes(const Vector<S>& one) {
-  return {one.data(), 1};
-}
-template <Scalar S>
-Lanes<S> lanes(Matrix<S>& rows) {
-  return {rows.data(), rows.rows()};
-}
-template <Scalar S>
-Lanes<S> lanes(Vector<S>& one) {
-  return {one.data(), 1};
+template <class Array>
+Lanes<typename Array::Scalar> lanes(Eigen::PlainObjectBase<Array>& x) {
+  return {x.data(), Array::ColsAtCompileTime == 1 ? 1 : x.rows()};
 }
 
 }  // namespace hbvm::core

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "hbvm/error.hpp"
+#include "linear/rounded.hpp"
 #include "problem/state_evaluator.hpp"
 #include "reference/closed_form/recognition.hpp"
 #include "scalar/binary_exponent.hpp"
@@ -31,12 +32,6 @@ double spread(const Vector<Mpfr>& x) {
                                       : static_cast<double>(greatest - least) * std::numbers::ln2 / std::numbers::ln10;
 }
 
-Vector<Mpfr> in_this_scope(const Vector<Mpfr>& x) {
-  Vector<Mpfr> result(x.size());
-  for (Index j = 0; j < x.size(); ++j) result[j] = rounded_to<Mpfr>(raw(x[j]));
-  return result;
-}
-
 }  // namespace
 
 ExactPoint ClosedForm::at(const Mpfr& t) const {
@@ -47,7 +42,7 @@ ExactPoint ClosedForm::at(const Mpfr& t) const {
     if (!is_finite(inner.q) || !is_finite(inner.p))
       throw IntegrationError("the closed form (" + name() + ") has no value at t = " + to_scientific(t, 6));
   }
-  ExactPoint point{in_this_scope(inner.q), in_this_scope(inner.p), {}};
+  ExactPoint point{rounded<Mpfr>(inner.q), rounded<Mpfr>(inner.p), {}};
   StateEvaluator<Mpfr> here(problem_);
   point.lambda = here.multiplier(point.q, point.p);
   return point;
