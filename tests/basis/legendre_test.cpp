@@ -13,10 +13,9 @@ namespace {
 using std::sqrt;
 
 template <class S>
-class Legendre : public ::testing::Test {
+class Legendre : public InDigits<50> {
  protected:
   static constexpr int count = 12;
-  PrecisionScope digits{50};
   RandomValues<S> random{3};
 
   /// The recurrence is stable on [0, 1]: every step adds a few ulps of the largest value, sqrt(2 count + 1) <= count.

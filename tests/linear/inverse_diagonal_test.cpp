@@ -8,9 +8,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class InverseDiagonalOf : public ::testing::Test {
+class InverseDiagonalOf : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{31};
 };
 TYPED_TEST_SUITE(InverseDiagonalOf, AllScalars, ScalarNames);

@@ -7,9 +7,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class LuTest : public ::testing::Test {
+class LuTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{31};
   Lu<S> lu;
 

@@ -7,9 +7,8 @@
 namespace hbvm::core {
 namespace {
 
-class NullSpace : public ::testing::Test {
+class NullSpace : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<Mpfr> random{31};
 
   static UncertainRow row(std::initializer_list<int> entries) { return {entries.begin(), entries.end()}; }

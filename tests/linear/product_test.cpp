@@ -8,9 +8,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class Product : public ::testing::Test {
+class Product : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{23};
 };
 TYPED_TEST_SUITE(Product, AllScalars, ScalarNames);

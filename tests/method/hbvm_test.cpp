@@ -21,10 +21,8 @@ struct Stages {
 constexpr Stages choices[] = {{1, 1}, {4, 1}, {2, 2}, {3, 2}, {5, 3}, {12, 6}, {6, 6}, {30, 10}, {40, 20}};
 
 template <class S>
-class HbvmCoefficients : public ::testing::Test {
+class HbvmCoefficients : public InDigits<50> {
  protected:
-  static constexpr unsigned mpfr_digits = 50;
-  PrecisionScope digits{mpfr_digits};
   RandomValues<S> random{17};
 
   /// Each entry of an identity of size n is a sum of n products of numbers rounded once, none above 2 n.

@@ -20,9 +20,8 @@ Perturbation mistake(Part part, int i, int j, const char* relative, bool hat = f
 }
 
 template <class S>
-class PerturbationTest : public ::testing::Test {
+class PerturbationTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   const Hbvm<S> method = make_hbvm<S>(5, 3), gauss = make_hbvm<S>(3, 3);
 
   static Hbvm<S> changed(Hbvm<S> method, const Perturbation& p) {

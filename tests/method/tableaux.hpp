@@ -50,9 +50,8 @@ RungeKutta<S> gauss(int s) {
 }
 
 template <class S>
-class TableauTest : public ::testing::Test {
+class TableauTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   const S tolerance = 1'000 * epsilon<S>();
 
   int order_of(const Tableau& tableau) const { return order(make_runge_kutta<S>(tableau), tolerance); }

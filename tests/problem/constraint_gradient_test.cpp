@@ -9,10 +9,9 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class ConstraintGradientTest : public ::testing::Test {
+class ConstraintGradientTest : public InDigits<50> {
  protected:
   static constexpr Index count = 3;
-  PrecisionScope digits{50};
   RandomValues<S> random{53};
 
   /// Coordinates and gradients are of the order of 1 to 10, and sums have at most 12 terms.

@@ -7,9 +7,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class ConstraintTest : public ::testing::Test {
+class ConstraintTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{47};
 };
 TYPED_TEST_SUITE(ConstraintTest, AllScalars, ScalarNames);

@@ -10,9 +10,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class CurvatureTest : public ::testing::Test {
+class CurvatureTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{83};
 
   /// Constraints of every form, with a stiff spring between two bodies, the attraction of a centre, and a uniform

@@ -11,9 +11,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class ProblemInDouble : public ::testing::Test {
+class ProblemInDouble : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<double> random{89};
 
   /// All forms of constraints and blocks of masses, a field that is weaker where it is oblate, and a spring.

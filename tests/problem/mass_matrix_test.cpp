@@ -8,9 +8,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class MassMatrixTest : public ::testing::Test {
+class MassMatrixTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{43};
 
   /// B^T B + 1, for a random B.

@@ -15,10 +15,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class Momenta : public ::testing::Test {
+class Momenta : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   static Vector<S> vector(std::initializer_list<int> entries) {
     Vector<S> v(static_cast<Index>(entries.size()));
     Index i = 0;

@@ -9,10 +9,9 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class PotentialTest : public ::testing::Test {
+class PotentialTest : public InDigits<50> {
  protected:
   static constexpr Index d = 2, m = 4;
-  PrecisionScope digits{50};
   RandomValues<S> random{73};
 
   using Use = EffectInput<S>;

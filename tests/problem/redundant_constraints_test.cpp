@@ -20,9 +20,8 @@ void repeat(Problem<S>& problem, std::size_t which, std::size_t place) {
 }
 
 template <class S>
-class RedundantConstraintsTest : public ::testing::Test {
+class RedundantConstraintsTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{193};
 
   /// A problem with every constraint, and what is left when those are set aside that are redundant at q.

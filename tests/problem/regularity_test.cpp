@@ -11,9 +11,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class Regularity : public ::testing::Test {
+class Regularity : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{97};
 
   static Vector<S> vector(std::initializer_list<const char*> entries) {

@@ -10,9 +10,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class PointTest : public ::testing::Test {
+class PointTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{79};
 
   static Vector<S> vector(std::initializer_list<const char*> entries) {

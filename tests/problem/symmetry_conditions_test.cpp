@@ -11,9 +11,8 @@ using Motion = Vector<Mpfr>;  // (w, t)
 
 /// A motion fulfils the conditions of a problem with one constraint, effect or mass matrix if and only if it changes
 /// that nowhere. Derivatives along the motion at random positions tell.
-class SymmetryConditions : public ::testing::Test {
+class SymmetryConditions : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<Mpfr> random{97};
 
   static Problem<Mpfr> bodies(Index d) {

@@ -8,9 +8,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class InPlace : public ::testing::Test {
+class InPlace : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{7};
   S a = random.value(), b = random.value(), r = random.value(), t;
 };

@@ -23,9 +23,8 @@ struct Range<Quad> {
 };
 
 template <class S>
-class ScalarTest : public ::testing::Test {
+class ScalarTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{11};
   const int bits = significand_bits<S>();
 

@@ -67,9 +67,8 @@ void expect_shortest(const S& x) {
 }
 
 template <class S>
-class TextTest : public ::testing::Test {
+class TextTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{5};
 
   S power_of_two(long e) const {

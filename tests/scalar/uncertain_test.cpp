@@ -7,9 +7,8 @@ namespace hbvm::core {
 namespace {
 
 /// Two numbers and all that lies within their errors.
-class UncertainTest : public ::testing::Test {
+class UncertainTest : public InDigits<40> {
  protected:
-  PrecisionScope digits{40};
   RandomValues<Mpfr> random{37};
 
   Uncertain any() {

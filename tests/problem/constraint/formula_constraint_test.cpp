@@ -50,9 +50,8 @@ g = "atan(x*y) + z^3 - sinh(x)/3"
 )--";
 
 template <class S>
-class FormulaConstraintTest : public ::testing::Test {
+class FormulaConstraintTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{83};
 
   /// Calls check(problem, constraint number) for every constraint that is a formula.

@@ -11,9 +11,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class HingeTest : public ::testing::Test {
+class HingeTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{17};
   S tolerance = 1024 * epsilon<S>();
 

@@ -10,9 +10,8 @@ namespace {
 
 /// What every form says of itself fits together, whatever forms there are.
 template <class S>
-class EveryForm : public ::testing::Test {
+class EveryForm : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{61};
   S tolerance = 4096 * epsilon<S>();
 

@@ -12,10 +12,9 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class DiscreteGradients : public ::testing::Test {
+class DiscreteGradients : public InDigits<50> {
  protected:
   static constexpr Index d = 3;
-  PrecisionScope digits{50};
   RandomValues<S> random{2718};
 
   static EffectTerm<S> term(const char* kind, const std::vector<std::pair<const char*, const char*>>& numbers,

@@ -285,10 +285,8 @@ TEST(Effects, AreFoundByKind) {
 }
 
 template <class S>
-class Term : public ::testing::Test {
+class Term : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   static EffectInput<S> one_body(const char* kind, const std::vector<std::pair<const char*, const char*>>& numbers) {
     EffectInput<S> input;
     input.kind = kind;

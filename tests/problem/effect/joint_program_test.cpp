@@ -12,10 +12,9 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class JointProgramTest : public testing::Test {
+class JointProgramTest : public InDigits<50> {
  protected:
   using T = Traced<S>;
-  PrecisionScope digits{50};
   RandomValues<S> random{83};
 
   /// The gradient of a formula for two inputs and a parameter, of which one coefficient comes.

@@ -12,11 +12,10 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class ProgramTest : public ::testing::Test {
+class ProgramTest : public InDigits<50> {
  protected:
   using Code = Program<S>;
   static constexpr Index count = 3;
-  PrecisionScope digits{50};
   RandomValues<S> random{59};
   Matrix<S> x = random.matrix(count, 2);
   std::vector<const S*> inputs{x.data(), x.data() + count};

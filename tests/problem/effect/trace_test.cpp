@@ -99,11 +99,10 @@ class Tree {
 };
 
 /// Three inputs, two parameters and the constants 0, 1, -1, 2 and 1/3 as leaves.
-class RandomFormulas : public ::testing::Test {
+class RandomFormulas : public InDigits<60> {
  protected:
   static constexpr std::size_t inputs = 3, parameters = 2, leaves = 10;
   static constexpr Index count = 3;
-  PrecisionScope digits{60};
   RandomValues<Mpfr> random{61};
   std::vector<Mpfr> constants{Mpfr(0), Mpfr(1), Mpfr(-1), Mpfr(2), Mpfr(Mpfr(1) / 3)};
 
@@ -166,10 +165,9 @@ TEST_F(RandomFormulas, HaveTheGradientsOfFiniteDifferences) {
 }
 
 template <class S>
-class TraceTest : public ::testing::Test {
+class TraceTest : public InDigits<50> {
  protected:
   using T = Traced<S>;
-  PrecisionScope digits{50};
   RandomValues<S> random{67};
   Trace<S> trace;
   T x{trace, trace.input(0)}, y{trace, trace.input(1)}, z{trace, trace.input(2)};

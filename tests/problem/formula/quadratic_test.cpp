@@ -12,10 +12,8 @@ const Constants quadratic_constants{{"L", Expression::parse("1/10")}};
 
 /// Of two bodies in the plane, at 0 and 4 of q; x1, y1, x2, y2.
 template <class S>
-class QuadraticForms : public ::testing::Test {
+class QuadraticForms : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   std::optional<ConstraintForms<S>> form(const std::string& text) {
     using Is = FormulaVariable::Is;
     const Expression read = Expression::parse(text, Expression::Syntax::formula);

@@ -13,10 +13,8 @@ const Constants symmetry_constants{{"k", Expression::parse("3/7")}};
 
 /// Two bodies in space; the names of what U keeps.
 template <class S>
-class FormulaSymmetry : public ::testing::Test {
+class FormulaSymmetry : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   /// U of both positions, x1 ... z2.
   std::vector<std::string> kept(const std::string& text) {
     using Is = FormulaVariable::Is;

@@ -7,10 +7,9 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class LanesTest : public ::testing::Test {
+class LanesTest : public InDigits<50> {
  protected:
   static constexpr Index d = 2, count = 3, m = 6;
-  PrecisionScope digits{50};
   RandomValues<S> random{41};
   Matrix<S> q = random.matrix(count, m);
 
