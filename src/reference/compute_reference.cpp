@@ -206,14 +206,8 @@ std::string scene_hash(const Scene& scene) {
 }
 
 RouteFunction function_of(Route route) {
-  switch (route) {
-    case Route::taylor:
-      return [](const RouteWork& work, double) { return taylor_route(work); };
-    case Route::hbvm:
-      return hbvm_route;
-    case Route::closed_form:
-      break;
-  }
+  if (route == Route::taylor) return [](const RouteWork& work, double) { return taylor_route(work); };
+  if (route == Route::hbvm) return hbvm_route;
   return [](const RouteWork& work, double) { return closed_form_route(work); };
 }
 

@@ -16,18 +16,11 @@ namespace {
 
 /// The function whose series comes with that of this one, for sin, cos, sinh and cosh.
 std::optional<Op> partner_of(Op op) {
-  switch (op) {
-    case Op::sin:
-      return Op::cos;
-    case Op::cos:
-      return Op::sin;
-    case Op::sinh:
-      return Op::cosh;
-    case Op::cosh:
-      return Op::sinh;
-    default:
-      return std::nullopt;
+  for (const auto& [function, partner] : {std::pair(Op::sin, Op::cos), std::pair(Op::sinh, Op::cosh)}) {
+    if (op == function) return partner;
+    if (op == partner) return function;
   }
+  return std::nullopt;
 }
 
 void start_sine(Mpfr& sine, Mpfr& cosine, const Mpfr& a) {
@@ -44,36 +37,24 @@ ProgramSeries::ProgramSeries(const Program<Mpfr>& program, Index inputs, std::ve
   // Registers serve several values in turn; here each has a series of its own.
   std::vector<Value> registers(program.temporaries());
   const auto value_of = [&](const Operand& x) -> Value {
-    switch (x.bank) {
-      case Bank::input:
-        if (static_cast<Index>(x.index) < inputs) return {static_cast<Index>(x.index), nullptr};
-        return {-1, coefficients[x.index - static_cast<std::size_t>(inputs)]};
-      case Bank::constant:
-        return {-1, &program.constants()[x.index]};
-      case Bank::temporary:
-        break;
-    }
-    return registers[x.index];
+    if (x.bank == Bank::temporary) return registers[x.index];
+    if (x.bank == Bank::constant) return {-1, &program.constants()[x.index]};
+    if (static_cast<Index>(x.index) < inputs) return {static_cast<Index>(x.index), nullptr};
+    return {-1, coefficients[x.index - static_cast<std::size_t>(inputs)]};
   };
   for (const Instruction& instruction : program.instructions()) {
     Node node{.op = instruction.op, .a = value_of(instruction.a), .b = {}, .z = count++};
     if (is_binary(node.op)) node.b = value_of(instruction.b);
-    if (node.op == Op::exp || node.op == Op::log) node.aux = count++;
-    if (node.op == Op::tanh || node.op == Op::atan) {
+    const std::optional<Op> partner = partner_of(node.op);
+    const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& x) {
+      return x.op == partner && x.a.series == node.a.series && x.a.number == node.a.number && !x.computed;
+    });
+    if (found != nodes_.end()) {
+      node.z = found->other;
+      node.computed = true;
+    } else if (node.op > Op::sqrt) {
       node.aux = count++;
-      node.other = count++;
-    }
-    if (const std::optional<Op> partner = partner_of(node.op)) {
-      const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& x) {
-        return x.op == *partner && x.a.series == node.a.series && x.a.number == node.a.number && !x.computed;
-      });
-      if (found != nodes_.end()) {
-        node.z = found->other;
-        node.computed = true;
-      } else {
-        node.aux = count++;
-        node.other = count++;
-      }
+      if (node.op != Op::exp && node.op != Op::log) node.other = count++;
     }
     registers[instruction.result] = {node.z, nullptr};
     nodes_.push_back(node);
@@ -123,24 +104,14 @@ void ProgramSeries::advance(Index n) {
   for (Index i = 0; i < inputs_; ++i) keep(i, n);
   for (const Node& node : nodes_) {
     if (node.computed) continue;
-    switch (node.op) {
-      case Op::add:
-      case Op::subtract:
-      case Op::negate:
-      case Op::abs:
-      case Op::sign:
-        linear(node, n);
-        break;
-      case Op::multiply:
-        multiply(node, n);
-        break;
-      default:
-        if (n == 0)
-          start(node);
-        else
-          go_on(node, n);
-        break;
-    }
+    if (node.op == Op::multiply)
+      multiply(node, n);
+    else if (node.op < Op::reciprocal)
+      linear(node, n);
+    else if (n == 0)
+      start(node);
+    else
+      go_on(node, n);
     if (n == 0) keep(node.aux, 0);
     keep(node.z, n);
     keep(node.other, n);
@@ -227,6 +198,15 @@ void ProgramSeries::go_on(const Node& node, Index n) {
   const auto whole = static_cast<unsigned long>(n);
   Mpfr* const z = series(node.z);
   const Mpfr& a_n = at(node.a, n);
+  // i a_i, and r = sum_{1 <= i <= n} i a_i w_{n-i} / n.
+  const auto set_weighted = [&] {
+    mpfr_mul_ui(raw(series(node.aux)[n]), raw(a_n), whole, MPFR_RNDN);
+    keep(node.aux, n);
+  };
+  const auto set_integral = [&](Mpfr& r, Index w) {
+    set_convolution(t_, node.aux, w, n, 1, n);
+    mpfr_div_ui(raw(r), raw(t_), whole, MPFR_RNDN);
+  };
   switch (node.op) {
     case Op::reciprocal:
       set_convolution(t_, node.a.series, node.z, n, 1, n);
@@ -252,35 +232,26 @@ void ProgramSeries::go_on(const Node& node, Index n) {
       if (node.op == Op::atan) set_square(series(w)[n], node.a.series, n, 0, t_);
       break;
     }
-    case Op::exp: {
-      Mpfr* const weighted = series(node.aux);
-      mpfr_mul_ui(raw(weighted[n]), raw(a_n), whole, MPFR_RNDN);
-      keep(node.aux, n);
-      set_convolution(t_, node.aux, node.z, n, 1, n);
-      mpfr_div_ui(raw(z[n]), raw(t_), whole, MPFR_RNDN);
+    case Op::exp:
+      set_weighted();
+      set_integral(z[n], node.z);
       break;
-    }
     case Op::tanh: {
       Mpfr* const square = series(node.other);
-      mpfr_mul_ui(raw(series(node.aux)[n]), raw(a_n), whole, MPFR_RNDN);
-      keep(node.aux, n);
-      set_convolution(t_, node.aux, node.other, n, 1, n);
-      mpfr_div_ui(raw(t_), raw(t_), whole, MPFR_RNDN);
+      set_weighted();
+      set_integral(t_, node.other);
       set_difference(z[n], a_n, t_);
       keep(node.z, n);
       set_square(square[n], node.z, n, 0, t_);
       break;
     }
     default: {
-      mpfr_mul_ui(raw(series(node.aux)[n]), raw(a_n), whole, MPFR_RNDN);
-      keep(node.aux, n);
+      set_weighted();
       const bool is_sine = node.op == Op::sin || node.op == Op::sinh;
       const Index sine = is_sine ? node.z : node.other, cosine = is_sine ? node.other : node.z;
-      set_convolution(t_, node.aux, cosine, n, 1, n);
-      mpfr_div_ui(raw(series(sine)[n]), raw(t_), whole, MPFR_RNDN);
-      set_convolution(t_, node.aux, sine, n, 1, n);
-      if (node.op == Op::sin || node.op == Op::cos) set_negative(t_, t_);
-      mpfr_div_ui(raw(series(cosine)[n]), raw(t_), whole, MPFR_RNDN);
+      set_integral(series(sine)[n], cosine);
+      set_integral(series(cosine)[n], sine);
+      if (node.op == Op::sin || node.op == Op::cos) set_negative(series(cosine)[n], series(cosine)[n]);
       break;
     }
   }

@@ -100,17 +100,17 @@ class Encloser {
   Interval operation(const Node& node) {
     if (node.kind == Kind::name) return named(node.text);
     if (node.kind == Kind::decimal)
-      return bounds([&](mpfr_ptr x, mpfr_rnd_t to) { mpfr_set_str(x, node.text.c_str(), 10, to); });
-    if (node.kind == Kind::pi) return bounds(mpfr_const_pi);
+      return growing([&](mpfr_ptr x, mpfr_rnd_t to) { mpfr_set_str(x, node.text.c_str(), 10, to); });
+    if (node.kind == Kind::pi) return growing(mpfr_const_pi);
     Interval a = value(*node.left);
     const std::optional<Interval> right = node.right ? std::optional(value(*node.right)) : std::nullopt;
     switch (node.kind) {
       case Kind::negate:
         return negative(a);
       case Kind::add:
-        return sum(a, *right);
+        return growing(mpfr_add, a, *right);
       case Kind::subtract:
-        return sum(a, negative(*right));
+        return growing(mpfr_add, a, negative(*right));
       case Kind::multiply:
         return corners(a, *right, mpfr_mul);
       case Kind::divide:
@@ -121,13 +121,13 @@ class Encloser {
       case Kind::sqrt:
         if (mpfr_sgn(raw(a.high)) < 0) throw ExpressionError("square root of a negative number");
         if (mpfr_sgn(raw(a.low)) < 0) take_for_zero(a, "square root of a number near 0");
-        return monotone(a, mpfr_sqrt);
+        return growing(mpfr_sqrt, a);
       case Kind::exp:
-        return monotone(a, mpfr_exp);
+        return growing(mpfr_exp, a);
       case Kind::log:
         if (mpfr_sgn(raw(a.high)) <= 0) throw ExpressionError("logarithm of a number that is not positive");
         if (mpfr_sgn(raw(a.low)) <= 0) no_value(a, "logarithm of 0");
-        return monotone(a, mpfr_log);
+        return growing(mpfr_log, a);
       case Kind::sin:
         return lipschitz(a, mpfr_sin);
       case Kind::cos:
@@ -138,13 +138,13 @@ class Encloser {
         return corners(lipschitz(a, mpfr_sin), c, mpfr_div);
       }
       case Kind::sinh:
-        return monotone(a, mpfr_sinh);
+        return growing(mpfr_sinh, a);
       case Kind::cosh:
-        return monotone(magnitude(a), mpfr_cosh);  // cosh a = cosh |a|
+        return growing(mpfr_cosh, magnitude(a));  // cosh a = cosh |a|
       case Kind::tanh:
-        return monotone(a, mpfr_tanh);
+        return growing(mpfr_tanh, a);
       case Kind::atan:
-        return monotone(a, mpfr_atan);
+        return growing(mpfr_atan, a);
       default:
         break;
     }
@@ -174,27 +174,12 @@ class Encloser {
     mpfr_set_zero(raw(a.low), 1);
   }
 
-  /// f(bound, rounding) of both.
-  template <class F>
-  Interval bounds(F f) const {
+  /// Bounds of an f that grows with each argument.
+  template <class F, class... Argument>
+  Interval growing(F f, const Argument&... a) const {
     Interval r = fresh();
-    f(raw(r.low), MPFR_RNDD);
-    f(raw(r.high), MPFR_RNDU);
-    return r;
-  }
-
-  template <class F>
-  Interval monotone(const Interval& a, F f) const {
-    Interval r = fresh();
-    f(raw(r.low), raw(a.low), MPFR_RNDD);
-    f(raw(r.high), raw(a.high), MPFR_RNDU);
-    return r;
-  }
-
-  Interval sum(const Interval& a, const Interval& b) const {
-    Interval r = fresh();
-    mpfr_add(raw(r.low), raw(a.low), raw(b.low), MPFR_RNDD);
-    mpfr_add(raw(r.high), raw(a.high), raw(b.high), MPFR_RNDU);
+    f(raw(r.low), raw(a.low)..., MPFR_RNDD);
+    f(raw(r.high), raw(a.high)..., MPFR_RNDU);
     return r;
   }
 
@@ -253,7 +238,7 @@ class Encloser {
   Interval power(Interval a, const Interval& b) const {
     const bool whole = is_point(b) && mpfr_integer_p(raw(b.low));
     if (whole && mpfr_zero_p(raw(b.low))) {
-      return bounds([](mpfr_ptr x, mpfr_rnd_t to) { mpfr_set_ui(x, 1, to); });
+      return growing([](mpfr_ptr x, mpfr_rnd_t to) { mpfr_set_ui(x, 1, to); });
     }
     if (mpfr_sgn(raw(a.low)) > 0) return corners(a, b, mpfr_pow);
     if (whole && mpfr_sgn(raw(a.high)) < 0) {

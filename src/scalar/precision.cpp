@@ -29,14 +29,8 @@ Precision Precision::parse(std::string_view name) {
 }
 
 std::string Precision::name() const {
-  switch (kind_) {
-    case Kind::binary64:
-      return "double";
-    case Kind::binary128:
-      return "quad";
-    case Kind::mpfr:
-      break;
-  }
+  if (kind_ == Kind::binary64) return "double";
+  if (kind_ == Kind::binary128) return "quad";
   return "mpfr:" + std::to_string(digits_);
 }
 

@@ -95,7 +95,6 @@ std::string printed(const BigFloat& x, const char* format, int digits) {
 
 std::string scientific(const BigFloat& x, int digits) { return printed(x, "%.*Re", digits - 1); }
 
-/// With more bits than its digits have.
 /// The number of a text, right to its own digits and to as many as are to be printed, if those are more.
 BigFloat number_of(const std::string& decimal, int digits) {
   constexpr long bits_a_digit = 4, spare = 64;

@@ -89,14 +89,8 @@ class Printer {
   }
 
   std::string operand(const Operand& x) const {
-    switch (x.bank) {
-      case Bank::constant:
-        return fmt::format("{:a}", program_.constants()[x.index]);
-      case Bank::temporary:
-        return fmt::format("t{}", x.index);
-      case Bank::input:
-        break;
-    }
+    if (x.bank == Bank::constant) return fmt::format("{:a}", program_.constants()[x.index]);
+    if (x.bank == Bank::temporary) return fmt::format("t{}", x.index);
     return x.index < dimension_ ? fmt::format("x[{}]", x.index) : fmt::format("c[{}]", x.index - dimension_);
   }
 

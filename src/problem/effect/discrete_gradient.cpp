@@ -77,18 +77,10 @@ class PairedTrace {
   }
 
   Id record(Op op, Id a, Id b) {
-    switch (op) {
-      case Op::add:
-        return trace_.add(a, b);
-      case Op::subtract:
-        return trace_.subtract(a, b);
-      case Op::multiply:
-        return trace_.multiply(a, b);
-      case Op::negate:
-        return trace_.multiply(minus_, a);
-      default:
-        return trace_.apply(op, a);
-    }
+    if (op == Op::add) return trace_.add(a, b);
+    if (op == Op::subtract) return trace_.subtract(a, b);
+    if (op == Op::multiply) return trace_.multiply(a, b);
+    return op == Op::negate ? negative(a) : trace_.apply(op, a);
   }
 
   Id negative(Id a) { return trace_.multiply(minus_, a); }

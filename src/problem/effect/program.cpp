@@ -150,14 +150,8 @@ void binary(Index lanes, S* r, const S* a, bool a_constant, const S* b, bool b_c
 template <Scalar S>
 const S* address(const Operand& x, const std::vector<S>& constants, const Matrix<S>& registers,
                  const std::vector<const S*>& inputs) {
-  switch (x.bank) {
-    case Bank::input:
-      return inputs[x.index];
-    case Bank::constant:
-      return &constants[x.index];
-    case Bank::temporary:
-      break;
-  }
+  if (x.bank == Bank::input) return inputs[x.index];
+  if (x.bank == Bank::constant) return &constants[x.index];
   return registers.data() + registers.rows() * x.index;
 }
 
@@ -254,14 +248,8 @@ std::vector<S> Program<S>::rounding_sizes(const std::vector<S>& inputs, const st
   };
   std::vector<Number> registers(temporaries_);
   const auto read = [&](const Operand& x) -> Number {
-    switch (x.bank) {
-      case Bank::input:
-        return {inputs[x.index], sizes[x.index]};
-      case Bank::constant:
-        return {constants_[x.index], magnitude(constants_[x.index])};
-      case Bank::temporary:
-        break;
-    }
+    if (x.bank == Bank::input) return {inputs[x.index], sizes[x.index]};
+    if (x.bank == Bank::constant) return {constants_[x.index], magnitude(constants_[x.index])};
     return registers[x.index];
   };
   for (const Instruction& i : instructions_) {

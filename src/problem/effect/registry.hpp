@@ -26,13 +26,11 @@ using Effects = std::tuple<UniformGravity,  //
                            Oblateness>;
 
 /// Calls `f.operator()<Effect>()` for the effect of that kind; false if there is none.
-template <class F, class... E>
-bool with_effect(std::string_view kind, F&& f, std::tuple<E...>*) {
-  return ((kind == E::kind && (f.template operator()<E>(), true)) || ...);
-}
 template <class F>
 bool with_effect(std::string_view kind, F&& f) {
-  return with_effect(kind, std::forward<F>(f), static_cast<Effects*>(nullptr));
+  return [&]<class... E>(std::tuple<E...>*) {
+    return ((kind == E::kind && (f.template operator()<E>(), true)) || ...);
+  }(static_cast<Effects*>(nullptr));
 }
 
 }  // namespace hbvm::core

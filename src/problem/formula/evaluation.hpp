@@ -30,25 +30,19 @@ class FormulaEvaluation {
       return input.arguments == 1 ? inputs[i] : T(inputs[i] - inputs[d + i]);
     };
     for (const auto& [name, variable] : input.variables) {
-      switch (variable.is) {
-        case FormulaVariable::Is::input:
-          values_.emplace(name, inputs[variable.index]);
-          break;
-        case FormulaVariable::Is::difference:
-          values_.emplace(name, difference(variable.index));
-          break;
-        case FormulaVariable::Is::distance: {
-          using std::sqrt;
-          std::vector<T> x;
-          for (std::size_t i = 0; i < d; ++i) x.push_back(difference(i));
-          const T square = Interaction<T>::dot(x, x);
-          values_.emplace(name, sqrt(square));
-          squares_.emplace(name, square);
-          break;
-        }
-        case FormulaVariable::Is::parameter:
-          values_.emplace(name, parameters[variable.index]);
-          break;
+      if (variable.is == FormulaVariable::Is::input) {
+        values_.emplace(name, inputs[variable.index]);
+      } else if (variable.is == FormulaVariable::Is::parameter) {
+        values_.emplace(name, parameters[variable.index]);
+      } else if (variable.is == FormulaVariable::Is::difference) {
+        values_.emplace(name, difference(variable.index));
+      } else {
+        using std::sqrt;
+        std::vector<T> x;
+        for (std::size_t i = 0; i < d; ++i) x.push_back(difference(i));
+        const T square = Interaction<T>::dot(x, x);
+        values_.emplace(name, sqrt(square));
+        squares_.emplace(name, square);
       }
     }
   }

@@ -45,18 +45,11 @@ class Checking : public FormulaEvaluation<Checking<S>, S, S> {
  private:
   static const char* reason(Expression::Node::Kind kind) {
     using Kind = Expression::Node::Kind;
-    switch (kind) {
-      case Kind::divide:
-        return "division by 0";
-      case Kind::sqrt:
-        return "square root of a negative number";
-      case Kind::log:
-        return "logarithm of a number that is not positive";
-      case Kind::power:
-        return "a power without a value";
-      default:
-        return "a value beyond the range of numbers";
-    }
+    if (kind == Kind::divide) return "division by 0";
+    if (kind == Kind::sqrt) return "square root of a negative number";
+    if (kind == Kind::log) return "logarithm of a number that is not positive";
+    if (kind == Kind::power) return "a power without a value";
+    return "a value beyond the range of numbers";
   }
 
   const std::string& text_;

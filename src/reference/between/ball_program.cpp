@@ -16,17 +16,9 @@ constexpr int none = 3;
 
 /// Of the result of an operation on values of such degrees; `none` or more if it is not computed as a loop.
 int degree(Op op, int a, int b) {
-  switch (op) {
-    case Op::add:
-    case Op::subtract:
-      return std::max(a, b);
-    case Op::negate:
-      return a;
-    case Op::multiply:
-      return a + b;
-    default:
-      return none;
-  }
+  if (op == Op::add || op == Op::subtract) return std::max(a, b);
+  if (op == Op::negate) return a;
+  return op == Op::multiply ? a + b : none;
 }
 
 /// Whether Re x > 1, so that exp(x) is more than what is added to it.
@@ -39,19 +31,9 @@ bool is_large(const Ball& x) {
 }  // namespace
 
 std::size_t BallProgram::directions_of(Op op) {
-  switch (op) {
-    case Op::reciprocal:
-    case Op::sqrt:
-    case Op::log:
-    case Op::tanh:
-    case Op::abs:
-    case Op::sign:
-      return 1;
-    case Op::atan:
-      return 2;
-    default:
-      return 0;
-  }
+  if (op == Op::atan) return 2;
+  constexpr Op of_one[] = {Op::reciprocal, Op::sqrt, Op::log, Op::tanh, Op::abs, Op::sign};
+  return std::ranges::count(of_one, op) > 0 ? 1 : 0;
 }
 
 BallProgram::BallProgram(const Program<Mpfr>& program, Index inputs, const std::vector<const Mpfr*>& coefficients)
@@ -154,16 +136,8 @@ bool BallProgram::fails(const char* what) {
 bool BallProgram::turn(std::size_t i, const Ball& x, const Arc& arc, const char* what) {
   Direction& direction = tried_[i];
   const auto lies = [&x](long quarters) {
-    switch (((quarters % 4) + 4) % 4) {
-      case 0:
-        return arb_is_positive(x.real()) != 0;
-      case 1:
-        return arb_is_positive(x.imaginary()) != 0;
-      case 2:
-        return arb_is_negative(x.real()) != 0;
-      default:
-        return arb_is_negative(x.imaginary()) != 0;
-    }
+    const arb_srcptr part = quarters % 2 == 0 ? x.real() : x.imaginary();
+    return (((quarters % 4) + 4) % 4 < 2 ? arb_is_positive(part) : arb_is_negative(part)) != 0;
   };
   if (arc.first) {
     // Where the curve begins all is real.
@@ -195,6 +169,17 @@ long BallProgram::turn_back(std::size_t i, const Ball& x) {
   else
     acb_neg(raw(t_), raw(x));
   return even / 2;
+}
+
+bool BallProgram::set_log(Ball& z, std::size_t i, const Ball& x, const Arc& arc, const char* what) {
+  if (!turn(i, x, arc, what)) return false;
+  const long half_turns = turn_back(i, x);
+  acb_log(raw(z), raw(t_), bits);
+  if (half_turns == 0) return true;
+  Ball pi;
+  arb_const_pi(acb_realref(raw(pi)), bits);
+  arb_addmul_si(acb_imagref(raw(z)), acb_realref(raw(pi)), half_turns, bits);
+  return true;
 }
 
 Ball BallProgram::whole(const Ball* value) {
@@ -372,16 +357,8 @@ bool BallProgram::apply_plain(const Step& step, const Arc& arc) {
       for (long n = ((half_turns % 4) + 4) % 4; n > 0; --n) acb_mul_onei(z, z);
       return true;
     }
-    case Op::log: {
-      if (!turn(step.direction, *step.a, arc, "a logarithm of 0")) return false;
-      const long half_turns = turn_back(step.direction, *step.a);
-      acb_log(z, raw(t_), bits);
-      if (half_turns != 0) {
-        arb_const_pi(acb_imagref(raw(u_)), bits);
-        arb_addmul_si(acb_imagref(z), acb_imagref(raw(u_)), half_turns, bits);
-      }
-      return true;
-    }
+    case Op::log:
+      return set_log(*step.z, step.direction, *step.a, arc, "a logarithm of 0");
     case Op::sin:
       acb_sin(z, a, bits);
       return true;
@@ -399,31 +376,18 @@ bool BallProgram::apply_plain(const Step& step, const Arc& arc) {
       return true;
     case Op::atan: {
       // (log(1 + i a) - log(1 - i a)) / 2i, both continued from the positive real axis.
-      acb_mul_onei(raw(u_), a);
-      acb_t sum;
-      acb_init(sum);
-      bool known = true;
+      Ball logarithms[2];
       for (const std::size_t side : {0, 1}) {
-        Ball w = u_;
+        Ball w;
+        acb_mul_onei(raw(w), a);
         if (side == 1) acb_neg(raw(w), raw(w));
         acb_add_ui(raw(w), raw(w), 1, bits);
-        known = known && turn(step.direction + side, w, arc, "a branch point of atan");
-        if (!known) break;
-        const long half_turns = turn_back(step.direction + side, w);
-        acb_log(raw(t_), raw(t_), bits);
-        arb_const_pi(acb_imagref(raw(w)), bits);
-        arb_addmul_si(acb_imagref(raw(t_)), acb_imagref(raw(w)), half_turns, bits);
-        if (side == 0)
-          acb_set(sum, raw(t_));
-        else
-          acb_sub(sum, sum, raw(t_), bits);
+        if (!set_log(logarithms[side], step.direction + side, w, arc, "a branch point of atan")) return false;
       }
-      if (known) {
-        acb_div_onei(sum, sum);
-        acb_mul_2exp_si(z, sum, -1);
-      }
-      acb_clear(sum);
-      return known;
+      acb_sub(z, raw(logarithms[0]), raw(logarithms[1]), bits);
+      acb_div_onei(z, z);
+      acb_mul_2exp_si(z, z, -1);
+      return true;
     }
     case Op::abs:
     case Op::sign: {

@@ -81,6 +81,8 @@ class BallProgram {
   /// x turned back by an even number of quarter turns to where its principal root and logarithm are continuous.
   /// \return that number, halved
   long turn_back(std::size_t i, const Ball& x);
+  /// z = log x by the branch that direction i has come to. \return as turn()
+  bool set_log(Ball& z, std::size_t i, const Ball& x, const Arc& arc, const char* what);
   bool fails(const char* what);
 
   std::size_t inputs_;
