@@ -14,14 +14,7 @@ Study study(const StudyRequest& door) {
   options.progress = door.progress;
   if (!door.out.empty()) options.out = door.out;
   const auto outcomes = core::run_studies({{door.folder, core::Precision::parse(door.precision)}}, options);
-  const core::StudyOutcome& outcome = *outcomes.front();
-  return {.title = outcome.title,
-          .table = outcome.table,
-          .agreed = outcome.agreed,
-          .stated = outcome.stated,
-          .files = outcome.files,
-          .complaints = outcome.complaints,
-          .warnings = outcome.warnings};
+  return *outcomes.front();
 }
 
 std::string to_json(const Study& study) {

@@ -58,27 +58,24 @@ std::vector<std::string> cells(const Conservation& found, Row& row, Digits digit
   return result;
 }
 
-StudyAgreement check(const Experiment& experiment, const std::vector<Row>& rows) {
-  StudyAgreement agreement;
-  agreement.what = "stated verdicts";
+StudyOutcome check(const Experiment& experiment, const std::vector<Row>& rows) {
+  StudyOutcome outcome;
+  outcome.what = "stated verdicts";
   const ExpectedCsv expected(experiment.folder / "expected.csv");
   const bool in_double = experiment.precision.kind() == Precision::Kind::binary64;
   for (const auto& stated : expected.rows) {
     const std::string only = expected.cell(stated, "only");
     if (!only.empty() && (only == "double") != in_double) continue;
-    ++agreement.stated;
     const std::string scene = expected.cell(stated, "scene"), nodes = expected.cell(stated, "nodes");
     const std::string kept = expected.cell(stated, "kept"), lost = expected.cell(stated, "lost");
     const auto row =
         std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.scene == scene && r.nodes == nodes; });
-    if (row != rows.end() && row->kept == kept && row->lost == lost)
-      ++agreement.agreed;
-    else
-      agreement.complaints.push_back(scene + ", " + nodes + ": kept '" + (row == rows.end() ? "" : row->kept) +
-                                     "', lost '" + (row == rows.end() ? "" : row->lost) + "' instead of '" + kept +
-                                     "' and '" + lost + "'");
+    const Row found = row == rows.end() ? Row() : *row;
+    outcome.count(row != rows.end() && found.kept == kept && found.lost == lost,
+                  scene + ", " + nodes + ": kept '" + found.kept + "', lost '" + found.lost + "' instead of '" + kept +
+                      "' and '" + lost + "'");
   }
-  return agreement;
+  return outcome;
 }
 
 constexpr std::pair<Nodes, const char*> both[] = {{Nodes::s, "k = s"}, {Nodes::more, "k > s"}};
@@ -99,7 +96,7 @@ Findings conclude(const Experiment& experiment, const std::vector<std::string>& 
       rows.push_back(std::move(row));
     }
   }
-  if (experiment.check) findings.agreement = check(experiment, rows);
+  if (experiment.check) findings.outcome = check(experiment, rows);
   return findings;
 }
 

@@ -36,11 +36,11 @@ struct Part {
   std::function<Outcome(const std::vector<std::string>& results)> conclude;
 };
 
-/// The findings of a study: columns and groups of its table, and the comparison.
+/// The findings of a study: columns and groups of its table, and what it was held against.
 struct Findings {
   Table table;
   Table full;  ///< the same with all digits, and empty cells where there is no number
-  StudyAgreement agreement;
+  StudyOutcome outcome;  ///< the comparison
 };
 
 /// Files that a part of a study made, and what it could not make.

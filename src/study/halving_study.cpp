@@ -29,16 +29,17 @@ struct HalvingTable {
 
 /// Every printed figure above round-off, to all printed digits. Beyond double also that what was round-off in double is
 /// round-off here, and that the rates double could not show (***) are there.
-StudyAgreement check(const Experiment& experiment, const std::vector<Block>& blocks, double above_round_off,
-                     const std::vector<std::string>& round_off, const std::map<std::string, Expression>& orders) {
-  StudyAgreement agreement;
+StudyOutcome check(const Experiment& experiment, const HalvingTable& table) {
+  StudyOutcome outcome;
+  const double above_round_off = value_of(table.above_round_off);
   const ExpectedCsv expected(experiment.folder / "expected.csv");
-  agreement.what = "printed figures";
+  const bool in_double = experiment.precision.kind() == Precision::Kind::binary64;
+  outcome.what = "printed figures";
   for (const auto& printed : expected.rows) {
     const std::string k = expected.cell(printed, "k"), s = expected.cell(printed, "s"), i = expected.cell(printed, "i");
     const std::string place = "k = " + k + ", s = " + s + ", i = " + i + ": ";
     const HalvingRow* found = nullptr;
-    for (const Block& block : blocks)
+    for (const Block& block : table.blocks)
       for (const HalvingRow& row : block.rows)
         if (letter(block.request.method, "k") == k && letter(block.request.method, "s") == s &&
             std::to_string(row.i) == i)
@@ -47,36 +48,24 @@ StudyAgreement check(const Experiment& experiment, const std::vector<Block>& blo
       const std::string& column = expected.columns[c];
       const std::string& figure = printed[c];
       if (column.starts_with("e_") && !figure.empty() && value_of(figure) > above_round_off) {
-        ++agreement.stated;
         const std::string computed = found ? found->cell(column) : "nothing";
-        if (computed == figure)
-          ++agreement.agreed;
-        else
-          agreement.complaints.push_back(place + column + " is " + computed + ", printed " + figure);
+        outcome.count(computed == figure, place + column + " is " + computed + ", printed " + figure);
       }
-      if (experiment.precision.kind() == Precision::Kind::binary64 || !found) continue;
-      if (figure == "***" && orders.contains(column)) {
-        ++agreement.further;
+      if (in_double || !found) continue;
+      if (figure == "***" && table.orders.contains(column)) {
         const Constants method{{"k", Expression::parse(k)}, {"s", Expression::parse(s)}};
-        const double order = evaluate<double>(orders.at(column), method);
+        const double order = evaluate<double>(table.orders.at(column), method);
         const std::string computed = found->cell(column);
-        if (computed != "***" && std::abs(value_of(computed) - order) <= value_of("1/10"))
-          ++agreement.further_agreed;
-        else
-          agreement.complaints.push_back(place + column + " is " + computed + " instead of " +
-                                         fmt::format("{}", order));
+        outcome.count(computed != "***" && std::abs(value_of(computed) - order) <= value_of("1/10"),
+                      place + column + " is " + computed + " instead of " + fmt::format("{}", order), true);
       }
     }
-    if (experiment.precision.kind() == Precision::Kind::binary64 || !found) continue;
-    for (const std::string& column : round_off) {
-      ++agreement.further;
-      if (found->is_round_off(column))
-        ++agreement.further_agreed;
-      else
-        agreement.complaints.push_back(place + column + " is " + found->cell(column) + ", not round-off");
-    }
+    if (in_double || !found) continue;
+    for (const std::string& column : table.round_off)
+      outcome.count(found->is_round_off(column), place + column + " is " + found->cell(column) + ", not round-off",
+                    true);
   }
-  return agreement;
+  return outcome;
 }
 
 HalvingTable read_table(const Experiment& experiment, TomlTable& top) {
@@ -139,9 +128,7 @@ Findings conclude(const Experiment& experiment, HalvingTable table, const std::v
     findings.full.groups.push_back(
         {"", {k, s}, cells_of(halving_rows(block.request, runs, experiment.precision, Digits::all))});
   }
-  if (experiment.check)
-    findings.agreement =
-        check(experiment, table.blocks, value_of(table.above_round_off), table.round_off, table.orders);
+  if (experiment.check) findings.outcome = check(experiment, table);
   return findings;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -33,10 +34,10 @@ LongRun read_long_run(const std::string& text) {
   });
 }
 
-StudyAgreement check(const Experiment& experiment, const Table& table, const std::vector<LongRun>& results) {
-  StudyAgreement agreement;
+StudyOutcome check(const Experiment& experiment, const Table& table, const std::vector<LongRun>& results) {
+  StudyOutcome outcome;
   const ExpectedCsv expected(experiment.folder / "expected.csv");
-  agreement.what = "stated bounds";
+  outcome.what = "stated bounds";
   for (const auto& row : expected.rows) {
     for (std::size_t n = 0; n < results.size(); ++n) {
       const auto& cells = table.groups.back().rows[n];
@@ -48,18 +49,15 @@ StudyAgreement check(const Experiment& experiment, const Table& table, const std
       const std::string place = "k = " + cells[0] + ", s = " + cells[1] + ", until " + cells[2] + ": ";
       const auto bound = [&](const char* name, const std::string& computed, const std::string& limit, bool upper) {
         if (limit.empty()) return;
-        ++agreement.stated;
-        if (upper ? value_of(computed) <= value_of(limit) : value_of(computed) >= value_of(limit))
-          ++agreement.agreed;
-        else
-          agreement.complaints.push_back(place + name + " is " + computed + (upper ? ", above " : ", below ") + limit);
+        outcome.count(upper ? value_of(computed) <= value_of(limit) : value_of(computed) >= value_of(limit),
+                      place + name + " is " + computed + (upper ? ", above " : ", below ") + limit);
       };
       bound("e_H", results[n].e_H, expected.cell(row, "e_H_min"), false);
       bound("e_H", results[n].e_H, expected.cell(row, "e_H_max"), true);
       bound("e_g", results[n].e_g, expected.cell(row, "e_g_max"), true);
     }
   }
-  return agreement;
+  return outcome;
 }
 
 /// \param seconds that each run took, of those made now
@@ -74,16 +72,17 @@ Findings conclude(const Experiment& experiment, const std::vector<RunRequest>& r
   for (std::size_t n = 0; n < requests.size(); ++n) {
     const RunRequest& request = requests[n];
     const LongRun& run = runs.emplace_back(read_long_run(results[n]));
-    table.groups.back().rows.push_back(
-        {letter(request.method, "k"), letter(request.method, "s"), request.until.text(), to_scientific(run.e_H, 3),
-         to_scientific(run.e_g, 3), to_scientific(run.e_hid, 3), to_scientific(run.output_delta_H, 3),
-         fmt::format("{:.1f}", run.iterations_per_step), seconds[n] ? fmt::format("{:.2f}", *seconds[n]) : "---"});
-    findings.full.groups.back().rows.push_back({letter(request.method, "k"), letter(request.method, "s"),
-                                                request.until.text(), run.e_H, run.e_g, run.e_hid, run.output_delta_H,
-                                                fmt::format("{}", run.iterations_per_step),
-                                                seconds[n] ? fmt::format("{}", *seconds[n]) : "---"});
+    const auto add_row = [&](Table& to, const auto& shown, const char* iterations, const char* time) {
+      to.groups.back().rows.push_back({letter(request.method, "k"), letter(request.method, "s"), request.until.text(),
+                                       shown(run.e_H), shown(run.e_g), shown(run.e_hid), shown(run.output_delta_H),
+                                       fmt::format(fmt::runtime(iterations), run.iterations_per_step),
+                                       seconds[n] ? fmt::format(fmt::runtime(time), *seconds[n]) : "---"});
+    };
+    add_row(
+        table, [](const std::string& x) { return to_scientific(x, 3); }, "{:.1f}", "{:.2f}");
+    add_row(findings.full, std::identity(), "{}", "{}");
   }
-  if (experiment.check) findings.agreement = check(experiment, table, runs);
+  if (experiment.check) findings.outcome = check(experiment, table, runs);
   return findings;
 }
 

@@ -89,10 +89,9 @@ class Study {
       next += static_cast<std::ptrdiff_t>(cells.size());
       return std::vector<std::string>(first, next);
     };
-    StudyOutcome outcome;
-    outcome.title = title_;
     Findings findings = table_.conclude(results_of(table_.cells));
-    static_cast<StudyAgreement&>(outcome) = std::move(findings.agreement);
+    StudyOutcome outcome = std::move(findings.outcome);
+    outcome.title = title_;
     Table& table = findings.table;
     table.caption = title_;
     table.provenance = experiment_.provenance;

@@ -5,26 +5,25 @@
 #include <string>
 #include <vector>
 
-#include "hbvm/figure.hpp"
+#include "hbvm/study.hpp"
 #include "long_work/cells.hpp"
 #include "scalar/precision.hpp"
 
 namespace hbvm::core {
 
-/// How a study's results compare with what it states.
-struct StudyAgreement {
-  long agreed = 0, stated = 0;           ///< figures of expected.csv that were met, and in all
+/// What a study found, and how it compares with what it states.
+struct StudyOutcome : hbvm::Study {
   std::string what;                      ///< "printed figures", "stated bounds" or "stated verdicts"
   long further_agreed = 0, further = 0;  ///< beyond double: round-off columns and rates that double cannot show
-  std::vector<std::string> complaints;   ///< one line for each that was not met
-};
 
-/// What a study found.
-struct StudyOutcome : StudyAgreement {
-  std::string title;
-  std::vector<std::string> files;     ///< tables and pictures written
-  std::vector<std::string> warnings;  ///< pictures that could not be drawn, and why
-  std::string table;                  ///< in Markdown
+  /// Counts a figure that is stated, or a further one, and complains of it unless it is met.
+  void count(bool is_met, const std::string& complaint, bool is_further = false) {
+    ++(is_further ? further : stated);
+    if (is_met)
+      ++(is_further ? further_agreed : agreed);
+    else
+      complaints.push_back(complaint);
+  }
 };
 
 /// A folder with a study.toml, and the precision to run it in.
