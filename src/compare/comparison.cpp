@@ -21,6 +21,7 @@
 #include "reference/store.hpp"
 #include "reference/taylor.hpp"
 #include "results_table.hpp"
+#include "run/vector_text.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scene/assemble.hpp"
@@ -275,12 +276,7 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
     std::vector<Exact> exact;
     std::array<Mpfr, 3> greatest{};  // of each kind at any of the times
     for (const ReferenceState& state : reference) {
-      Vector<Mpfr> q(m), p(m);
-      for (Index j = 0; j < m; ++j) {
-        q[j] = literal<Mpfr>(state.q[static_cast<std::size_t>(j)]);
-        p[j] = literal<Mpfr>(state.p[static_cast<std::size_t>(j)]);
-      }
-      exact.emplace_back(scene.problem, std::move(q), std::move(p));
+      exact.emplace_back(scene.problem, vector_of<Mpfr>(state.q), vector_of<Mpfr>(state.p));
       for (const auto kind : {Exact::position, Exact::momentum, Exact::velocity})
         raise_to(greatest[kind], max_norm(exact.back().all(kind)));
     }

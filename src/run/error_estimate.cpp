@@ -10,8 +10,8 @@
 #include "interruption.hpp"
 #include "reference/exact_end.hpp"
 #include "reference/store.hpp"
+#include "run/vector_text.hpp"
 #include "run_beside.hpp"
-#include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "step/hbvm_method.hpp"
 
@@ -80,12 +80,10 @@ void say(ErrorEstimate& estimate, const Errors& q, const Errors& p, const Errors
 /// A vector of a stored reference, and what its texts leave open: a unit of the last digit.
 struct Stored {
   Vector<Mpfr> value;
-  Mpfr unsure = 0;
+  Mpfr unsure;
 
-  Stored(const std::vector<std::string>& texts, int digits) : value(static_cast<Index>(texts.size())) {
-    for (std::size_t i = 0; i < texts.size(); ++i) value[static_cast<Index>(i)] = literal<Mpfr>(texts[i]);
-    unsure = max_norm(value) / pow(Mpfr(10), digits);
-  }
+  Stored(const std::vector<std::string>& texts, int digits)
+      : value(vector_of<Mpfr>(texts)), unsure(max_norm(value) / pow(Mpfr(10), digits)) {}
 };
 
 /// Comparison with a reference that was stored. \return nothing if there is none from the scene's own start, or if it

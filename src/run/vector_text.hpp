@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "linear/matrix.hpp"
+#include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 
 namespace hbvm::core {
@@ -13,6 +14,14 @@ template <Scalar S>
 std::vector<std::string> to_texts(const Vector<S>& v) {
   std::vector<std::string> result;
   for (Index i = 0; i < v.size(); ++i) result.push_back(to_text(v[i]));
+  return result;
+}
+
+/// The vector of these numbers.
+template <Scalar S>
+Vector<S> vector_of(const std::vector<std::string>& texts) {
+  Vector<S> result(static_cast<Index>(texts.size()));
+  for (Index i = 0; i < result.size(); ++i) result[i] = literal<S>(texts[static_cast<std::size_t>(i)]);
   return result;
 }
 

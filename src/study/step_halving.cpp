@@ -47,20 +47,13 @@ struct End {
   S H0, e_H, e_g, e_hid;
 
   explicit End(const HalvingRun& run)
-      : q(numbers(run.q)),
-        p(numbers(run.p)),
-        lambda(numbers(run.lambda)),
+      : q(vector_of<S>(run.q)),
+        p(vector_of<S>(run.p)),
+        lambda(vector_of<S>(run.lambda)),
         H0(literal<S>(run.H0)),
         e_H(literal<S>(run.e_H)),
         e_g(literal<S>(run.e_g)),
         e_hid(literal<S>(run.e_hid)) {}
-
- private:
-  static Vector<S> numbers(const std::vector<std::string>& texts) {
-    Vector<S> result(static_cast<Index>(texts.size()));
-    for (Index i = 0; i < result.size(); ++i) result[i] = literal<S>(texts[static_cast<std::size_t>(i)]);
-    return result;
-  }
 };
 
 template <Scalar S>

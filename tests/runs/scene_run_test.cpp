@@ -1,18 +1,13 @@
 #include "run/scene_run.hpp"
 
 #include "printing.hpp"
+#include "run/vector_text.hpp"
 #include "runs/request_of.hpp"
 #include "scene/assemble.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm::core {
 namespace {
-
-Vector<Mpfr> numbers(const std::vector<std::string>& texts) {
-  Vector<Mpfr> result(static_cast<Index>(texts.size()));
-  for (Index i = 0; i < result.size(); ++i) result[i] = literal<Mpfr>(texts[static_cast<std::size_t>(i)]);
-  return result;
-}
 
 class RunTest : public ::testing::Test {
  protected:
@@ -28,12 +23,12 @@ class RunTest : public ::testing::Test {
 TEST_F(RunTest, OutputStateIsTheClosedFormulas) {
   for (const DenseModel& model : {double_pendulum(), ellipsoid_bead(), bead_on_curve()}) {
     const hbvm::Run found = result(model, "hbvm:2,2", SolverKind::fixed_point);
-    const Vector<Mpfr> q = numbers(found.q), p = numbers(found.p), output_p = model.tangential(q, p),
+    const Vector<Mpfr> q = vector_of<Mpfr>(found.q), p = vector_of<Mpfr>(found.p), output_p = model.tangential(q, p),
                        output_lambda = model.multiplier(q, output_p);
     EXPECT_GT(distance(output_p, p), literal<Mpfr>("1e-9")) << "the two states should differ visibly";
     EXPECT_GT(distance(output_lambda, Vector<Mpfr>(model.multiplier(q, p))), literal<Mpfr>("1e-9"));
-    EXPECT_LE(distance(numbers(found.output_p), output_p), tolerance);
-    EXPECT_LE(distance(numbers(found.output_lambda), output_lambda), tolerance);
+    EXPECT_LE(distance(vector_of<Mpfr>(found.output_p), output_p), tolerance);
+    EXPECT_LE(distance(vector_of<Mpfr>(found.output_lambda), output_lambda), tolerance);
     const Assembled<Mpfr> start = assemble<Mpfr>(read_scene(model.scene, "model"));
     const Mpfr delta_H = model.energy(q, output_p) - model.energy(start.q0, start.p0);
     EXPECT_LE(magnitude(Mpfr(literal<Mpfr>(found.output_delta_H) - delta_H)), tolerance);
@@ -49,8 +44,8 @@ TEST_F(RunTest, UsesTheSolverThatIsAskedFor) {
   EXPECT_LT(newton.iterations_per_step, fixed_point.iterations_per_step);
   EXPECT_LT(fixed_point.iterations_per_step, papers.iterations_per_step);
   for (const hbvm::Run* other : {&newton, &papers}) {
-    EXPECT_LE(distance(numbers(other->q), numbers(fixed_point.q)), tolerance);
-    EXPECT_LE(distance(numbers(other->p), numbers(fixed_point.p)), tolerance);
+    EXPECT_LE(distance(vector_of<Mpfr>(other->q), vector_of<Mpfr>(fixed_point.q)), tolerance);
+    EXPECT_LE(distance(vector_of<Mpfr>(other->p), vector_of<Mpfr>(fixed_point.p)), tolerance);
   }
 }
 
