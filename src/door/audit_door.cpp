@@ -4,7 +4,6 @@
 #include "audit/claims.hpp"
 #include "audit/report.hpp"
 #include "door/door.hpp"
-#include "door/tableau_of.hpp"
 #include "hbvm/audit.hpp"
 #include "step/registry.hpp"
 
@@ -37,7 +36,7 @@ Claims paper_claims(bool full) {
   return claims_of(core::paper_claims(extent)) + claims_of(core::general_claims(extent));
 }
 
-Claims tableau_claims(const Tableau& tableau) { return claims_of(core::tableau_claims(core::tableau_of(tableau))); }
+Claims tableau_claims(const Tableau& tableau) { return claims_of(core::tableau_claims(core::completed(tableau))); }
 
 Claims method_claims(const std::string& method) {
   const core::Admitted admitted({});

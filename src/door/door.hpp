@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <string>
 
-#include "hbvm/number.hpp"
+#include "hbvm/method.hpp"
 #include "hbvm/scene.hpp"
 #include "interruption.hpp"
 #include "scalar/expression.hpp"
@@ -27,5 +27,8 @@ std::function<void(double)> watched(const std::function<void(double)>& progress)
 
 /// The exact number. \param what it is, for messages. \throws InputError
 Expression expression_of(const Number& number, const std::string& what);
+
+/// The tableau with a name and c. \throws InputError naming the entry that has no value, and for sizes that do not fit
+Tableau completed(Tableau tableau);
 
 }  // namespace hbvm::core

@@ -55,9 +55,9 @@ std::vector<Written> decimals_in(const std::string& text) {
 template <class F>
 void for_each_number(const Tableau& tableau, F f) {
   for (const auto& row : tableau.A)
-    for (const Expression& x : row) f(x);
-  for (const Expression& x : tableau.b) f(x);
-  for (const Expression& x : tableau.c) f(x);
+    for (const Number& x : row) f(x);
+  for (const Number& x : tableau.b) f(x);
+  for (const Number& x : tableau.c) f(x);
 }
 
 bool looks_exact(const Written& w) {
@@ -98,7 +98,7 @@ std::optional<std::string> fraction_of(const Written& w) {
 
 std::optional<Decimals> decimals_of(const Tableau& tableau) {
   std::vector<Written> rounded, all;
-  for_each_number(tableau, [&](const Expression& x) {
+  for_each_number(tableau, [&](const Number& x) {
     for (const Written& w : decimals_in(x.text())) {
       all.push_back(w);
       if (!looks_exact(w)) rounded.push_back(w);
@@ -136,7 +136,7 @@ RungeKutta<Mpfr> off_by_a_unit(const Tableau& tableau, const Decimals& decimals,
   RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau);
   const Mpfr unit = pow(Mpfr(10), -decimals.digits);
   std::mt19937 signs(pattern);
-  const auto move = [&](Mpfr& x, const Expression& from) {
+  const auto move = [&](Mpfr& x, const Number& from) {
     if (decimals_in(from.text()).empty()) return;
     const Mpfr size = std::max(Mpfr(1), magnitude(x));
     if (signs() % 2 == 0)

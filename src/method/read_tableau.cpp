@@ -26,39 +26,42 @@ const toml::array& array_of(const TomlTable& table, const toml::node& node, std:
   return *array;
 }
 
-std::vector<Expression> entries(const TomlTable& table, const toml::node& node, std::size_t size,
-                                const std::string& place) {
+Numbers entries(const TomlTable& table, const toml::node& node, std::size_t size, const std::string& place) {
   const toml::array& array = array_of(table, node, place);
   if (array.size() != size)
     table.fail(
         node, place + " has " + std::to_string(array.size()) + " entries, but A has " + std::to_string(size) + " rows");
-  std::vector<Expression> result;
-  for (const toml::node& number : array) {
+  Numbers result;
+  for (const toml::node& entry : array) {
     const std::string where = place + numbered(result.size());
-    result.push_back(table.to_number(number, where));
-    check_value(table, number, result.back(), where);
+    const Expression number = table.to_number(entry, where);
+    check_value(table, entry, number, where);
+    result.emplace_back(number.text());
   }
   return result;
 }
 
 /// The sum of a row, as an expression.
-Expression sum_of(const TomlTable& table, const toml::node& node, const std::vector<Expression>& row,
-                  const std::string& place) {
+Number sum_of(const TomlTable& table, const toml::node& node, const Numbers& row, const std::string& place) {
   std::string text;
-  for (const Expression& number : row)
+  for (const Number& number : row)
     if (number.text() != "0") text += (text.empty() ? "(" : "+(") + number.text() + ")";
   try {
-    Expression sum = Expression::parse(text.empty() ? "0" : text);
+    const Expression sum = Expression::parse(text.empty() ? "0" : text);
     check_value(table, node, sum, "the sum of " + place);
-    return sum;
+    return sum.text();
   } catch (const ExpressionError&) {
     table.fail(node, place + " holds too many operations to be summed: state c");
   }
 }
 
 }  // namespace
+}  // namespace hbvm::core
+
+namespace hbvm {
 
 Tableau read_tableau(const std::string& path) {
+  using namespace core;
   namespace fs = std::filesystem;
   constexpr std::uintmax_t limit = 10'000'000;
   std::error_code failure;
@@ -99,4 +102,4 @@ Tableau read_tableau(const std::string& path) {
   return tableau;
 }
 
-}  // namespace hbvm::core
+}  // namespace hbvm

@@ -1,15 +1,10 @@
 #pragma once
 
-#include <string>
-
-#include "method/runge_kutta.hpp"
+#include "hbvm/method.hpp"
 
 namespace hbvm::core {
 
-inline constexpr std::size_t max_tableau_stages = 100;
-inline constexpr long max_tableau_digits = 10'000;
-
-/// The Runge-Kutta tableau of a TOML file:
+/// What hbvm::read_tableau() reads is a TOML file:
 ///
 ///     name = "Gauss, two stages"   # that of the file if absent
 ///     order = 4                    # claimed; optional
@@ -21,6 +16,7 @@ inline constexpr long max_tableau_digits = 10'000;
 /// Entries are whole numbers, decimals, which are read exactly, or expressions in quotes.
 /// \throws InputError with file, line and what is wrong: a key that is missing or unknown, A that is not square, b or c
 ///         of another length, no stages or more than max_tableau_stages, an entry without a value
-Tableau read_tableau(const std::string& path);
+inline constexpr std::size_t max_tableau_stages = 100;
+inline constexpr long max_tableau_digits = 10'000;
 
 }  // namespace hbvm::core

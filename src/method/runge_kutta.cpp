@@ -7,9 +7,9 @@ namespace hbvm::core {
 namespace {
 
 template <Scalar S>
-S entry(const Expression& expression, const std::string& place) {
+S entry(const Number& number, const std::string& place) {
   try {
-    return evaluate<S>(expression);
+    return literal<S>(number.text());
   } catch (const ExpressionError& error) {
     throw InputError(place + " has no value: " + error.what());
   }

@@ -1,26 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
+#include "hbvm/method.hpp"
 #include "linear/matrix.hpp"
-#include "scalar/expression.hpp"
 
 namespace hbvm::core {
 
-/// A Runge-Kutta method as its author writes it, as exact text: s x s, s and s entries.
-struct Tableau {
-  std::string name;
-  std::vector<std::vector<Expression>> A;  ///< row by row
-  std::vector<Expression> b, c;
-  std::optional<int> order;        ///< that its author claims
-  std::optional<int> digits = {};  ///< to which its author gives the numbers that are decimals
-
-  int stages() const { return static_cast<int>(b.size()); }
-};
-
-/// The same in one precision: K_i = f(t_0 + c_i h, y_0 + h sum_j A_ij K_j), y_1 = y_0 + h sum_i b_i K_i.
+/// A tableau in one precision: K_i = f(t_0 + c_i h, y_0 + h sum_j A_ij K_j), y_1 = y_0 + h sum_i b_i K_i.
 template <Scalar S>
 struct RungeKutta {
   Matrix<S> A;

@@ -56,9 +56,9 @@ std::string TableauMethod::title() const {
 std::string TableauMethod::key() const {
   std::string key = title();
   for (const auto& row : tableau_.A)
-    for (const Expression& x : row) key += "," + x.text();
-  for (const Expression& x : tableau_.b) key += "," + x.text();
-  for (const Expression& x : tableau_.c) key += "," + x.text();
+    for (const Number& x : row) key += "," + x.text();
+  for (const Number& x : tableau_.b) key += "," + x.text();
+  for (const Number& x : tableau_.c) key += "," + x.text();
   if (tableau_.digits) key += ",digits " + std::to_string(*tableau_.digits);
   return key;
 }

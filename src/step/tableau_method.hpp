@@ -20,8 +20,8 @@ class TableauMethod final : public MethodByTemplate<TableauMethod> {
   std::string key() const override;
   /// That its author states, or its conditions show with 50 digits.
   int order() const override;
-  int stages() const override { return tableau_.stages(); }
-  int terms() const override { return tableau_.stages(); }
+  int stages() const override { return static_cast<int>(tableau_.b.size()); }
+  int terms() const override { return stages(); }
   /// As its coefficients show, on problems without constraints; of projected steps the constraints alone are known.
   Kept kept() const override;
   Constants parameters() const override;

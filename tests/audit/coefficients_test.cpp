@@ -8,14 +8,12 @@
 namespace hbvm::core {
 namespace {
 
-Expression text(const std::string& expression) { return Expression::parse(expression); }
-
 /// The Gauss method of two stages with b_1 and A_12 off by so much.
 Claim gauss(const std::string& in_b = "", const std::string& in_A = "") {
   Tableau tableau{"Gauss",
-                  {{text("1/4"), text("1/4-sqrt(3)/6" + in_A)}, {text("1/4+sqrt(3)/6"), text("1/4")}},
-                  {text("1/2" + in_b), text("1/2")},
-                  {text("1/2-sqrt(3)/6"), text("1/2+sqrt(3)/6")},
+                  {{"1/4", "1/4-sqrt(3)/6" + in_A}, {"1/4+sqrt(3)/6", "1/4"}},
+                  {"1/2" + in_b, "1/2"},
+                  {"1/2-sqrt(3)/6", "1/2+sqrt(3)/6"},
                   {}};
   Claim claim = make_claim("test", Quantity::q, "kepler", Span::interval, Form::at_least, 4);
   claim.method = std::make_shared<const TableauMethod>(std::move(tableau), "");
@@ -57,7 +55,7 @@ TEST(CoefficientCheck, SeesHowManyDigitsAreRight) {
 TEST(CoefficientCheck, OrdersBeyondTheTreesAreSeen) {
   const PrecisionScope scope(300);
   const Hbvm<Mpfr> hbvm = make_hbvm<Mpfr>(7, 7);
-  const auto exact = [](const Mpfr& x) { return text(x.str(0, std::ios_base::scientific)); };
+  const auto exact = [](const Mpfr& x) { return x.str(0, std::ios_base::scientific); };
   Tableau tableau{"Gauss", {}, {}, {}, {}};
   for (Index i = 0; i < 7; ++i) {
     tableau.A.emplace_back();
@@ -77,12 +75,12 @@ TEST(CoefficientCheck, OrdersBeyondTheTreesAreSeen) {
 TEST(CoefficientCheck, HoldsDecimalsToTheirDigits) {
   const auto rk4 = [](const std::string& sixth, const std::string& third) {
     Tableau tableau{"decimals",
-                    {{text("0"), text("0"), text("0"), text("0")},
-                     {text("1/2"), text("0"), text("0"), text("0")},
-                     {text("0"), text("1/2"), text("0"), text("0")},
-                     {text("0"), text("0"), text("1"), text("0")}},
-                    {text(sixth), text(third), text(third), text(sixth)},
-                    {text("0"), text("1/2"), text("1/2"), text("1")},
+                    {{"0", "0", "0", "0"},
+                     {"1/2", "0", "0", "0"},
+                     {"0", "1/2", "0", "0"},
+                     {"0", "0", "1", "0"}},
+                    {sixth, third, third, sixth},
+                    {"0", "1/2", "1/2", "1"},
                     {}};
     Claim claim = make_claim("test", Quantity::q, "kepler", Span::interval, Form::at_least, 4);
     claim.method = std::make_shared<const TableauMethod>(std::move(tableau), "");

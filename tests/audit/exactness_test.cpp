@@ -38,7 +38,7 @@ TEST(Exactness, OfTableauxIsProvedByTheirCoefficients) {
   const auto proof_for = [](Quantity quantity, const char* a, const std::string& problem) {
     Claim claim = make_claim("test", quantity, problem, Span::interval, Form::round_off, 0);
     claim.method = std::make_shared<const TableauMethod>(
-        Tableau{"one stage", {{Expression::parse(a)}}, {Expression::parse("1")}, {Expression::parse(a)}, {}}, "");
+        Tableau{"one stage", {{a}}, {1}, {a}}, "");
     const CoefficientCheck check(claim, 50);
     return proof_of(claim, &check);
   };

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "door/tableau_of.hpp"
+#include "door/door.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/method.hpp"
+#include "method/runge_kutta.hpp"
 
 namespace hbvm {
 namespace {
@@ -26,11 +27,11 @@ TEST(DoorMethod, TellsWhatIsKnown) {
 }
 
 TEST(DoorMethod, TableausHaveTheRowSumsIfNoNodesAreGiven) {
-  const core::Tableau tableau =
-      core::tableau_of({.name = "midpoint", .A = {{"1/4", "1/4"}, {0.5, 0}}, .b = {1, 0}, .c = {}});
+  const Tableau tableau =
+      core::completed({.name = "midpoint", .A = {{"1/4", "1/4"}, {0.5, 0}}, .b = {1, 0}, .c = {}});
   EXPECT_EQ(core::make_runge_kutta<double>(tableau).c[0], 0.5);
-  EXPECT_THROW(core::tableau_of({.name = "x", .A = {{1}}, .b = {1, 2}, .c = {}}), InputError);
-  EXPECT_THROW(core::tableau_of({.name = "x", .A = {{"1/"}}, .b = {1}, .c = {}}), InputError);
+  EXPECT_THROW(core::completed({.name = "x", .A = {{1}}, .b = {1, 2}, .c = {}}), InputError);
+  EXPECT_THROW(core::completed({.name = "x", .A = {{"1/"}}, .b = {1}, .c = {}}), InputError);
   EXPECT_THROW(read_tableau("/nowhere.toml"), InputError);
 }
 

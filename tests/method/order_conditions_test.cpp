@@ -78,7 +78,7 @@ TYPED_TEST(OrderConditionsTest, RefusesOrdersBeyondTheTrees) {
 
 TEST(RungeKuttaPrecision, FiftyDigitsShowWhatDoubleCannot) {
   Tableau off = rk4();
-  off.A[2][1] = Expression::parse("1/2+1e-25");
+  off.A[2][1] = "1/2+1e-25";
   EXPECT_EQ(order(make_runge_kutta<double>(off), 1'000 * epsilon<double>()), 4);
   const PrecisionScope digits(50);
   const Mpfr tolerance = 1'000 * epsilon<Mpfr>();
@@ -89,7 +89,7 @@ TEST(RungeKuttaPrecision, FiftyDigitsShowWhatDoubleCannot) {
   EXPECT_LE(magnitude(Mpfr(defect - literal<Mpfr>("1e-25/3"))), epsilon<Mpfr>());
   EXPECT_EQ(mpfr_get_prec(raw(defect)), mpfr_working_bits());
   // With the sum kept, the tree without branches of order 3 shows it, by b_3 c_2 1e-25.
-  off.A[2][0] = Expression::parse("-1e-25");
+  off.A[2][0] = "-1e-25";
   const auto balanced = make_runge_kutta<Mpfr>(off);
   EXPECT_EQ(order(balanced, tolerance), 2);
   EXPECT_LE(magnitude(Mpfr(order_defects(balanced, 3)[2] - literal<Mpfr>("1e-25/6"))), epsilon<Mpfr>());

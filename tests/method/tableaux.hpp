@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "method/hbvm.hpp"
 #include "method/order_conditions.hpp"
@@ -11,18 +9,8 @@
 
 namespace hbvm::core {
 
-using Texts = std::vector<std::string>;
-
-inline std::vector<Expression> parsed(const Texts& texts) {
-  std::vector<Expression> result;
-  for (const std::string& text : texts) result.push_back(Expression::parse(text));
-  return result;
-}
-
-inline Tableau tableau(const std::vector<Texts>& A, const Texts& b, const Texts& c, std::optional<int> order = {}) {
-  Tableau r{"test", {}, parsed(b), parsed(c), order};
-  for (const Texts& row : A) r.A.push_back(parsed(row));
-  return r;
+inline Tableau tableau(const NumberRows& A, const Numbers& b, const Numbers& c, std::optional<int> order = {}) {
+  return {"test", A, b, c, order};
 }
 
 inline Tableau rk4() {
