@@ -19,27 +19,30 @@ OrderedJson json_of(const AccountLine& line) {
           {"seconds", json_number(line.seconds)}};
 }
 
+/// f(name, field) of every field that is a number or a truth.
+template <class Measurement, class F>
+void for_each_number(Measurement& m, F f) {
+  f("at_reference", m.at_reference);
+  f("sweeps", m.sweeps);
+  f("evaluations", m.evaluations);
+  f("operations", m.operations);
+  f("operations_in_double", m.operations_in_double);
+  f("bytes", m.bytes);
+  f("seconds", m.seconds);
+  f("spread", m.spread);
+  f("calibration", m.calibration);
+  f("repetitions", m.repetitions);
+  f("disturbed", m.disturbed);
+  f("setup_seconds", m.setup_seconds);
+  f("account_steps", m.account_steps);
+}
+
 }  // namespace
 
 std::string to_result(const CostMeasurement& m) {
   if (!m.failure.empty()) return dumped({{"method", m.method}, {"failure", m.failure}}, -1);
-  OrderedJson json{{"method", m.method},
-                   {"failure", ""},
-                   {"errors", json_of(m.errors)},
-                   {"raw", json_of(m.raw)},
-                   {"at_reference", m.at_reference},
-                   {"sweeps", m.sweeps},
-                   {"evaluations", m.evaluations},
-                   {"operations", m.operations},
-                   {"operations_in_double", m.operations_in_double},
-                   {"bytes", m.bytes},
-                   {"seconds", m.seconds},
-                   {"spread", m.spread},
-                   {"calibration", m.calibration},
-                   {"repetitions", m.repetitions},
-                   {"disturbed", m.disturbed},
-                   {"setup_seconds", m.setup_seconds},
-                   {"account_steps", m.account_steps}};
+  OrderedJson json{{"method", m.method}, {"failure", ""}, {"errors", json_of(m.errors)}, {"raw", json_of(m.raw)}};
+  for_each_number(m, [&](const char* name, const auto& number) { json[name] = number; });
   json["account"] = OrderedJson::array();
   for (const AccountLine& line : m.account) json["account"].push_back(json_of(line));
   return dumped(json, -1);
@@ -53,19 +56,7 @@ CostMeasurement read_cost_measurement(const std::string& text) {
     if (!m.failure.empty()) return m;
     m.errors = cost_errors_of(json.at("errors"));
     m.raw = cost_errors_of(json.at("raw"));
-    m.at_reference = json.at("at_reference");
-    m.sweeps = json.at("sweeps");
-    m.evaluations = json.at("evaluations");
-    m.operations = json.at("operations");
-    m.operations_in_double = json.at("operations_in_double");
-    m.bytes = json.at("bytes");
-    m.seconds = json.at("seconds");
-    m.spread = json.at("spread");
-    m.calibration = json.at("calibration");
-    m.repetitions = json.at("repetitions");
-    m.disturbed = json.at("disturbed");
-    m.setup_seconds = json.at("setup_seconds");
-    m.account_steps = json.at("account_steps");
+    for_each_number(m, [&](const char* name, auto& number) { json.at(name).get_to(number); });
     for (const OrderedJson& entry : json.at("account")) {
       AccountLine line{entry.at("name"), static_cast<AccountLine::Kind>(entry.at("kind").get<int>())};
       line.operations.add(Op::multiply, static_cast<Index>(entry.at("operations").get<std::uint64_t>()));

@@ -1,33 +1,22 @@
 #include "solver/stage_failure.hpp"
 
 namespace hbvm::core {
+namespace {
 
-std::string_view name_of(FailureCause cause) {
-  switch (cause) {
-    case FailureCause::stage_equations_diverge:
-      return "stage_equations_diverge";
-    case FailureCause::near_singular_constraints:
-      return "near_singular_constraints";
-    case FailureCause::precision_exhausted:
-      return "precision_exhausted";
-    case FailureCause::inconsistent_state:
-      break;
-  }
-  return "inconsistent_state";
-}
+/// By FailureCause.
+constexpr struct {
+  std::string_view name, remedy;
+} causes[] = {
+    {"stage_equations_diverge", "try a smaller step"},
+    {"near_singular_constraints", "take more digits, or pass the singular position with another step"},
+    {"precision_exhausted", "take more digits"},
+    {"inconsistent_state", "start from a consistent state: hbvm scene project makes one"},
+};
 
-std::string_view remedy_of(FailureCause cause) {
-  switch (cause) {
-    case FailureCause::stage_equations_diverge:
-      return "try a smaller step";
-    case FailureCause::near_singular_constraints:
-      return "take more digits, or pass the singular position with another step";
-    case FailureCause::precision_exhausted:
-      return "take more digits";
-    case FailureCause::inconsistent_state:
-      break;
-  }
-  return "start from a consistent state: hbvm scene project makes one";
-}
+}  // namespace
+
+std::string_view name_of(FailureCause cause) { return causes[static_cast<std::size_t>(cause)].name; }
+
+std::string_view remedy_of(FailureCause cause) { return causes[static_cast<std::size_t>(cause)].remedy; }
 
 }  // namespace hbvm::core

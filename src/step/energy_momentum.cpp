@@ -148,27 +148,7 @@ long EnergyMomentum<S>::iterate(const State<S>& state) {
 template <Scalar S>
 long EnergyMomentum<S>::solve(const State<S>& state) {
   position_scale_.evaluate(state.q, h_, positions_);
-  const Index m = problem_.m(), nu = problem_.nu();
-  long sweeps = 0;
-  if (!extrapolation_.empty()) {
-    try {
-      extrapolation_.predict(sequence_.data());
-      for (Index j = 0; j < m; ++j) set(P_(0, j), sequence_[j]);
-      for (Index a = 0; a < nu; ++a) set(lambda_(0, a), sequence_[m + a]);
-      sweeps = iterate(state);
-    } catch (const StageFailure& failure) {
-      sweeps = failure.sweeps();
-      extrapolation_.clear();
-    }
-  }
-  if (extrapolation_.empty()) {
-    set_zero(lambda_);
-    for (Index j = 0; j < m; ++j) set(P_(0, j), state.p[j]);
-    sweeps += iterate(state);
-  }
-  for (Index j = 0; j < m; ++j) set(sequence_[j], P_(0, j));
-  for (Index a = 0; a < nu; ++a) set(sequence_[m + a], lambda_(0, a));
-  return sweeps;
+  return find_stages(extrapolation_, sequence_, state.p, P_, lambda_, [&] { return iterate(state); });
 }
 
 template <Scalar S>

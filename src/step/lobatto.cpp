@@ -214,27 +214,7 @@ long LobattoStepper<S>::iterate(const State<S>& state) {
 template <Scalar S>
 long LobattoStepper<S>::solve(const State<S>& state) {
   position_scale_.evaluate(state.q, h_, positions_);
-  long sweeps = 0;
-  const Index of_P = P_.size();
-  if (!extrapolation_.empty()) {
-    try {
-      extrapolation_.predict(sequence_.data());
-      for (Index i = 0; i < of_P; ++i) set(P_.data()[i], sequence_[i]);
-      for (Index i = 0; i < lambda_.size(); ++i) set(lambda_.data()[i], sequence_[of_P + i]);
-      sweeps = iterate(state);
-    } catch (const StageFailure& failure) {
-      sweeps = failure.sweeps();
-      extrapolation_.clear();
-    }
-  }
-  if (extrapolation_.empty()) {
-    set_zero(lambda_);
-    for (Index j = 0; j < P_.cols(); ++j)
-      for (Index i = 0; i < P_.rows(); ++i) set(P_(i, j), state.p[j]);
-    sweeps += iterate(state);
-  }
-  for (Index i = 0; i < of_P; ++i) set(sequence_[i], P_.data()[i]);
-  for (Index i = 0; i < lambda_.size(); ++i) set(sequence_[of_P + i], lambda_.data()[i]);
+  const long sweeps = find_stages(extrapolation_, sequence_, state.p, P_, lambda_, [&] { return iterate(state); });
   extrapolation_.add(sequence_.data());
   return sweeps;
 }

@@ -37,6 +37,7 @@ RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKu
       force_(Matrix<S>::Zero(1, problem.m())),
       stage_sums_(method.b, problem.m()),
       extrapolation_(P_.rows(), P_.cols()),
+      sequence_(P_.size()),
       position_scale_(problem),
       positions_(problem.m()),
       // The lengths of the sums of one sweep, and 4 for what they are passed through, as roundings_of_a_sweep has it.
@@ -114,21 +115,8 @@ void RungeKuttaStepper<S>::stages_in_turn(const State<S>& state) {
 template <Scalar S>
 long RungeKuttaStepper<S>::solve(const State<S>& state) {
   position_scale_.evaluate(state.q, h_, positions_);
-  long sweeps = 0;
-  if (!extrapolation_.empty()) {
-    try {
-      extrapolation_.predict(P_.data());
-      sweeps = iterate(state);
-    } catch (const StageFailure& failure) {
-      sweeps = failure.sweeps();
-      extrapolation_.clear();
-    }
-  }
-  if (extrapolation_.empty()) {
-    for (Index j = 0; j < P_.cols(); ++j)
-      for (Index i = 0; i < P_.rows(); ++i) set(P_(i, j), state.p[j]);
-    sweeps += iterate(state);
-  }
+  Matrix<S> none;
+  const long sweeps = find_stages(extrapolation_, sequence_, state.p, P_, none, [&] { return iterate(state); });
   extrapolation_.add(P_.data());
   problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
   return sweeps;

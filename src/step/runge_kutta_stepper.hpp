@@ -75,6 +75,7 @@ class RungeKuttaStepper final : public CountingStepper<S> {
   Matrix<S> force_;  // 1 x m
   StageSums<S> stage_sums_;
   Extrapolation<S> extrapolation_;  ///< of P
+  Vector<S> sequence_;
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;

@@ -3,6 +3,7 @@
 #include "linear/arrays.hpp"
 #include "linear/product.hpp"
 #include "scalar/text.hpp"
+#include "solver/extrapolation.hpp"
 #include "solver/stopping_rule.hpp"
 #include "step/add_compensated.hpp"
 #include "step/state.hpp"
@@ -39,6 +40,36 @@ long iterate_stages(StoppingRule<S>& rule, const Vector<S>& p0, const Vector<S>&
     if (verdict == Ruling::converged) return rule.sweeps();
     if (verdict != Ruling::go_on) throw rule.failure(verdict);
   }
+}
+
+/// Finds P and the multipliers lambda by `iterate`: from the extrapolation of the last steps, and if that leads nowhere
+/// once more from P = p_0 and lambda = 0. They stand in `sequence` then, P first. \return sweeps \throws StageFailure
+template <Scalar S, class Iterate>
+long find_stages(Extrapolation<S>& extrapolation, Vector<S>& sequence, const Vector<S>& p0, Matrix<S>& P,
+                 Matrix<S>& lambda, Iterate&& iterate) {
+  const auto for_each = [&](auto f) {
+    for (Index i = 0; i < P.size(); ++i) f(P.data()[i], sequence[i]);
+    for (Index i = 0; i < lambda.size(); ++i) f(lambda.data()[i], sequence[P.size() + i]);
+  };
+  long sweeps = 0;
+  if (!extrapolation.empty()) {
+    try {
+      extrapolation.predict(sequence.data());
+      for_each([](S& unknown, const S& predicted) { set(unknown, predicted); });
+      sweeps = iterate();
+    } catch (const StageFailure& failure) {
+      sweeps = failure.sweeps();
+      extrapolation.clear();
+    }
+  }
+  if (extrapolation.empty()) {
+    set_zero(lambda);
+    for (Index j = 0; j < P.cols(); ++j)
+      for (Index i = 0; i < P.rows(); ++i) set(P(i, j), p0[j]);
+    sweeps += iterate();
+  }
+  for_each([](const S& unknown, S& kept) { set(kept, unknown); });
+  return sweeps;
 }
 
 /// The sums over stages that a step ends with, q_1 = q_0 + h b^T V and p_1 = p_0 + h b^T F, compensated. Owns its

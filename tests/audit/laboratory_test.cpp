@@ -1,15 +1,13 @@
 #include "audit/laboratory.hpp"
 
-#include <gtest/gtest.h>
-
 #include "audit/claim_groups.hpp"
+#include "printing.hpp"
 
 namespace hbvm::core {
 namespace {
 
-class LaboratoryTest : public ::testing::Test {
+class LaboratoryTest : public InDigits<40> {
  protected:
-  PrecisionScope digits{40};
   const Mpfr small = 1'000'000 * epsilon<Mpfr>();
 };
 

@@ -1,16 +1,14 @@
 #include "audit/trial.hpp"
 
-#include <gtest/gtest.h>
-
 #include "audit/claim_groups.hpp"
+#include "printing.hpp"
 #include "step/hbvm_stepper.hpp"
 
 namespace hbvm::core {
 namespace {
 
-class TrialTest : public ::testing::Test {
+class TrialTest : public InDigits<40> {
  protected:
-  PrecisionScope digits{40};
   ClaimGroup group = group_of("double_pendulum", {4, 2}, {Quantity::q});
   Laboratory laboratory{group};
   const Laboratory::Start& start = laboratory.starts().front();

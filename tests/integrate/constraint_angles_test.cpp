@@ -74,10 +74,8 @@ const std::string between_pins =
     "{kind = \"rod\", between = [\"b\", \"r\"], length = \"sqrt(5)\"}]\n";
 
 template <class S>
-class Crossing : public ::testing::Test {
+class Crossing : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   /// The greatest factor between neighbours at these heights.
   double factor(const std::vector<S>& heights, Index* constraint = nullptr) {
     const Assembled<S> scene = assemble<S>(read_scene(between_pins, "between pins"));

@@ -8,10 +8,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class Rods : public ::testing::Test {
+class Rods : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   /// Two bodies of uneven masses on rods, in this unit of length and so far from the origin. The second rod is as long
   /// as this at the mesh points.
   typename ConstraintDrift<S>::Worst of(const std::vector<const char*>& lengths, const char* unit = "1",

@@ -9,10 +9,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class MomentumDriftTest : public ::testing::Test {
+class MomentumDriftTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   /// The drift of each conserved component, by name, over a run of HBVM(k, s).
   static std::map<std::string, S> drifts(const std::string& scene, int k, int s) {
     SceneRun<S> run(load_scene(scene), k, s, "1/32", "1");

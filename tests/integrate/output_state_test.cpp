@@ -7,9 +7,8 @@
 namespace hbvm::core {
 namespace {
 
-class OutputStates : public ::testing::Test {
+class OutputStates : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
 };
 

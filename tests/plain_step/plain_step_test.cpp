@@ -34,10 +34,8 @@ Scene scene_of(const std::string& name) {
 }
 
 template <class S>
-class PlainStep : public ::testing::Test {
+class PlainStep : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   /// Three steps of either lead to the same state and multiplier, but for rounding. That is of the momenta, by their
   /// greatest, and of the multipliers, which come from momenta over the step.
   static void expect_same_states(const std::string& name, const HbvmName& n) {

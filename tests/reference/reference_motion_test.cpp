@@ -16,9 +16,8 @@ double greatest_error(const ReferenceMotion& motion) {
   return std::max({motion.errors().q, motion.errors().p, motion.errors().lambda});
 }
 
-class ReferenceMotionTest : public ::testing::Test {
+class ReferenceMotionTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   const Assembled<Mpfr> pendulum = assemble<Mpfr>(load_scene("simple_pendulum"));
   const Mpfr duration = literal<Mpfr>("1/2");
 

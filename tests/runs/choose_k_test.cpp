@@ -62,10 +62,8 @@ TEST(DegreeOfU, IsNoneIfOneEffectIsNoPolynomial) {
 }
 
 template <class S>
-class ChooseK : public ::testing::Test {
+class ChooseK : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   static ChosenK chosen(const Assembled<S>& scene, int s, const char* step) {
     return choose_k<S>(scene, HbvmName{0, s}, literal<S>(step), SolverKind::fixed_point);
   }

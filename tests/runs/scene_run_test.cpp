@@ -9,9 +9,8 @@
 namespace hbvm::core {
 namespace {
 
-class RunTest : public ::testing::Test {
+class RunTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   const Mpfr tolerance = 10'000 * epsilon<Mpfr>();
 
   static hbvm::Run result(const DenseModel& model, const char* method, SolverKind solver) {

@@ -8,9 +8,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class StartStateTest : public ::testing::Test {
+class StartStateTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   const Scene text = load_scene("simple_pendulum");
   const Assembled<S> scene = assemble<S>(text);
 

@@ -17,13 +17,12 @@ void expect_near(const Mpfr& a, const Mpfr& b, const Mpfr& scale, const char* wh
   EXPECT_LE(magnitude(Mpfr(a - b)), 100 * epsilon<Mpfr>() * scale) << what << ": " << to_text(a) << ", " << to_text(b);
 }
 
-class EveryKey : public ::testing::Test {
+class EveryKey : public InDigits<50> {
  protected:
   /// The block of three coordinates that starts at `offset`.
   static Vector<Mpfr> block(const Vector<Mpfr>& q, Index offset) { return q.segment(offset, 3); }
   static Mpfr squared(const Vector<Mpfr>& v) { return Mpfr(v.dot(v)); }
 
-  PrecisionScope digits{50};
   Assembled<Mpfr> scene = assembled<Mpfr>(every_key);
   static constexpr Index a = 0, b = 3, c = 6, top = 9, stone = 18;  // offsets of the coordinates
 };
@@ -480,7 +479,7 @@ constraint = [{ kind = "plane", body = "a", normal = [0, 1], offset = 0 },
 }
 
 /// The scene of joined bodies against its formulas, in coordinates on no symmetry of it.
-class JoinedBodies : public ::testing::Test {
+class JoinedBodies : public InDigits<50> {
  protected:
   /// The point r + at.(d1, d2, d3) of the body whose reference point is at `offset`.
   Vector<Mpfr> point(Index offset, const std::vector<const char*>& at) const {
@@ -492,7 +491,6 @@ class JoinedBodies : public ::testing::Test {
   Vector<Mpfr> director(Index offset, Index a) const { return q.segment(offset + 3 * a, 3); }
   static Mpfr length(const Vector<Mpfr>& x) { return Mpfr(sqrt(Mpfr(x.dot(x)))); }
 
-  PrecisionScope digits{50};
   Assembled<Mpfr> scene = assembled<Mpfr>(joined_bodies);
   const Vector<Mpfr> q = generic<Mpfr>(scene.problem.m(), 5);
   static constexpr Index bead = 0, base = 3, arm = 15, bob = 27;  // offsets of the coordinates

@@ -15,10 +15,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class FormulaScene : public ::testing::Test {
+class FormulaScene : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   /// All that the problem of a scene says, at a state and one step from it.
   static std::vector<S> all(const std::string& text) {
     const Assembled<S> scene = assembled<S>(text);

@@ -6,10 +6,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class NearestPosition : public ::testing::Test {
+class NearestPosition : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   /// Each link is a little too long.
   static Assembled<S> long_chain(int n) { return assembled<S>(chain(n, "0.80001"), Consistency::unchecked); }
 };

@@ -7,10 +7,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class Project : public ::testing::Test {
+class Project : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   static Scene projected(const std::string& text) { return project<S>(read_scene(text, "test.toml")); }
 
   using Numbers = std::vector<std::string>;

@@ -9,7 +9,7 @@
 namespace hbvm::core {
 namespace {
 
-class ReadScene : public ::testing::Test {
+class ReadScene : public InDigits<50> {
  protected:
   void expect_numbers(const SceneVector& v, const std::vector<const char*>& expected) const {
     ASSERT_EQ(v.size(), expected.size());
@@ -31,7 +31,6 @@ class ReadScene : public ::testing::Test {
     }
   }
 
-  PrecisionScope digits{50};
   Scene scene = read_scene(every_key, "every_key.toml");
 };
 

@@ -8,7 +8,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class SecondMoment : public ::testing::Test {
+class SecondMoment : public InDigits<50> {
  protected:
   using Rows = std::vector<std::vector<int>>;
 
@@ -26,8 +26,6 @@ class SecondMoment : public ::testing::Test {
   static std::string refused(const MassDistribution<S>& of, bool fixed) {
     return core::refused([&] { usable_second_moment(of, fixed); });
   }
-
-  PrecisionScope digits{50};
 };
 TYPED_TEST_SUITE(SecondMoment, AllScalars, ScalarNames);
 

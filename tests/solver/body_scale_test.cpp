@@ -9,7 +9,7 @@ namespace {
 
 /// Two bodies in a plane, the second four times as large. Its first coordinate is small.
 template <class S>
-class BodyScaleTest : public testing::Test {
+class BodyScaleTest : public InDigits<50> {
  protected:
   void show(std::initializer_list<S> terms) {
     Matrix<S> row(1, 4);
@@ -31,7 +31,6 @@ class BodyScaleTest : public testing::Test {
     return scale.leaves_little(row, rule);
   }
 
-  PrecisionScope digits{50};
   Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
   const Vector<S> nothing = Vector<S>::Zero(4);
   StoppingRule<S> rule{4, 100};

@@ -7,10 +7,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class BranchGuardTest : public testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class BranchGuardTest : public InDigits<50> {};
 TYPED_TEST_SUITE(BranchGuardTest, AllScalars, ScalarNames);
 
 /// A pendulum of mass 1 at (0, -1) with p0 = (1, 0): where forces are small, |p0| = 1 is the size of what may change.

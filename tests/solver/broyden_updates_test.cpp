@@ -27,10 +27,7 @@ struct Line {
 };
 
 template <class T>
-class BroydenUpdatesTest : public testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class BroydenUpdatesTest : public InDigits<50> {};
 TYPED_TEST_SUITE(BroydenUpdatesTest, AllScalars, ScalarNames);
 
 /// One correction shows all that there is of a line.

@@ -9,10 +9,9 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class ContinuationTest : public ::testing::Test {
+class ContinuationTest : public InDigits<50> {
  protected:
   static constexpr int s = 7;
-  PrecisionScope digits{50};
   RandomValues<S> random{11};
   Hbvm<S> method = make_hbvm<S>(s, s);
 

@@ -6,10 +6,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class ExtrapolationTest : public ::testing::Test {
+class ExtrapolationTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   /// n^degree and, as a second entry, the falling (30 - n)^degree.
   static Vector<S> power(long n, Index degree) {
     Vector<S> x(2);

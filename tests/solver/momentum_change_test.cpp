@@ -7,10 +7,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class MomentumChangeTest : public testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class MomentumChangeTest : public InDigits<50> {};
 TYPED_TEST_SUITE(MomentumChangeTest, AllScalars, ScalarNames);
 
 /// With residual = X_s y and correction = X_s z the change is row 0 of y - z.

@@ -7,10 +7,9 @@ namespace hbvm::core {
 namespace {
 
 template <class T>
-class NewtonCourseTest : public testing::Test {
+class NewtonCourseTest : public InDigits<50> {
  protected:
   using Course = NewtonCourse<T>;
-  PrecisionScope digits{50};
 
   static Course cheap() { return {T(100) * epsilon<T>(), 3, false}; }
   static Course expensive() { return {T(100) * epsilon<T>(), 60, true}; }

@@ -8,10 +8,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class NewtonIterationTest : public testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class NewtonIterationTest : public InDigits<50> {};
 TYPED_TEST_SUITE(NewtonIterationTest, AllScalars, ScalarNames);
 
 /// From v = p0 it leads to unknowns that leave nothing of the equations, and from there to the same.

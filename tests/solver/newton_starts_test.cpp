@@ -7,10 +7,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class NewtonStartsTest : public testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class NewtonStartsTest : public InDigits<50> {};
 TYPED_TEST_SUITE(NewtonStartsTest, AllScalars, ScalarNames);
 
 /// Solutions that change by the same from step to step, of few stages: the sequence continues.

@@ -7,9 +7,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class PositionScaleTest : public ::testing::Test {
+class PositionScaleTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{43};
 
   /// A body, a rigid body with two directors, and another body, in space.

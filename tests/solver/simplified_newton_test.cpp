@@ -12,10 +12,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class SimplifiedNewtonTest : public ::testing::Test {
+class SimplifiedNewtonTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
-
   static S distance(const Matrix<S>& a, const Matrix<S>& b) { return max_norm(Matrix<S>(a - b)); }
 };
 TYPED_TEST_SUITE(SimplifiedNewtonTest, AllScalars, ScalarNames);

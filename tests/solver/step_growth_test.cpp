@@ -8,10 +8,7 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class StepGrowthTest : public testing::Test {
- protected:
-  PrecisionScope digits{50};
-};
+class StepGrowthTest : public InDigits<50> {};
 TYPED_TEST_SUITE(StepGrowthTest, AllScalars, ScalarNames);
 
 /// Where v = p0 leads to the solution, shorter steps lead to the same.

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "linear/matrix.hpp"
+#include "printing.hpp"
 #include "scalar/literal.hpp"
 
 namespace hbvm::core {
@@ -25,10 +24,9 @@ acceleration = ["1/3", "-1/7"]
 inline const std::string floating = falling.substr(0, falling.find("[[effect]]"));
 
 /// Sums of many equal increments, which plain additions get wrong.
-class CompensatedSum : public ::testing::Test {
+class CompensatedSum : public InDigits<60> {
  protected:
   static constexpr int steps = 100'000;
-  PrecisionScope digits{60};
   const double h = literal<double>("1e-7");
 
   /// x, to which `increment` was added `steps` times, and what it carries on; `rounding`: of the increment itself, in

@@ -10,9 +10,8 @@ namespace hbvm::core {
 namespace {
 
 template <class S>
-class ConstraintProjectionTest : public ::testing::Test {
+class ConstraintProjectionTest : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   RandomValues<S> random{53};
   const S tolerance = 10'000 * epsilon<S>();
 

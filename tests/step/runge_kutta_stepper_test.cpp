@@ -29,9 +29,8 @@ S distance(const State<S>& a, const State<S>& b) {
 }
 
 template <class S>
-class RungeKuttaSteps : public ::testing::Test {
+class RungeKuttaSteps : public InDigits<50> {
  protected:
-  PrecisionScope digits{50};
   const Assembled<S> kepler = assemble<S>(load_scene("kepler"));
 
   State<S> run(const RungeKutta<S>& method, const S& h, long steps) const {

@@ -195,7 +195,7 @@ struct GyroscopeOnGimbal {
   }
 };
 
-class JoinedBodies : public ::testing::Test {
+class JoinedBodies : public InDigits<40> {
  protected:
   struct End {
     Vector<Mpfr> q, v;
@@ -222,7 +222,6 @@ class JoinedBodies : public ::testing::Test {
     }
   }
 
-  PrecisionScope digits{40};
   const Mpfr T = Mpfr(1) / 2;
 };
 

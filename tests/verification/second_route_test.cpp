@@ -9,10 +9,9 @@ namespace hbvm::core {
 namespace {
 
 /// HBVM of high order against an integration by other variables and another method.
-class SecondRoute : public ::testing::Test {
+class SecondRoute : public InDigits<40> {
  protected:
   static constexpr int k = 10, s = 8;
-  PrecisionScope digits{40};
   const Mpfr T = Mpfr(1) / 2, thirty_digits = literal<Mpfr>("1e-30");
 
   Exact by_hbvm(const Scene& scene, const char* step) {

@@ -23,9 +23,8 @@ JacobiFunctions jacobi(const Mpfr& u, const Mpfr& kappa) {
   return jacobi_functions(u, m, Mpfr(1 - m));
 }
 
-class Jacobi : public ::testing::Test {
+class Jacobi : public InDigits<60> {
  protected:
-  PrecisionScope digits{60};
   const std::vector<Mpfr> arguments{Mpfr(0), literal<Mpfr>("1/7"), literal<Mpfr>("-3/5"),
                                     Mpfr(1), literal<Mpfr>("7/3"), Mpfr(10)};
   const std::vector<Mpfr> moduli{literal<Mpfr>("1e-20"), literal<Mpfr>("1/10"), literal<Mpfr>("1/2"),
