@@ -42,8 +42,9 @@ long iterate_stages(StoppingRule<S>& rule, const Vector<S>& p0, const Vector<S>&
   }
 }
 
-/// Finds P and the multipliers lambda by `iterate`: from the extrapolation of the last steps, and if that leads nowhere
-/// once more from P = p_0 and lambda = 0. They stand in `sequence` then, P first. \return sweeps \throws StageFailure
+/// Finds P and the multipliers lambda by `iterate`, from the extrapolation of the last steps. If that leads nowhere it
+/// starts once more, from P = p_0 and lambda = 0. They stand in `sequence` then, P first.
+/// \return sweeps \throws StageFailure
 template <Scalar S, class Iterate>
 long find_stages(Extrapolation<S>& extrapolation, Vector<S>& sequence, const Vector<S>& p0, Matrix<S>& P,
                  Matrix<S>& lambda, Iterate&& iterate) {

@@ -39,7 +39,7 @@ struct Part {
 /// The findings of a study: columns and groups of its table, and what it was held against.
 struct Findings {
   Table table;
-  Table full;  ///< the same with all digits, and empty cells where there is no number
+  Table full;            ///< the same with all digits, and empty cells where there is no number
   StudyOutcome outcome;  ///< the comparison
 };
 

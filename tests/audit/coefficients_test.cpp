@@ -75,10 +75,7 @@ TEST(CoefficientCheck, OrdersBeyondTheTreesAreSeen) {
 TEST(CoefficientCheck, HoldsDecimalsToTheirDigits) {
   const auto rk4 = [](const std::string& sixth, const std::string& third) {
     Tableau tableau{"decimals",
-                    {{"0", "0", "0", "0"},
-                     {"1/2", "0", "0", "0"},
-                     {"0", "1/2", "0", "0"},
-                     {"0", "0", "1", "0"}},
+                    {{"0", "0", "0", "0"}, {"1/2", "0", "0", "0"}, {"0", "1/2", "0", "0"}, {"0", "0", "1", "0"}},
                     {sixth, third, third, sixth},
                     {"0", "1/2", "1/2", "1"},
                     {}};

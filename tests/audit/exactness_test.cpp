@@ -37,8 +37,7 @@ TEST(Exactness, OfConstraintsAndReversalIsProved) {
 TEST(Exactness, OfTableauxIsProvedByTheirCoefficients) {
   const auto proof_for = [](Quantity quantity, const char* a, const std::string& problem) {
     Claim claim = make_claim("test", quantity, problem, Span::interval, Form::round_off, 0);
-    claim.method = std::make_shared<const TableauMethod>(
-        Tableau{"one stage", {{a}}, {1}, {a}}, "");
+    claim.method = std::make_shared<const TableauMethod>(Tableau{"one stage", {{a}}, {1}, {a}}, "");
     const CoefficientCheck check(claim, 50);
     return proof_of(claim, &check);
   };

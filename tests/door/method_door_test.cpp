@@ -27,8 +27,7 @@ TEST(DoorMethod, TellsWhatIsKnown) {
 }
 
 TEST(DoorMethod, TableausHaveTheRowSumsIfNoNodesAreGiven) {
-  const Tableau tableau =
-      core::completed({.name = "midpoint", .A = {{"1/4", "1/4"}, {0.5, 0}}, .b = {1, 0}, .c = {}});
+  const Tableau tableau = core::completed({.name = "midpoint", .A = {{"1/4", "1/4"}, {0.5, 0}}, .b = {1, 0}, .c = {}});
   EXPECT_EQ(core::make_runge_kutta<double>(tableau).c[0], 0.5);
   EXPECT_THROW(core::completed({.name = "x", .A = {{1}}, .b = {1, 2}, .c = {}}), InputError);
   EXPECT_THROW(core::completed({.name = "x", .A = {{"1/"}}, .b = {1}, .c = {}}), InputError);
