@@ -1,11 +1,11 @@
 #include "integrate/checkpoint.hpp"
 
-#include <cstdlib>
+#include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "checksum.hpp"
+#include "folder.hpp"
 #include "hbvm/error.hpp"
 #include "integrate/drift.hpp"
 #include "integrate/momentum_drift.hpp"
@@ -13,35 +13,12 @@
 #include "integrate/trajectory.hpp"
 #include "interrupting.hpp"
 #include "printing.hpp"
+#include "solver/error_of.hpp"
 #include "step/stepping.hpp"
 #include "words.hpp"
 
 namespace hbvm::core {
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "hbvm_checkpoint_test_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  std::string operator/(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-void write(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 template <class S>
 class Memory : public InDigits<50> {};
@@ -138,13 +115,9 @@ TYPED_TEST(Memory, OfAnIntegrationIsComplete) {
       Gathered<S> first;
       EndAfter<S> end(n);
       Checkpoints checkpoints(file, 1e9, {});
-      try {
-        first(&checkpoints, &end);
-        FAIL() << "it was not interrupted";
-      } catch (const Interrupted& interrupted) {
-        EXPECT_EQ(interrupted.signal(), SIGTERM);
-        EXPECT_NE(std::string(interrupted.what()).find("SIGTERM after step "), std::string::npos);
-      }
+      const auto interrupted = error_of<Interrupted>([&] { first(&checkpoints, &end); });
+      EXPECT_EQ(interrupted.signal(), SIGTERM);
+      expect_words(interrupted.what(), {"SIGTERM after step "});
       lines = first.csv.str();
     }
     interruption = 0;
@@ -232,16 +205,20 @@ TEST(Checkpoints, AreRefusedWhereAnObserverCannotBeKept) {
   EXPECT_THROW(integrate<double>(run.stepper, run.state, run.grid, {&recorder}, &checkpoints), InputError);
 }
 
-void expect_refused(const std::string& file, const std::string& text, const std::string& words) {
-  write(file, text);
-  expect_words(message_of([&] { read_checkpoint(file); }), {words, file});
-}
-
 std::string sealed(const std::string& text) { return text + "checksum " + Checksum(text).text() + "\n"; }
 
-TEST(CheckpointFile, IsReadAsItWasWritten) {
+class CheckpointFile : public ::testing::Test {
+ protected:
   const Folder folder;
   const std::string file = folder / "run";
+
+  void expect_refused(const std::string& text, const std::string& words) const {
+    folder.write("run", text);
+    expect_words(message_of([&] { read_checkpoint(file); }), {words, file});
+  }
+};
+
+TEST_F(CheckpointFile, IsReadAsItWasWritten) {
   const Checkpoint written{{"1.2", "name", "a = 1\nb = 2\n", "", {{"--step", "1/2"}, {"--reverse", "true"}}}, "1\n2\n"};
   write_checkpoint(file, written);
   const Checkpoint read = read_checkpoint(file);
@@ -252,44 +229,38 @@ TEST(CheckpointFile, IsReadAsItWasWritten) {
   EXPECT_EQ(read.state, "1\n2\n");
 }
 
-TEST(CheckpointFile, IsRefusedWithEveryByteFlippedAndCutAnywhere) {
-  const Folder folder;
-  const std::string file = folder / "run";
+TEST_F(CheckpointFile, IsRefusedWithEveryByteFlippedAndCutAnywhere) {
   write_checkpoint(file, {{"1.2", "name", "scene", "", {}}, "1\n2\n"});
   const std::string whole = text_of(file);
   for (std::size_t i = 0; i < whole.size(); ++i) {
     for (const int bit : {1, 32}) {
       std::string flipped = whole;
       flipped[i] = static_cast<char>(flipped[i] ^ bit);
-      expect_refused(file, flipped, "is ");
+      expect_refused(flipped, "is ");
     }
-    expect_refused(file, whole.substr(0, i), i == 0 ? "is empty" : "is ");
+    expect_refused(whole.substr(0, i), i == 0 ? "is empty" : "is ");
   }
-  expect_refused(file, whole + "\n", "is damaged");
+  expect_refused(whole + "\n", "is damaged");
 }
 
-TEST(CheckpointFile, IsRefusedIfItIsNoneOrOfAnotherVersion) {
-  const Folder folder;
-  const std::string file = folder / "run";
-  expect_refused(file, "dimension = 2\n", "no checkpoint");
-  expect_refused(file, sealed("hbvm checkpoint 4\n1\n"), "format '4' of another version");
-  expect_refused(file, sealed("hbvm checkpoint 2\n1\n"), "format '2' of another version");
-  expect_refused(file, sealed("hbvm checkpoint 3\n5\n"), "fit");
+TEST_F(CheckpointFile, IsRefusedIfItIsNoneOrOfAnotherVersion) {
+  expect_refused("dimension = 2\n", "no checkpoint");
+  expect_refused(sealed("hbvm checkpoint 4\n1\n"), "format '4' of another version");
+  expect_refused(sealed("hbvm checkpoint 2\n1\n"), "format '2' of another version");
+  expect_refused(sealed("hbvm checkpoint 3\n5\n"), "fit");
   EXPECT_THROW(read_checkpoint(folder / "none"), InputError);
   EXPECT_THROW(read_checkpoint(folder / ""), InputError);
 }
 
-TEST(CheckpointFile, OverwritesNothingButACheckpoint) {
-  const Folder folder;
-  const std::string file = folder / "run";
-  write(file, "precious");
+TEST_F(CheckpointFile, OverwritesNothingButACheckpoint) {
+  folder.write("run", "precious");
   EXPECT_THROW(Checkpoints(file, 60, {}), InputError);
   EXPECT_THROW(write_checkpoint(file, {}), InputError);
   EXPECT_EQ(text_of(file), "precious");
   EXPECT_THROW(Checkpoints("", 60, {}), InputError);
   EXPECT_THROW(Checkpoints("/nonexistent/run", 60, {}), InputError);
   EXPECT_THROW(Checkpoints(folder / "", 60, {}), InputError);
-  write(file, "");
+  folder.write("run", "");
   write_checkpoint(file, {});
   write_checkpoint(file, {});
   EXPECT_EQ(read_checkpoint(file).state, "");

@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "folder.hpp"
 #include "hbvm/error.hpp"
 #include "words.hpp"
 
@@ -18,19 +16,9 @@ namespace {
 
 class CsvFiles : public ::testing::Test {
  protected:
-  CsvFiles() : path_((std::filesystem::temp_directory_path() / "hbvm_csv_file_test_XXXXXX").string()) {
-    const int file = mkstemp(path_.data());
-    if (file >= 0) close(file);
-  }
-  ~CsvFiles() override { std::filesystem::remove(path_); }
-  std::string text() const {
-    std::ifstream file(path_, std::ios::binary);
-    std::ostringstream all;
-    all << file.rdbuf();
-    return all.str();
-  }
-
-  std::string path_;
+  const Folder folder_;
+  const std::string path_ = folder_.write("file.csv", "");
+  std::string text() const { return text_of(path_); }
 };
 
 TEST_F(CsvFiles, HaveOneWriter) {
