@@ -1,50 +1,38 @@
 #include "step/registry.hpp"
 
-#include <filesystem>
-#include <fstream>
-
+#include "folder.hpp"
 #include "printing.hpp"
 #include "problem/state_evaluator.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/stepping.hpp"
 #include "step/tableau_method.hpp"
 #include "verification/models.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
-/// What is thrown away in the end.
-class File {
- public:
-  explicit File(const std::string& text) {
-    const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / ("hbvm_" + std::string(test->name()) + ".toml");
-    std::ofstream(path_) << text;
-  }
-  ~File() { std::filesystem::remove(path_); }
-  File(const File&) = delete;
-  std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
+/// A method in a file, which is thrown away in the end.
+struct Midpoint {
+  const Folder folder;
+  const std::string name =
+      "tableau:" + folder.write("midpoint.toml", "name = \"midpoint\"\nA = [[\"1/2\"]]\nb = [1]\n");
 };
 
-constexpr const char* midpoint = "name = \"midpoint\"\nA = [[\"1/2\"]]\nb = [1]\n";
-
 TEST(Registry, ReadsWhatAMethodSaysOfItself) {
-  const File file(midpoint);
+  const Midpoint midpoint;
   for (const std::string& text :
        std::vector<std::string>{"hbvm:4,2", "hbvm:auto,3", "rattle", "compose:rattle,6", "energy_momentum",
                                 "projected_hbvm:4,2", "restored_hbvm:3,3", "rkf78", "bulirsch_stoer:12",
-                                "compose:hbvm:1,1,4", "tableau:" + file.path(), "tableau:" + file.path() + "+project"})
+                                "compose:hbvm:1,1,4", midpoint.name, midpoint.name + "+project"})
     EXPECT_EQ(parse_method(text)->text(), text);
 }
 
 TEST(Registry, MethodsSayWhatTheyAre) {
-  const File file(midpoint);
+  const Midpoint midpoint;
   const MethodPtr hbvm = parse_method("hbvm:4,2"), gauss = parse_method("hbvm:3,3"), rattle = parse_method("rattle"),
-                  six = parse_method("compose:rattle,6"), plain = parse_method("tableau:" + file.path()),
-                  projected = parse_method("tableau:" + file.path() + "+project");
+                  six = parse_method("compose:rattle,6"), plain = parse_method(midpoint.name),
+                  projected = parse_method(midpoint.name + "+project");
   EXPECT_EQ(hbvm->title(), "HBVM(4,2)");
   EXPECT_EQ(hbvm->order(), 4);
   EXPECT_EQ(hbvm->parameters().at("k").text(), "4");
@@ -72,14 +60,7 @@ TEST(Registry, MethodsSayWhatTheyAre) {
 }
 
 TEST(Registry, RefusesWhatThereIsNot) {
-  const auto refusal = [](const std::string& text) -> std::string {
-    try {
-      parse_method(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto refusal = [](const std::string& text) { return message_of([&] { parse_method(text); }); };
   struct Refused {
     std::string family;
     std::vector<const char*> arguments;
@@ -95,14 +76,14 @@ TEST(Registry, RefusesWhatThereIsNot) {
     for (const char* const more : arguments) EXPECT_NE(refusal(family + more), "") << family << more;
   for (const std::string family : {"projected_hbvm", "restored_hbvm"})
     for (const char* const arguments : {"", ":", ":2", ":2,3", ":0,0", ":2,2x", ":auto,2"})
-      EXPECT_NE(refusal(family + arguments).find(family), std::string::npos) << family << arguments;
+      expect_words(refusal(family + arguments), {family});
   // In short: the names there are, or what it is called here.
   const std::string unknown = refusal("adams:2");
-  for (const MethodFamily& family : method_families()) EXPECT_NE(unknown.find(family.name), std::string::npos);
+  for (const MethodFamily& family : method_families()) expect_words(unknown, {std::string(family.name)});
   EXPECT_LT(unknown.size(), 250u);
   EXPECT_EQ(refusal("gauss:2"),
             "unknown method 'gauss:2': take hbvm:S,S, which is Gauss with S stages where there are no constraints");
-  EXPECT_NE(refusal("rattel").find("did you mean 'rattle'?"), std::string::npos);
+  expect_words(refusal("rattel"), {"did you mean 'rattle'?"});
 }
 
 template <class S>
@@ -123,10 +104,10 @@ constexpr const char* constrained_methods[] = {"hbvm:4,2",
 /// Steppers that one maker makes know nothing of each other.
 TYPED_TEST(EveryMethod, MakesSteppersThatAreAlike) {
   using S = TypeParam;
-  const File file(midpoint);
+  const Midpoint midpoint;
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
   std::vector<std::string> methods(std::begin(constrained_methods), std::end(constrained_methods));
-  methods.push_back("tableau:" + file.path() + "+project");
+  methods.push_back(midpoint.name + "+project");
   for (const std::string& method : methods) {
     const StepperMaker<S> make = parse_method(method)->prepare(scene.problem, SolverKind::automatic);
     const auto one = make(), other = make();
@@ -140,13 +121,13 @@ TYPED_TEST(EveryMethod, MakesSteppersThatAreAlike) {
 
 TYPED_TEST(EveryMethod, GoesOnFromWhatItRemembers) {
   using S = TypeParam;
-  const File file(midpoint);
+  const Midpoint midpoint;
   for (const char* const method : constrained_methods)
     for (const char* const scene : {"tethered_satellites", "double_pendulum"}) expect_memory<S>(method, scene, "1/32");
   expect_memory<S>("rattle", "tethered_satellites", "1/8");
   expect_memory<S>("bulirsch_stoer:10", "tethered_satellites", "1");
-  expect_memory<S>("tableau:" + file.path(), "kepler", "1/16", SolverKind::automatic, 12);
-  expect_memory<S>("tableau:" + file.path() + "+project", "double_pendulum", "1/32");
+  expect_memory<S>(midpoint.name, "kepler", "1/16", SolverKind::automatic, 12);
+  expect_memory<S>(midpoint.name + "+project", "double_pendulum", "1/32");
 }
 
 /// g and the hidden constraints stay round-off in every step.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -33,6 +34,26 @@ State<S> after(const std::string& method, const Assembled<S>& scene, const std::
                SolverKind solver = SolverKind::newton) {
   return after(*parse_method(method)->make_stepper(scene.problem, solver), scene, h, steps);
 }
+
+/// A scene on its way, by the steps of one stepper.
+template <Scalar S>
+struct SceneSteps {
+  Assembled<S> scene;
+  std::unique_ptr<Stepper<S>> stepper;
+  State<S> state;
+
+  SceneSteps(const Scene& text, const std::string& method, SolverKind solver = SolverKind::automatic)
+      : scene(assemble<S>(text)),
+        stepper(parse_method(method)->make_stepper(scene.problem, solver)),
+        state(scene.q0, scene.p0) {}
+  SceneSteps(const SceneSteps&) = delete;
+
+  StepResult<S> step(const std::type_identity_t<S>& h) { return stepper->step(state, h); }
+  void expect_start() const {
+    EXPECT_EQ(state.q, scene.q0);
+    EXPECT_EQ(state.p, scene.p0);
+  }
+};
 
 /// The order that two errors show, of which the second was made with half the step.
 template <Scalar S>
