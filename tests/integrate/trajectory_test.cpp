@@ -6,6 +6,8 @@
 #include "integrate/runs.hpp"
 #include "integrate/trajectory_columns.hpp"
 #include "printing.hpp"
+#include "solver/error_of.hpp"
+#include "solver/falling_stone.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm::core {
@@ -115,20 +117,11 @@ TYPED_TEST(TrajectoryNumbers, ReadBackAsTheSameValues) {
 }
 
 TEST(Trajectory, IsWrittenUpToAFailure) {
-  SceneRun<double> run(
-      read_scene("dimension = 2\n[[point]]\nname = \"sun\"\nposition = [0, 0]\n[[body]]\nname = \"stone\"\n"
-                 "mass = 1\nposition = [1, 0]\nvelocity = [0, 0]\n[[effect]]\nkind = \"central_gravity\"\n"
-                 "center = \"sun\"\nstrength = 1\n",
-                 "fall"),
-      2, 2, "1/50", "2");
+  SceneRun<double> run(falling_stone("1"), 2, 2, "1/50", "2");
   std::ostringstream text;
   Trajectory<double> trajectory(run.scene.problem, text, 1, run.grid.steps(), {"t"});
-  try {
-    run({&trajectory});
-    FAIL() << "no error";
-  } catch (const StepError& error) {
-    EXPECT_EQ(Csv(text.str()).rows.size(), static_cast<std::size_t>(error.step()));
-  }
+  const auto error = error_of<StepError>([&] { run({&trajectory}); });
+  EXPECT_EQ(Csv(text.str()).rows.size(), static_cast<std::size_t>(error.step()));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "method/runge_kutta.hpp"
 
-#include "hbvm/error.hpp"
 #include "method/tableaux.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -22,14 +22,7 @@ TYPED_TEST(RungeKuttaTest, EntriesAreRoundedOnce) {
 }
 
 TYPED_TEST(RungeKuttaTest, NamesTheEntryWithoutAValue) {
-  const auto refusal = [](const Tableau& t) {
-    try {
-      make_runge_kutta<TypeParam>(t);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto refusal = [](const Tableau& t) { return message_of([&] { make_runge_kutta<TypeParam>(t); }); };
   EXPECT_TRUE(refusal(tableau({{"0", "0"}, {"1/0", "0"}}, {"1", "0"}, {"0", "0"})).starts_with("A[2][1] "));
   EXPECT_TRUE(refusal(tableau({{"0"}}, {"sqrt(-1)"}, {"0"})).starts_with("b[1] "));
   EXPECT_TRUE(refusal(tableau({{"0"}}, {"1"}, {"x"})).starts_with("c[1] "));

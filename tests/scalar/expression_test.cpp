@@ -8,14 +8,9 @@
 namespace hbvm::core {
 namespace {
 
-/// What parse() refuses the text with; empty if it does not.
+/// What parse() refuses the text with.
 std::string refusal(const std::string& text) {
-  try {
-    Expression::parse(text);
-  } catch (const ExpressionError& error) {
-    return error.what();
-  }
-  return {};
+  return message_of<ExpressionError>([&] { Expression::parse(text); });
 }
 
 struct Misfit {

@@ -4,18 +4,14 @@
 #include <cstdlib>
 
 #include "printing.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
 
 template <Scalar S>
 std::string refusal(const std::string& text, const Constants& constants = {}) {
-  try {
-    evaluate<S>(Expression::parse(text), constants);
-  } catch (const ExpressionError& error) {
-    return error.what();
-  }
-  return {};
+  return message_of<ExpressionError>([&] { evaluate<S>(Expression::parse(text), constants); });
 }
 
 Constants constants(std::initializer_list<std::pair<const char*, std::string>> entries) {

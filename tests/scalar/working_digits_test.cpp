@@ -1,8 +1,8 @@
 #include "scalar/working_digits.hpp"
 
-#include <gtest/gtest.h>
-
 #include <thread>
+
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -14,15 +14,7 @@ TEST(WorkingDigits, AreAskedForInEveryThread) {
   {
     const PrecisionScope digits(50);
     EXPECT_NO_THROW(require_working_digits<Mpfr>());
-    bool refused = false;
-    std::thread([&] {
-      try {
-        require_working_digits<Mpfr>();
-      } catch (const InputError& error) {
-        refused = std::string(error.what()).find("PrecisionScope") != std::string::npos;
-      }
-    }).join();
-    EXPECT_TRUE(refused);
+    std::thread([] { expect_words(message_of([] { require_working_digits<Mpfr>(); }), {"PrecisionScope"}); }).join();
   }
   EXPECT_THROW(require_working_digits<Mpfr>(), InputError) << "the scope has ended";
 }

@@ -1,12 +1,11 @@
 #include "solver/newton.hpp"
 
 #include "integrate/drift.hpp"
-#include "integrate/integrate.hpp"
+#include "integrate/runs.hpp"
 #include "printing.hpp"
 #include "scalar/literal.hpp"
-#include "scene/assemble.hpp"
-#include "scene/scene.hpp"
-#include "step/hbvm_stepper.hpp"
+#include "solver/falling_stone.hpp"
+#include "step/stepping.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -19,33 +18,22 @@ TYPED_TEST_SUITE(NewtonTest, AllScalars, ScalarNames);
 /// are conserved to round-off.
 TYPED_TEST(NewtonTest, ConvergesWhereTheFixedPointBreaksDown) {
   using S = TypeParam;
-  const Assembled<S> scene = assemble<S>(load_scene("swinging_pendulum"));
-  for (const auto& [s, step] : {std::pair(1, "3/2"), {2, "2"}, {4, "2"}, {6, "2"}}) {
-    const TimeGrid<S> grid(Expression::parse(step), Expression::parse("60"));
-    for (const int k : {s, s + 3}) {
-      const Hbvm<S> method = make_hbvm<S>(k, s);
+  for (const auto& [s, step] : {std::pair(1, "3/2"), {2, "2"}, {4, "2"}, {6, "2"}})
+    for (const int k : {s, s + 3})
       for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
-        Drift<S> drift(scene.problem);
-        HbvmStepper<S> stepper(scene.problem, method, kind);
-        State<S> state(scene.q0, scene.p0);
-        ASSERT_NO_THROW(integrate<S>(stepper, state, grid, {&drift})) << method.s << " " << name_of(kind);
+        SceneRun<S> run(load_scene("swinging_pendulum"), k, s, step, "60", kind);
+        Drift<S> drift(run.scene.problem);
+        ASSERT_NO_THROW(run({&drift})) << s << " " << name_of(kind);
         // H is 3.5, and 30 to 40 steps add their round-off.
         EXPECT_LE(drift.e_H(), 200 * epsilon<S>()) << k << "," << s;
         EXPECT_LE(drift.e_g(), 100 * epsilon<S>()) << k << "," << s;
       }
-    }
-  }
 }
 
 TYPED_TEST(NewtonTest, EndsWithATypedErrorWhereNoSolutionIsFound) {
-  using S = TypeParam;
-  const Assembled<S> scene = assemble<S>(load_scene("swinging_pendulum"));
-  const Hbvm<S> method = make_hbvm<S>(1, 1);
   for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
-    const TimeGrid<S> grid(Expression::parse("3"), Expression::parse("30"));
-    HbvmStepper<S> stepper(scene.problem, method, kind);
-    State<S> state(scene.q0, scene.p0);
-    EXPECT_THROW(integrate<S>(stepper, state, grid, {}), StepError);
+    SceneRun<TypeParam> run(load_scene("swinging_pendulum"), 1, 1, "3", "30", kind);
+    EXPECT_THROW(run({}), StepError);
   }
 }
 
@@ -67,15 +55,9 @@ TEST(Newton, StaysInDoubleWhereItsStartIsGood) {
 
 /// A body dropped next to a centre of gravity: a tiny increment of an enormous unknown is no solution.
 TEST(Newton, TakesNoSmallIncrementForASolution) {
-  const Assembled<double> scene = assemble<double>(read_scene(
-      "dimension = 2\npoint = [{ name = \"sun\", position = [0, 0] }]\nbody = [{ name = \"stone\", mass = 1, "
-      "position = [1e-9, 0], velocity = [0, 0] }]\neffect = [{ kind = \"central_gravity\", center = \"sun\", "
-      "strength = 1 }]\n",
-      "fall"));
-  const Hbvm<double> method = make_hbvm<double>(2, 2);
   for (const SolverKind kind : {SolverKind::newton, SolverKind::automatic}) {
-    const auto solver = make_solver(kind, scene.problem, method);
-    EXPECT_THROW(solver->solve({scene.q0, scene.p0, 1.0}), StageFailure) << name_of(kind);
+    SceneSteps<double> fall(falling_stone("1e-9"), "hbvm:2,2", kind);
+    EXPECT_THROW(fall.step(1), StageFailure) << name_of(kind);
   }
 }
 
@@ -86,8 +68,8 @@ const PartCount& part_named(const SolverCounts& counts, const std::string& name)
   return *found;
 }
 
-long sweeps_in_double(const HbvmStepper<Mpfr>& stepper) {
-  return static_cast<long>(part_named(stepper.counts(), "stage equations").calls);
+long sweeps_in_double(const SceneSteps<Mpfr>& steps) {
+  return static_cast<long>(part_named(steps.stepper->counts(), "stage equations").calls);
 }
 
 /// Each sweep wins some fourteen digits. 25 digits more take one or two sweeps more in many digits, and with those in
@@ -96,16 +78,13 @@ TEST(Newton, WinsFourteenDigitsASweep) {
   long last = 0;
   for (const unsigned digits : {25U, 50U, 75U, 100U, 200U}) {
     const PrecisionScope scope(digits);
-    const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("tethered_satellites"));
-    const Hbvm<Mpfr> method = make_hbvm<Mpfr>(6, 4);
     const Mpfr h = Mpfr(1) / 10;
-    HbvmStepper<Mpfr> newton(scene.problem, method, SolverKind::newton),
-        papers(scene.problem, method, SolverKind::paper);
-    State<Mpfr> state(scene.q0, scene.p0), other = state;
-    newton.step(state, h);
-    papers.step(other, h);
+    SceneSteps<Mpfr> newton(load_scene("tethered_satellites"), "hbvm:6,4", SolverKind::newton),
+        papers(load_scene("tethered_satellites"), "hbvm:6,4", SolverKind::paper);
+    newton.step(h);
+    papers.step(h);
     const long in_double = sweeps_in_double(newton);
-    const long all = newton.step(state, h).sweeps, papers_sweeps = papers.step(other, h).sweeps;
+    const long all = newton.step(h).sweeps, papers_sweeps = papers.step(h).sweeps;
     const long sweeps = all - (sweeps_in_double(newton) - in_double);
     if (digits == 100) {
       EXPECT_LE(all, 17);
@@ -113,8 +92,8 @@ TEST(Newton, WinsFourteenDigitsASweep) {
     }
     EXPECT_LE(sweeps, last == 0 ? 2 : last + (digits == 200 ? 8 : 2)) << digits;
     last = sweeps;
-    EXPECT_LE(max_norm(Vector<Mpfr>(state.q - other.q)), 10'000 * epsilon<Mpfr>());
-    EXPECT_LE(max_norm(Vector<Mpfr>(state.p - other.p)), 10'000 * epsilon<Mpfr>());
+    EXPECT_LE(distance(newton.state.q, papers.state.q), 10'000 * epsilon<Mpfr>());
+    EXPECT_LE(distance(newton.state.p, papers.state.p), 10'000 * epsilon<Mpfr>());
   }
 }
 
@@ -143,13 +122,11 @@ TEST(Newton, CountsWhatItDid) {
 /// Where the motion turns uniformly, the increments of the third step fall fast once and then no more. To take the
 /// first fall for the rate of all would leave an error that shows in the angular momentum.
 TEST(Newton, IsNotMisledByOneFastFall) {
-  const Assembled<double> scene = assemble<double>(load_scene("conical_pendulum"));
-  const Hbvm<double> method = make_hbvm<double>(3, 3);
-  HbvmStepper<double> stepper(scene.problem, method, SolverKind::newton);
-  State<double> state(scene.q0, scene.p0);
+  SceneSteps<double> pendulum(load_scene("conical_pendulum"), "hbvm:3,3", SolverKind::newton);
+  const State<double>& state = pendulum.state;
   const auto momentum = [&] { return state.q[0] * state.p[1] - state.q[1] * state.p[0]; };
   const double before = momentum();
-  for (int n = 0; n < 64; ++n) stepper.step(state, 1.0 / 16);
+  for (int n = 0; n < 64; ++n) pendulum.step(1.0 / 16);
   EXPECT_LE(std::abs(momentum() - before), 16 * epsilon<double>());
 }
 
@@ -175,15 +152,8 @@ TEST(Newton, EndsAtTheLastDigit) {
     const PrecisionScope scope(digits);
     for (const char* name : {"double_pendulum", "kepler"}) {
       const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
-      const Hbvm<Mpfr> method = make_hbvm<Mpfr>(4, 3);
-      const Mpfr h = Mpfr(1) / 16;
-      State<Mpfr> newtons(scene.q0, scene.p0), swept = newtons;
-      HbvmStepper<Mpfr> newton(scene.problem, method, SolverKind::newton),
-          fixed_point(scene.problem, method, SolverKind::fixed_point);
-      for (int n = 0; n < 3; ++n) {
-        newton.step(newtons, h);
-        fixed_point.step(swept, h);
-      }
+      const State<Mpfr> newtons = after("hbvm:4,3", scene, Mpfr(1) / 16, 3),
+                        swept = after("hbvm:4,3", scene, Mpfr(1) / 16, 3, SolverKind::fixed_point);
       const Mpfr size = std::max(max_norm(swept.p), max_norm(swept.q));
       EXPECT_LE(distance(newtons.p, swept.p), 24 * epsilon<Mpfr>() * size) << name << ", " << digits;
       EXPECT_LE(distance(newtons.q, swept.q), 24 * epsilon<Mpfr>() * size) << name << ", " << digits;
@@ -195,19 +165,17 @@ TEST(Newton, EndsAtTheLastDigit) {
 /// meant. It was 1500 times too fast.
 TYPED_TEST(NewtonTest, TakesTheSolutionNearTheStartOnAStiffSpring) {
   using S = TypeParam;
-  const Assembled<S> scene = assemble<S>(read_scene(
+  const Scene stiff = read_scene(
       "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\nbody = [{ name = \"a\", mass = 1, position = "
       "[\"3/5\", \"-4/5\"], velocity = [\"2/5\", \"3/10\"] }]\neffect = [{ kind = \"uniform_gravity\", acceleration = "
       "[0, -1] }, { kind = \"spring\", between = [\"o\", \"a\"], stiffness = \"10^8\", rest_length = 1 }]\n",
-      "stiff"));
+      "stiff");
   for (const int s : {1, 2, 3}) {
-    const Hbvm<S> method = make_hbvm<S>(s, s);
-    HbvmStepper<S> stepper(scene.problem, method, SolverKind::newton);
-    State<S> state(scene.q0, scene.p0);
+    SceneSteps<S> spring(stiff, HbvmName{s, s}.text(), SolverKind::newton);
     for (int n = 0; n < 8; ++n) {
-      stepper.step(state, S(S(1) / 8));
-      EXPECT_LT(max_norm(state.p), 2) << s;
-      EXPECT_LT(magnitude(S(state.q.squaredNorm() - 1)), S(1) / 64) << s;
+      spring.step(S(1) / 8);
+      EXPECT_LT(max_norm(spring.state.p), 2) << s;
+      EXPECT_LT(magnitude(S(spring.state.q.squaredNorm() - 1)), S(1) / 64) << s;
     }
   }
 }

@@ -1,30 +1,18 @@
 #include "solver/stage_solver.hpp"
 
-#include "integrate/integrate.hpp"
+#include "integrate/runs.hpp"
 #include "plain_step/mechanics.hpp"
 #include "printing.hpp"
-#include "scene/assemble.hpp"
-#include "step/hbvm_stepper.hpp"
 
 namespace hbvm::core {
 namespace {
-
-TEST(SolverKind, IsReadByItsName) {
-  for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::paper})
-    EXPECT_EQ(parse_solver(name_of(kind)), kind);
-  EXPECT_EQ(name_of(SolverKind::paper), "paper");
-  for (const char* name : {"", "Paper", "newtonian", "paper "}) EXPECT_THROW(parse_solver(name), InputError) << name;
-}
 
 using Methods = std::vector<std::pair<int, int>>;
 const Methods methods{{1, 1}, {2, 1}, {2, 2}, {3, 2}, {3, 3}, {5, 3}, {4, 4}, {6, 4}, {5, 5}, {8, 5}};
 
 std::string in_words(int k, int s) { return ", HBVM(" + std::to_string(k) + "," + std::to_string(s) + "), "; }
 
-class StageSolution : public ::testing::TestWithParam<SolverKind> {
- protected:
-  PrecisionScope digits{50};
-};
+class StageSolution : public InDigits<50>, public ::testing::WithParamInterface<SolverKind> {};
 
 TEST_P(StageSolution, FulfilsTheEquationsOfThePlainStep) {
   const Mpfr h = Mpfr(1) / 20;
@@ -80,12 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, StageSolution, ::testing::Values(SolverKind::f
                          });
 
 Integration<Mpfr> run(const Scene& text, SolverKind kind, int k, int s, const char* step, const char* until) {
-  const Assembled<Mpfr> scene = assemble<Mpfr>(text);
-  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(k, s);
-  const TimeGrid<Mpfr> grid(Expression::parse(step), Expression::parse(until));
-  HbvmStepper<Mpfr> stepper(scene.problem, method, kind);
-  State<Mpfr> state(scene.q0, scene.p0);
-  return integrate<Mpfr>(stepper, state, grid, {});
+  return SceneRun<Mpfr>(text, k, s, step, until, kind)({});
 }
 
 TEST(Solvers, GiveTheSameDigits) {
@@ -121,8 +104,8 @@ TEST(Solvers, GiveTheSameDigitsFromAGoodStart) {
   const auto papers = run(kepler, SolverKind::paper, 2, 2, "1/100", "2");
   for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::newton}) {
     const auto mine = run(kepler, kind, 2, 2, "1/100", "2");
-    EXPECT_LE(max_norm(Vector<Mpfr>(mine.end.q - papers.end.q)), 10'000 * epsilon<Mpfr>()) << name_of(kind);
-    EXPECT_LE(max_norm(Vector<Mpfr>(mine.end.p - papers.end.p)), 10'000 * epsilon<Mpfr>()) << name_of(kind);
+    EXPECT_LE(distance(mine.end.q, papers.end.q), 10'000 * epsilon<Mpfr>()) << name_of(kind);
+    EXPECT_LE(distance(mine.end.p, papers.end.p), 10'000 * epsilon<Mpfr>()) << name_of(kind);
   }
 }
 

@@ -50,11 +50,8 @@ class Sequence {
   Vector<S> positions_;
 };
 
-template <class T>
-class StoppingRuleTest : public testing::Test {
- protected:
-  PrecisionScope digits_{50};
-};
+template <class S>
+class StoppingRuleTest : public InDigits<50> {};
 TYPED_TEST_SUITE(StoppingRuleTest, AllScalars, ScalarNames);
 
 /// A step that nearly every step is like is finished first.
@@ -185,25 +182,16 @@ TYPED_TEST(StoppingRuleTest, DoesNotWaitForWhatVanishes) {
 /// so where changes fall slowly: they may be of a body that hardly moves.
 TYPED_TEST(StoppingRuleTest, AsksNoMoreOfWhatIsRoundingThanOfItsPositions) {
   using S = TypeParam;
-  using Verdict = typename StoppingRule<S>::Verdict;
   const long digits = significand_bits<S>() - 1;
   // Of two coordinates, the other one 2^-12 ahead; in the third sweep the change is 2^10 epsilon.
   const auto sweeps = [&](long bits, long size_bits) {
-    StoppingRule<S> rule(2, roundings, 30);
-    Vector<S> p0(2), positions(2);
-    p0 << S(1), power_of_two<S>(size_bits);
-    positions << S(1), S(1);
-    rule.start(p0, positions);
-    Verdict verdict = Verdict::go_on;
-    for (long n = 1; n < 1000 && verdict == Verdict::go_on; ++n) {
-      const long exponent = 10 - digits - bits * (n - 3);
-      rule.show_change(0, power_of_two<S>(exponent - 12));
-      rule.show_change(1, power_of_two<S>(exponent));
-      rule.show_terms(Matrix<S>(p0.transpose()));
-      verdict = rule.judge();
-    }
-    EXPECT_EQ(verdict, Verdict::converged);
-    return rule.sweeps();
+    Sequence<S> sequence({S(1), power_of_two<S>(size_bits)}, 30);
+    sequence.positions().setOnes();
+    const auto change = [&](long n, Index j) {
+      return power_of_two<S>(10 - digits - bits * (n - 3) - (j == 0 ? 12 : size_bits));
+    };
+    EXPECT_EQ(sequence.run(999, change), Sequence<S>::Verdict::converged);
+    return sequence.rule.sweeps();
   };
   const long below_rounding = 6 - digits;  // 64 epsilon, where C is 100
   EXPECT_EQ(sweeps(24, 0), 3);             // 2^-14 epsilon is left
@@ -217,16 +205,10 @@ TYPED_TEST(StoppingRuleTest, AsksNoMoreOfWhatIsRoundingThanOfItsPositions) {
 TYPED_TEST(StoppingRuleTest, ChangesThatAreRoundingAreNotCoarse) {
   using S = TypeParam;
   const auto is_coarse = [](const S& size, const S& change) {
-    StoppingRule<S> rule(2, roundings);
-    Vector<S> p0(2), positions(2);
-    p0 << S(1), size;
-    positions << S(1), S(1);
-    rule.start(p0, positions);
-    rule.show_change(0, power_of_two<S>(-11));
-    rule.show_change(1, change);
-    rule.show_terms(Matrix<S>(p0.transpose()));
-    rule.judge();
-    return rule.is_coarse();
+    Sequence<S> sequence({S(1), size});
+    sequence.positions().setOnes();
+    sequence.run(1, [&](long, Index j) { return j == 0 ? power_of_two<S>(-11) : S(change / size); });
+    return sequence.rule.is_coarse();
   };
   const S round_off = S(roundings) * epsilon<S>(), below = round_off / 2;
   EXPECT_FALSE(is_coarse(below, S(below / 2)));
