@@ -102,9 +102,11 @@ constexpr int calculations = count<A, B, std::plus<>, std::minus<>, std::multipl
 template <class A, class B>
 constexpr int comparisons = count<A, B, std::less<>, std::greater<>, std::less_equal<>, std::greater_equal<>>;
 template <class A, class B>
-concept Operates = calculations<A, B> + comparisons<A, B> + calculations<B, A> + comparisons<B, A> > 0;
+concept Operates = calculations<A, B>
++ comparisons<A, B> + calculations<B, A> + comparisons<B, A> > 0;
 template <class A, class B>
-concept OperatesInEveryWay = calculations<A, B> == 4 && comparisons<A, B> == 4;
+concept OperatesInEveryWay = calculations<A, B>
+== 4 && comparisons<A, B> == 4;
 
 static_assert(!Operates<Mpfr, double> && !Operates<Mpfr, float> && !Operates<Mpfr, long double>);
 static_assert(!Operates<Quad, double> && !Operates<Quad, float> && !Operates<Quad, long double>);

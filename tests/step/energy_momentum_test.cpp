@@ -17,16 +17,15 @@ TYPED_TEST(EnergyMomentumTest, KeepsEnergyMomentaAndConstraints) {
   using S = TypeParam;
   for (const char* const name : {"tethered_satellites", "modified_pendulum", "charged_tetrahedron", "heavy_top",
                                  "kepler", "bead_on_ellipsoid", "quartic_oscillator"}) {
-    const Assembled<S> scene = assemble<S>(load_scene(name));
-    const Problem<S>& problem = scene.problem;
+    SceneSteps<S> steps(load_scene(name), "energy_momentum");
+    const Problem<S>& problem = steps.scene.problem;
+    const State<S>& state = steps.state;
     StateEvaluator<S> point(problem);
-    EnergyMomentum<S> stepper(problem);
-    State<S> state(scene.q0, scene.p0);
     const S H0 = point.energy(state.q, state.p), size = point.energy_size(state.q, state.p);
     const auto momenta = conserved_momenta(problem);
     std::vector<MomentumValue<S>> first;
     for (const auto& component : momenta) first.push_back(momentum(problem, component, state.q, state.p));
-    for (int n = 0; n < 100; ++n) stepper.step(state, S(S(1) / 16));
+    for (int n = 0; n < 100; ++n) steps.step(S(1) / 16);
     EXPECT_LE(magnitude(S(point.energy(state.q, state.p) - H0)), 2'000 * size * epsilon<S>()) << name;
     for (std::size_t c = 0; c < momenta.size(); ++c) {
       const auto now = momentum(problem, momenta[c], state.q, state.p);
@@ -43,22 +42,15 @@ TEST(EnergyMomentum, HasItsOrders) {
   const PrecisionScope digits(50);
   for (const char* const name : {"modified_pendulum", "double_pendulum", "kepler"}) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(name));
-    const auto end = [&](const char* method, long steps) {
-      const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
-      State<Mpfr> state(scene.q0, scene.p0);
-      StepResult<Mpfr> last;
-      for (long n = 0; n < steps; ++n) last = stepper->step(state, Mpfr(Mpfr(1) / (2 * steps)));
-      return std::pair(state, *last.multiplier);
-    };
     StateEvaluator<Mpfr> point(scene.problem);
-    const State<Mpfr> exact = end("hbvm:10,10", 16).first;
+    const State<Mpfr> exact = after("hbvm:10,10", scene, Mpfr(1) / 32, 16);
     const Vector<Mpfr> p = point.tangential(exact.q, exact.p), lambda = point.multiplier(exact.q, p);
-    const auto ratio = [&](const auto& error) { return order_of<Mpfr>(error(128), error(256)); };
-    EXPECT_NEAR(ratio([&](long n) { return distance(end("energy_momentum", n).first.q, exact.q); }), 2, 0.1) << name;
-    EXPECT_NEAR(ratio([&](long n) { return distance(end("energy_momentum", n).first.p, p); }), 2, 0.1) << name;
-    if (scene.problem.nu() > 0) {
-      EXPECT_NEAR(ratio([&](long n) { return distance(end("energy_momentum", n).second, lambda); }), 1, 0.1) << name;
-    }
+    const auto end = [&](long steps) { return end_of("energy_momentum", scene, Mpfr(1) / (2 * steps), steps); };
+    const auto rate = [&](const auto& error) { return order_of<Mpfr>(error(end(128)), error(end(256))); };
+    EXPECT_NEAR(rate([&](const auto& x) { return distance(x.first.q, exact.q); }), 2, 0.1) << name;
+    EXPECT_NEAR(rate([&](const auto& x) { return distance(x.first.p, p); }), 2, 0.1) << name;
+    if (scene.problem.nu() == 0) continue;
+    EXPECT_NEAR(rate([&](const auto& x) { return distance(x.second, lambda); }), 1, 0.1) << name;
   }
 }
 
@@ -94,12 +86,10 @@ TYPED_TEST(EnergyMomentumTest, HoldsForUnevenMassesAndLengths) {
 }
 
 TEST(EnergyMomentum, CountsWhatItDid) {
-  const Assembled<double> scene = assemble<double>(load_scene("tethered_satellites"));
-  EnergyMomentum<double> stepper(scene.problem);
-  State<double> state(scene.q0, scene.p0);
+  SceneSteps<double> satellites(load_scene("tethered_satellites"), "energy_momentum");
   long sweeps = 0;
-  for (int n = 0; n < 10; ++n) sweeps += stepper.step(state, 0.05).sweeps;
-  const SolverCounts counts = stepper.counts();
+  for (int n = 0; n < 10; ++n) sweeps += satellites.step(0.05).sweeps;
+  const SolverCounts counts = satellites.stepper->counts();
   EXPECT_EQ(static_cast<long>(counts.effects[0].evaluations), sweeps);
   EXPECT_EQ(calls_of(counts, "midpoint and momenta"), sweeps);
   EXPECT_EQ(calls_of(counts, "multipliers"), sweeps);

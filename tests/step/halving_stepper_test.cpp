@@ -5,7 +5,9 @@
 #include "interrupting.hpp"
 #include "printing.hpp"
 #include "scene/assemble.hpp"
+#include "solver/error_of.hpp"
 #include "step/hbvm_stepper.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -116,16 +118,12 @@ TEST_F(Halving, ThatFailsAtTheSmallestSizeLeavesTheStateAndTellsTheCause) {
   HalvingStepper<double> halving = stepper([](double t, double size) { return t + size > 1.75; });
   halving.step(state, 1);
   state.q_carry[0] = 3;
-  try {
-    halving.step(state, 1);
-    ADD_FAILURE() << "it was made";
-  } catch (const StageFailure& failure) {
-    EXPECT_EQ(failure.cause(), FailureCause::precision_exhausted);
-    const std::string what = failure.what();
-    EXPECT_TRUE(what.starts_with("a step of 1.0")) << what;
-    EXPECT_NE(what.find("2^-20"), std::string::npos) << what;
-    EXPECT_GE(failure.sweeps(), 21 * 10);
-  }
+  const auto failure = error_of<StageFailure>([&] { halving.step(state, 1); });
+  EXPECT_EQ(failure.cause(), FailureCause::precision_exhausted);
+  const std::string what = failure.what();
+  EXPECT_TRUE(what.starts_with("a step of 1.0")) << what;
+  expect_words(what, {"2^-20"});
+  EXPECT_GE(failure.sweeps(), 21 * 10);
   EXPECT_EQ(state.q[0], 1);
   EXPECT_EQ(state.q_carry[0], 3);
   EXPECT_EQ(tried.back(), std::ldexp(1, -20));

@@ -14,14 +14,12 @@ TYPED_TEST_SUITE(RattleTest, AllScalars, ScalarNames);
 /// To round-off, whatever the step: Newton's iteration is quadratic, so that only some steps show where it stops.
 TYPED_TEST(RattleTest, KeepsTheRodToRoundOffAtEveryStep) {
   using S = TypeParam;
-  const Assembled<S> scene = assemble<S>(load_scene("simple_pendulum"));
   for (int divisor = 2; divisor < 12; ++divisor) {
-    Rattle<S> rattle(scene.problem);
-    State<S> state(scene.q0, scene.p0);
+    SceneSteps<S> pendulum(load_scene("simple_pendulum"), "rattle");
+    const Vector<S>& q = pendulum.state.q;
     for (int n = 0; n < 50; ++n) {
-      rattle.step(state, S(S(1) / divisor));
-      const S length2 = state.q[0] * state.q[0] + state.q[1] * state.q[1];
-      ASSERT_LE(magnitude(S(length2 - 1)), 8 * epsilon<S>()) << "h = 1/" << divisor << ", step " << n;
+      pendulum.step(S(1) / divisor);
+      ASSERT_LE(magnitude(S(q[0] * q[0] + q[1] * q[1] - 1)), 8 * epsilon<S>()) << "h = 1/" << divisor << ", step " << n;
     }
   }
 }
@@ -36,8 +34,7 @@ TYPED_TEST(RattleTest, IsOfOrderTwo) {
   S last = 0;
   for (const long steps : {64L, 128L, 256L}) {
     const State<S> state = after("rattle", scene, S(1) / S(steps), steps);
-    S error = max_norm(Vector<S>(state.q - exact.q));
-    raise_to(error, max_norm(Vector<S>(state.p - p)));
+    const S error = std::max(distance(state.q, exact.q), distance(state.p, p));
     if (last != 0) {
       EXPECT_GE(approximately(S(last / error)), 3.8);
       EXPECT_LE(approximately(S(last / error)), 4.2);
@@ -95,12 +92,10 @@ TYPED_TEST(RattleTest, TakesAStateThatItDidNotMake) {
 }
 
 TEST(Rattle, CountsWhatItDid) {
-  const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
-  Rattle<double> rattle(scene.problem);
-  State<double> state(scene.q0, scene.p0);
+  SceneSteps<double> pendulum(load_scene("double_pendulum"), "rattle");
   long iterations = 0;
-  for (int n = 0; n < 10; ++n) iterations += rattle.step(state, 0.01).sweeps;
-  const SolverCounts counts = rattle.counts();
+  for (int n = 0; n < 10; ++n) iterations += pendulum.step(0.01).sweeps;
+  const SolverCounts counts = pendulum.stepper->counts();
   EXPECT_EQ(calls_of(counts, "half kicks and drift"), 10);
   EXPECT_EQ(calls_of(counts, "positions"), iterations + 10);
   EXPECT_EQ(calls_of(counts, "constraint gradients"), iterations + 10 + 1);

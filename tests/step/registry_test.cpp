@@ -145,13 +145,12 @@ TYPED_TEST(EveryMethod, ThatKeepsBothConstraintsEndsItsStepsOnThem) {
         Case{"compose:rattle,4", {"double_pendulum"}, 32, 16, 8},
         Case{"rattle", {"tethered_satellites", "double_pendulum", "heavy_top", "bead_on_ellipsoid"}, 50, 100, 32}})
     for (const char* const name : scenes) {
-      const Assembled<S> scene = assemble<S>(load_scene(name));
-      const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
-      State<S> state(scene.q0, scene.p0);
-      StateEvaluator<S> point(scene.problem);
+      SceneSteps<S> run(load_scene(name), method);
+      const State<S>& state = run.state;
+      StateEvaluator<S> point(run.scene.problem);
       EXPECT_TRUE(parse_method(method)->kept().hidden);
       for (int n = 0; n < steps; ++n) {
-        stepper->step(state, S(S(1) / steps_of_one));
+        run.step(S(1) / steps_of_one);
         EXPECT_LE(max_norm(point.constraints(state.q)), g * epsilon<S>() * point.constraint_size(state.q))
             << method << ", " << name << ", step " << n;
         EXPECT_LE(max_norm(point.hidden_constraints(state.q, state.p)), 256 * epsilon<S>())
@@ -179,16 +178,16 @@ TYPED_TEST(EveryMethod, ThatIsSymmetricComesBack) {
         Case{"hbvm:4,1", bead, 5, 4, 10'000, 10'000}, Case{"hbvm:2,2", bead, 5, 4, 10'000, 10'000},
         Case{"hbvm:5,3", bead, 5, 4, 10'000, 10'000}}) {
     SCOPED_TRACE(method + (" on " + name));
-    const Assembled<S> scene = assemble<S>(load_scene(name));
-    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
-    State<S> state = after<S>(*stepper, scene, S(1) / steps_of_one, steps);
+    SceneSteps<S> run(load_scene(name), method);
+    State<S>& state = run.state;
+    for (int n = 0; n < steps; ++n) run.step(S(1) / steps_of_one);
     EXPECT_TRUE(parse_method(method)->kept().reversal);
-    EXPECT_GT(distance(state.q, scene.q0), S(1) / 20);
+    EXPECT_GT(distance(state.q, run.scene.q0), S(1) / 20);
     state.p = -state.p;
     state.p_carry = -state.p_carry;
-    for (int n = 0; n < steps; ++n) stepper->step(state, S(S(1) / steps_of_one));
-    EXPECT_LE(distance(state.q, scene.q0), in_q * epsilon<S>());
-    EXPECT_LE(distance(state.p, Vector<S>(-scene.p0)), in_p * epsilon<S>());
+    for (int n = 0; n < steps; ++n) run.step(S(1) / steps_of_one);
+    EXPECT_LE(distance(state.q, run.scene.q0), in_q * epsilon<S>());
+    EXPECT_LE(distance(state.p, Vector<S>(-run.scene.p0)), in_p * epsilon<S>());
   }
 }
 
@@ -204,17 +203,15 @@ TEST(EveryMethodThatFails, LeavesTheStateAndThenGoesOn) {
         Case{"energy_momentum", "double_pendulum", 100}, Case{"lobatto:3", "double_pendulum", 100},
         Case{"rattle", "swinging_pendulum", 5}}) {
     SCOPED_TRACE(method + (" on " + std::string(name)));
-    const Assembled<double> scene = assemble<double>(load_scene(name));
-    const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::automatic);
+    SceneSteps<double> run(load_scene(name), method);
     const double in_the_centre = size == 0 ? 0 : 1;
-    const State<double> start(scene.q0 * in_the_centre, scene.p0 * in_the_centre);
+    const State<double> start(run.scene.q0 * in_the_centre, run.scene.p0 * in_the_centre);
     State<double> state = start;
-    EXPECT_THROW(stepper->step(state, size == 0 ? 1.0 / 8 : size), StageFailure);
+    EXPECT_THROW(run.stepper->step(state, size == 0 ? 1.0 / 8 : size), StageFailure);
     EXPECT_EQ(state.q, start.q);
     EXPECT_EQ(state.p, start.p);
-    State<double> next(scene.q0, scene.p0);
-    stepper->step(next, 1.0 / 128);
-    EXPECT_TRUE(next.q.allFinite() && next.q != scene.q0);
+    run.step(1.0 / 128);
+    EXPECT_TRUE(run.state.q.allFinite() && run.state.q != run.scene.q0);
   }
 }
 

@@ -35,6 +35,16 @@ State<S> after(const std::string& method, const Assembled<S>& scene, const std::
   return after(*parse_method(method)->make_stepper(scene.problem, solver), scene, h, steps);
 }
 
+/// The same, and the multiplier of the end.
+template <Scalar S>
+std::pair<State<S>, Vector<S>> end_of(const std::string& method, const Assembled<S>& scene,
+                                      const std::type_identity_t<S>& h, long steps) {
+  const auto stepper = parse_method(method)->make_stepper(scene.problem, SolverKind::newton);
+  StepResult<S> last;
+  const State<S> state = after(*stepper, scene, h, steps, &last);
+  return {state, *last.multiplier};
+}
+
 /// A scene on its way, by the steps of one stepper.
 template <Scalar S>
 struct SceneSteps {
