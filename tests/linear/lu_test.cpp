@@ -17,6 +17,21 @@ class LuTest : public InDigits<50> {
     return lu.factor();
   }
 
+  /// What is left of a in a band; the diagonal is divided, so that rows are swapped.
+  static Lu<S> cut_to_band(Matrix<S>& a, Index b, int divisor) {
+    const Index n = a.rows();
+    Lu<S> band;
+    band.resize(n, b);
+    band.set_zero();
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) {
+        if (std::abs(i - j) > b) a(i, j) = 0;
+        if (i == j) a(i, j) = a(i, j) / divisor;
+        if (std::abs(i - j) <= b) band.entry(i, j) = a(i, j);
+      }
+    return band;
+  }
+
   /// a x = b is solved with a residual that partial pivoting allows for. That is n^2 eps |a| |x|, times the growth of
   /// the pivots, which is below 2^(n-1) and in practice below n.
   void expect_solves(const Matrix<S>& a) {
@@ -52,15 +67,7 @@ TYPED_TEST(LuTest, SolvesLargeSystemsWithWideBands) {
   for (const Index n : {64, 97, 131})
     for (const Index b : {n / 3 + 1, n / 2, n - 2}) {
       Matrix<TypeParam> a = this->random.matrix(n, n);
-      Lu<TypeParam> banded;
-      banded.resize(n, b);
-      banded.set_zero();
-      for (Index j = 0; j < n; ++j)
-        for (Index i = 0; i < n; ++i) {
-          if (std::abs(i - j) > b) a(i, j) = 0;
-          if (i == j) a(i, j) = a(i, j) / 1024;
-          if (std::abs(i - j) <= b) banded.entry(i, j) = a(i, j);
-        }
+      Lu<TypeParam> banded = this->cut_to_band(a, b, 1024);
       ASSERT_TRUE(banded.factor());
       const Vector<TypeParam> x = this->random.matrix(n, 1).col(0);
       Vector<TypeParam> found = a * x;
@@ -129,16 +136,7 @@ TYPED_TEST(LuTest, TakesBands) {
   for (const Index n : {1, 2, 5, 9, 20}) {
     for (const Index b : {0, 1, 2, 3, 7}) {
       Matrix<TypeParam> a = this->random.matrix(n, n);
-      for (Index j = 0; j < n; ++j)
-        for (Index i = 0; i < n; ++i) {
-          if (std::abs(i - j) > b) a(i, j) = 0;
-          if (i == j && b > 0) a(i, j) = a(i, j) / 1000;  // so that rows are swapped
-        }
-      Lu<TypeParam> band;
-      band.resize(n, b);
-      band.set_zero();
-      for (Index j = 0; j < n; ++j)
-        for (Index i = std::max<Index>(0, j - b); i <= std::min(n - 1, j + b); ++i) band.entry(i, j) = a(i, j);
+      Lu<TypeParam> band = this->cut_to_band(a, b, b > 0 ? 1000 : 1);
       ASSERT_TRUE(this->factor(a));
       ASSERT_TRUE(band.factor());
       Vector<TypeParam> x = this->random.vector(n), y = x;

@@ -36,21 +36,19 @@ TEST(HbvmName, TextReadsBack) {
 }
 
 TEST(HbvmName, LimitsAreInclusive) {
-  EXPECT_NO_THROW((HbvmName{1, 1}.check()));
-  EXPECT_NO_THROW((HbvmName{max_k, max_s}.check()));
-  EXPECT_NO_THROW((HbvmName{0, max_s}.check()));
-  EXPECT_THROW((HbvmName{max_k + 1, 1}.check()), InputError);
-  EXPECT_THROW((HbvmName{max_s + 1, max_s + 1}.check()), InputError);
-  EXPECT_THROW((HbvmName{0, max_s + 1}.check()), InputError);
-  EXPECT_THROW((HbvmName{2, 3}.check()), InputError);
-  EXPECT_THROW((HbvmName{2, 0}.check()), InputError);
-  EXPECT_THROW((HbvmName{0, 0}.check()), InputError);
-  EXPECT_THROW((HbvmName{-3, 1}.check()), InputError);
-  EXPECT_NO_THROW((HbvmName{3, 3, 3}.check()));
-  EXPECT_NO_THROW((HbvmName{3, 3, max_k}.check()));
-  EXPECT_THROW((HbvmName{3, 3, 2}.check()), InputError);
-  EXPECT_THROW((HbvmName{3, 3, max_k + 1}.check()), InputError);
-  EXPECT_THROW((HbvmName{3, 3, -3}.check()), InputError);
+  for (const HbvmName& name : {HbvmName{1, 1}, {max_k, max_s}, {0, max_s}, {3, 3, 3}, {3, 3, max_k}})
+    EXPECT_NO_THROW(name.check()) << name.text();
+  for (const HbvmName& name : {HbvmName{max_k + 1, 1},
+                               {max_s + 1, max_s + 1},
+                               {0, max_s + 1},
+                               {2, 3},
+                               {2, 0},
+                               {0, 0},
+                               {-3, 1},
+                               {3, 3, 2},
+                               {3, 3, max_k + 1},
+                               {3, 3, -3}})
+    EXPECT_THROW(name.check(), InputError) << name.text();
 }
 
 TEST(ExactNodes, AreHalfOfDegreeTimesS) {

@@ -75,21 +75,13 @@ TYPED_TEST(HbvmCoefficients, HaveTheirShapes) {
   const auto m = make_hbvm<TypeParam>(5, 3);
   EXPECT_EQ(m.k, 5);
   EXPECT_EQ(m.s, 3);
-  const auto shape = [](const Matrix<TypeParam>& a) { return std::pair<Index, Index>(a.rows(), a.cols()); };
-  const std::pair<Index, Index> square(3, 3), hat(5, 3);
-  EXPECT_EQ(m.c.size(), 3);
-  EXPECT_EQ(m.b.size(), 3);
-  EXPECT_EQ(m.c_hat.size(), 5);
-  EXPECT_EQ(m.b_hat.size(), 5);
-  EXPECT_EQ(shape(m.P_s), square);
-  EXPECT_EQ(shape(m.I_s), square);
-  EXPECT_EQ(shape(m.P_hat), hat);
-  EXPECT_EQ(shape(m.I_hat), hat);
-  EXPECT_EQ(shape(m.X_s), square);
-  EXPECT_EQ(shape(m.projection), square);
-  EXPECT_EQ(shape(m.projection_hat), (std::pair<Index, Index>(3, 5)));
-  EXPECT_EQ(shape(m.A), square);
-  EXPECT_EQ(m.lambda_at_1.size(), 3);
+  // c, b, c_hat, b_hat, P_s, I_s, P_hat, I_hat, X_s, projection, projection_hat, A, lambda_at_1
+  const std::pair<Index, Index> expected[] = {{3, 1}, {3, 1}, {5, 1}, {5, 1}, {3, 3}, {3, 3}, {5, 3},
+                                              {5, 3}, {3, 3}, {3, 3}, {3, 5}, {3, 3}, {3, 1}};
+  const Coefficients<TypeParam> all = coefficients_of(m);
+  ASSERT_EQ(all.size(), std::size(expected));
+  for (std::size_t n = 0; n < all.size(); ++n)
+    EXPECT_EQ(std::pair(all[n].second.rows(), all[n].second.cols()), expected[n]) << all[n].first;
 }
 
 TYPED_TEST(HbvmCoefficients, NodesAreGauss) {

@@ -119,10 +119,12 @@ TYPED_TEST(PerturbationTest, WeightChangesItsColumnOfTheProjection) {
   this->expect_near(this->without_column(m.A, 2), this->without_column(this->method.A, 2), "A");
 }
 
-TYPED_TEST(PerturbationTest, WeightOfThePotentialLeavesTheConstraintsAlone) {
-  const auto m = this->changed(this->method, mistake(Part::weight, 3, 0, "1/4", true));
-  this->expect_only({"b_hat", "projection_hat"}, m, this->method);
-  this->expect_consistent(m);
+TYPED_TEST(PerturbationTest, OtherNumbersOfThePotentialLeaveTheConstraintsAlone) {
+  const auto weight = this->changed(this->method, mistake(Part::weight, 3, 0, "1/4", true)),
+             integral = this->changed(this->method, mistake(Part::integral, 4, 2, "1", true));
+  this->expect_only({"b_hat", "projection_hat"}, weight, this->method);
+  this->expect_consistent(weight);
+  this->expect_only({"I_hat"}, integral, this->method);
 }
 
 TYPED_TEST(PerturbationTest, IntegralChangesItsRowOfA) {
@@ -136,11 +138,6 @@ TYPED_TEST(PerturbationTest, IntegralChangesItsRowOfA) {
   EXPECT_EQ(m.projection, this->method.projection) << "an integral is not in it";
   EXPECT_EQ(m.lambda_at_1, this->method.lambda_at_1) << "an integral is not in it";
   this->expect_near(this->without_row(m.A, 2), this->without_row(this->method.A, 2), "A");
-}
-
-TYPED_TEST(PerturbationTest, IntegralOfThePotentialIsAlone) {
-  const auto m = this->changed(this->method, mistake(Part::integral, 4, 2, "1", true));
-  this->expect_only({"I_hat"}, m, this->method);
 }
 
 TYPED_TEST(PerturbationTest, XIsAlone) {
@@ -242,18 +239,18 @@ TYPED_TEST(PerturbationTest, RefusesNumbersThatAreZero) {
 TYPED_TEST(PerturbationTest, TwentyFifthDigitIsOfMpfrAlone) {
   using S = TypeParam;
   const Hbvm<S>& before = this->method;
-  const auto expect = [&](const Hbvm<S>& m, const char* what) {
-    const Coefficients<S> now = coefficients_of(m), then = coefficients_of(before);
+  for (const auto& [part, i, j, hat] : {std::tuple(Part::weight, 1, 0, false),
+                                        {Part::node, 0, 0, false},
+                                        {Part::integral, 1, 1, false},
+                                        {Part::X, 1, 0, false},
+                                        {Part::legendre, 2, 2, false},
+                                        {Part::node, 0, 0, true}}) {
+    const Coefficients<S> now = coefficients_of(this->changed(before, mistake(part, i, j, "1e-25", hat))),
+                          then = coefficients_of(before);
     const bool same = std::equal(now.begin(), now.end(), then.begin(),
                                  [](const auto& a, const auto& b) { return a.second == b.second; });
-    EXPECT_EQ(same, (std::same_as<S, double>)) << what;
-  };
-  expect(this->changed(before, mistake(Part::weight, 1, 0, "1e-25")), "weight");
-  expect(this->changed(before, mistake(Part::node, 0, 0, "1e-25")), "node");
-  expect(this->changed(before, mistake(Part::integral, 1, 1, "1e-25")), "integral");
-  expect(this->changed(before, mistake(Part::X, 1, 0, "1e-25")), "X");
-  expect(this->changed(before, mistake(Part::legendre, 2, 2, "1e-25")), "legendre");
-  expect(this->changed(before, mistake(Part::node, 0, 0, "1e-25", true)), "node of the potential");
+    EXPECT_EQ(same, (std::same_as<S, double>)) << static_cast<int>(part) << hat;
+  }
 }
 
 /// More nodes for the constraints than stages: A = P X P^T Omega, and lambda has coefficients. No node and no weight

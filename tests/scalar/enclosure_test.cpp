@@ -82,30 +82,8 @@ class Generator {
       result.binding = own;
       result.value = value;
     };
-    switch (pick(12)) {
-      case 0:
-      case 1: {
-        const Formula b = formula(depth - 1);
-        infix("+", b, a.value + b.value, Binding::sum, Binding::sum, Binding::product);
-        break;
-      }
-      case 2:
-      case 3: {
-        const Formula b = formula(depth - 1);
-        infix("-", b, a.value - b.value, Binding::sum, Binding::sum, Binding::product);
-        break;
-      }
-      case 4: {
-        const Formula b = formula(depth - 1);
-        infix("*", b, a.value * b.value, Binding::product, Binding::product, Binding::sign);
-        break;
-      }
-      case 5: {
-        const Formula b = formula(depth - 1);
-        if (arb_contains_zero(raw(b.value))) return std::nullopt;
-        infix("/", b, a.value / b.value, Binding::product, Binding::product, Binding::sign);
-        break;
-      }
+    const int kind = pick(12);
+    switch (kind) {
       case 6: {
         Formula b;
         if (pick(2) == 0) {
@@ -135,12 +113,25 @@ class Generator {
         if (exponent_of(a.value) > 8) return std::nullopt;
         function("exp", exp(a.value));
         break;
-      default: {
+      case 11: {
         if (exponent_of(a.value) > 8) return std::nullopt;
         static const std::pair<const char*, RealBall (*)(const RealBall&)> more[] = {
             {"tan", tan}, {"sinh", sinh}, {"cosh", cosh}, {"tanh", tanh}, {"atan", atan}};
         const auto& [name, f] = more[pick(5)];
         function(name, f(a.value));
+        break;
+      }
+      default: {
+        // Sums and differences are twice as many as products and quotients.
+        using Infix = RealBall (*)(const RealBall&, const RealBall&);
+        static const std::pair<const char*, Infix> infixes[] = {
+            {"+", operator+ },
+             {"+", operator+ }, {"-", operator- }, {"-", operator- }, {"*", operator* }, {"/", operator/ } };
+        const auto& [op, f] = infixes[kind];
+        const Formula b = formula(depth - 1);
+        if (kind == 5 && arb_contains_zero(raw(b.value))) return std::nullopt;
+        const Binding own = kind < 4 ? Binding::sum : Binding::product;
+        infix(op, b, f(a.value, b.value), own, own, kind < 4 ? Binding::product : Binding::sign);
       }
     }
     if (!arb_is_finite(raw(result.value)) || std::labs(exponent_of(result.value)) > 20'000) return std::nullopt;

@@ -34,6 +34,16 @@ TYPED_TEST(InPlace, AgreesWithTheOperators) {
   EXPECT_EQ(z, 0);
 }
 
+/// Exactly, `of` being what MPFR makes of x and y.
+template <Scalar S>
+bool is_sum_of(const S& value, const S& rest, int (*of)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t), const S& x,
+               const S& y) {
+  BigFloat all(2000), parts(2000);
+  of(raw(all), raw(exactly(x)), raw(exactly(y)), MPFR_RNDN);
+  mpfr_add(raw(parts), raw(exactly(value)), raw(exactly(rest)), MPFR_RNDN);
+  return mpfr_cmp(raw(all), raw(parts)) == 0;
+}
+
 TYPED_TEST(InPlace, ExactSumKeepsWhatRoundingTakes) {
   using S = TypeParam;
   for (const int shift : {-200, -40, -1, 0, 1, 40, 200}) {
@@ -41,12 +51,7 @@ TYPED_TEST(InPlace, ExactSumKeepsWhatRoundingTakes) {
     S sum, rest;
     set_exact_sum(sum, rest, x, y, this->t);
     EXPECT_EQ(sum, S(x + y));
-    const BigFloat exact_x = exactly(x), exact_y = exactly(y), exact_sum = exactly(sum), exact_rest = exactly(rest);
-    Mpfr all, parts;
-    for (auto* const z : {&all, &parts}) mpfr_set_prec(raw(*z), 2000);
-    mpfr_add(raw(all), raw(exact_x), raw(exact_y), MPFR_RNDN);
-    mpfr_add(raw(parts), raw(exact_sum), raw(exact_rest), MPFR_RNDN);
-    EXPECT_EQ(mpfr_cmp(raw(all), raw(parts)), 0) << "2^" << shift;
+    EXPECT_TRUE(is_sum_of(sum, rest, mpfr_add, x, y)) << "2^" << shift;
   }
 }
 
@@ -58,13 +63,7 @@ TYPED_TEST(InPlace, ExactProductKeepsWhatRoundingTakes) {
       S product, rest;
       set_exact_product(product, rest, x, y);
       EXPECT_EQ(product, S(x * y));
-      const BigFloat exact_x = exactly(x), exact_y = exactly(y), exact_product = exactly(product),
-                     exact_rest = exactly(rest);
-      Mpfr all, parts;
-      for (auto* const z : {&all, &parts}) mpfr_set_prec(raw(*z), 2000);
-      mpfr_mul(raw(all), raw(exact_x), raw(exact_y), MPFR_RNDN);
-      mpfr_add(raw(parts), raw(exact_product), raw(exact_rest), MPFR_RNDN);
-      EXPECT_EQ(mpfr_cmp(raw(all), raw(parts)), 0) << x << " * " << y;
+      EXPECT_TRUE(is_sum_of(product, rest, mpfr_mul, x, y)) << x << " * " << y;
     }
 }
 

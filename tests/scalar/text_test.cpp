@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "printing.hpp"
+#include "scalar/binary_exponent.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/random_values.hpp"
 
@@ -70,25 +71,19 @@ template <class S>
 class TextTest : public InDigits<50> {
  protected:
   RandomValues<S> random{5};
-
-  S power_of_two(long e) const {
-    BigFloat x(2);
-    mpfr_set_ui_2exp(raw(x), 1, e, MPFR_RNDN);
-    return rounded_to<S>(raw(x));
-  }
 };
 TYPED_TEST_SUITE(TextTest, AllScalars, ScalarNames);
 
 TYPED_TEST(TextTest, RandomNumbersReadBackFromTheShortestText) {
   for (int trial = 0; trial < 1'000; ++trial)
-    expect_shortest(TypeParam(this->random.value() * this->power_of_two(this->random.whole(-900, 900))));
+    expect_shortest(TypeParam(this->random.value() * power_of_two<TypeParam>(this->random.whole(-900, 900))));
 }
 
 TYPED_TEST(TextTest, PowersOfTwoReadBackFromTheShortestText) {
   // The numbers below a power of two are twice as dense as those above.
   std::vector<std::string> too_long;
   for (long e = -1'000; e <= 1'000; ++e) {
-    const TypeParam x = this->power_of_two(e);
+    const TypeParam x = power_of_two<TypeParam>(e);
     EXPECT_EQ(read<TypeParam>(to_text(x)), x);
     if (!shorter_text(x).empty()) too_long.push_back(to_text(x));
   }
@@ -104,7 +99,7 @@ TYPED_TEST(TextTest, QuotientsAndWholeNumbersReadBackFromTheShortestText) {
 
 TYPED_TEST(TextTest, ReadsBackAsALiteral) {
   for (int trial = 0; trial < 200; ++trial) {
-    const TypeParam x = this->random.value() * this->power_of_two(this->random.whole(-900, 900));
+    const TypeParam x = this->random.value() * power_of_two<TypeParam>(this->random.whole(-900, 900));
     EXPECT_EQ(literal<TypeParam>(to_text(x)), x);
   }
 }
