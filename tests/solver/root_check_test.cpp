@@ -1,8 +1,7 @@
 #include "solver/root_check.hpp"
 
 #include "printing.hpp"
-#include "scene/assemble.hpp"
-#include "step/hbvm_stepper.hpp"
+#include "step/stepping.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -47,17 +46,15 @@ TYPED_TEST(Roots, OfMassesBeyondDoubleAreUnknown) {
 
 /// In double the fixed point converges to a solution on the other side of the circle in the second step.
 TEST(RootsOfTheFixedPoint, AreThoseOfShorterStepsOrNone) {
-  const Assembled<double> scene = assemble<double>(read_scene(slow_circle, "slow"));
-  const Hbvm<double> method = make_hbvm<double>(3, 3);
   for (const SolverKind kind : {SolverKind::fixed_point, SolverKind::paper, SolverKind::automatic}) {
-    HbvmStepper<double> stepper(scene.problem, method, kind);
-    HbvmStepper<double> newton(scene.problem, method, SolverKind::newton);
-    State<double> state(scene.q0, scene.p0), expected = state;
+    SceneSteps<double> run(read_scene(slow_circle, "slow"), "hbvm:3,3", kind),
+        newton(read_scene(slow_circle, "slow"), "hbvm:3,3", SolverKind::newton);
     try {
       for (int n = 0; n < 4; ++n) {
-        stepper.step(state, 250);
-        newton.step(expected, 250);
-        for (Index i = 0; i < 2; ++i) EXPECT_NEAR(state.q[i], expected.q[i], 1e-10) << name_of(kind) << " " << n;
+        run.step(250);
+        newton.step(250);
+        for (Index i = 0; i < 2; ++i)
+          EXPECT_NEAR(run.state.q[i], newton.state.q[i], 1e-10) << name_of(kind) << " " << n;
       }
       EXPECT_EQ(kind, SolverKind::automatic) << "it should not get so far";
     } catch (const StageFailure& failure) {

@@ -182,18 +182,18 @@ TYPED_TEST(StoppingRuleTest, DoesNotWaitForWhatVanishes) {
 /// so where changes fall slowly: they may be of a body that hardly moves.
 TYPED_TEST(StoppingRuleTest, AsksNoMoreOfWhatIsRoundingThanOfItsPositions) {
   using S = TypeParam;
-  const long digits = significand_bits<S>() - 1;
+  const long places = significand_bits<S>() - 1;
   // Of two coordinates, the other one 2^-12 ahead; in the third sweep the change is 2^10 epsilon.
   const auto sweeps = [&](long bits, long size_bits) {
     Sequence<S> sequence({S(1), power_of_two<S>(size_bits)}, 30);
     sequence.positions().setOnes();
     const auto change = [&](long n, Index j) {
-      return power_of_two<S>(10 - digits - bits * (n - 3) - (j == 0 ? 12 : size_bits));
+      return power_of_two<S>(10 - places - bits * (n - 3) - (j == 0 ? 12 : size_bits));
     };
     EXPECT_EQ(sequence.run(999, change), Sequence<S>::Verdict::converged);
     return sequence.rule.sweeps();
   };
-  const long below_rounding = 6 - digits;  // 64 epsilon, where C is 100
+  const long below_rounding = 6 - places;  // 64 epsilon, where C is 100
   EXPECT_EQ(sweeps(24, 0), 3);             // 2^-14 epsilon is left
   EXPECT_EQ(sweeps(24, -4), 4);
   EXPECT_EQ(sweeps(24, below_rounding), 3);

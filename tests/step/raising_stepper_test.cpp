@@ -4,7 +4,7 @@
 #include "integrate/energy_scale.hpp"
 #include "printing.hpp"
 #include "problem/general_drift.hpp"
-#include "scene/assemble.hpp"
+#include "step/stepping.hpp"
 #include "words.hpp"
 
 namespace hbvm::core {
@@ -69,10 +69,7 @@ TYPED_TEST(Raising, MakesTheStepsOfTheMethodWhereTheNodesSuffice) {
     raised.run(40);
     EXPECT_TRUE(raised.log.raised.empty());
     EXPECT_EQ(raised.log.unresolved, 0);
-    const Hbvm<S> method = make_hbvm<S>(k, 2);
-    HbvmStepper<S> plain(raised.scene.problem, method, kind);
-    State<S> state(raised.scene.q0, raised.scene.p0);
-    for (int n = 0; n < 40; ++n) plain.step(state, h);
+    const State<S> state = after(HbvmName{k, 2}.text(), raised.scene, h, 40, kind);
     EXPECT_EQ(raised.state.q, state.q);
     EXPECT_EQ(raised.state.p, state.p);
     EXPECT_EQ(raised.state.p_carry, state.p_carry);
@@ -97,13 +94,11 @@ TYPED_TEST(Raising, RaisesTheNodesWhereTheMotionNeedsThem) {
   EXPECT_EQ(raised.log.unresolved, 0);
   EXPECT_TRUE(raised.conserved(steps)) << raised.drift.e_H();
 
-  const Hbvm<S> method = make_hbvm<S>(k, 2);
-  HbvmStepper<S> plain(raised.scene.problem, method, SolverKind::fixed_point);
-  State<S> state(raised.scene.q0, raised.scene.p0);
-  Drift<S> drift(raised.scene.problem);
+  SceneSteps<S> plain(read_scene(passing("1"), "test"), HbvmName{k, 2}.text(), SolverKind::fixed_point);
+  Drift<S> drift(plain.scene.problem);
   for (long n = 0; n <= steps; ++n) {
-    drift.observe({n, S(n), state.q, state.p, {}});
-    plain.step(state, S(S(1) / 32));
+    drift.observe({n, S(n), plain.state.q, plain.state.p, {}});
+    plain.step(S(1) / 32);
   }
   EXPECT_GT(drift.e_H(), 1'000 * raised.scale.round_off(steps)) << "the plain method should fail";
 }

@@ -44,9 +44,7 @@ TYPED_TEST(RungeKuttaSteps, GaussIsHbvmOfEqualStages) {
   using S = TypeParam;
   for (int s = 1; s <= 4; ++s)
     for (const S& h : {S(S(1) / 20), S(S(-1) / 20)}) {
-      const Hbvm<S> method = make_hbvm<S>(s, s);
-      HbvmStepper<S> stepper(this->kepler.problem, method, SolverKind::fixed_point);
-      const State<S> expected = after<S>(stepper, this->kepler, h, 20);
+      const State<S> expected = after(HbvmName{s, s}.text(), this->kepler, h, 20, SolverKind::fixed_point);
       EXPECT_LE(distance(this->run(gauss<S>(s), h, 20), expected), 100 * epsilon<S>()) << s;
     }
 }
@@ -81,8 +79,7 @@ TYPED_TEST(RungeKuttaSteps, ClassicalMethodStageByStage) {
 TYPED_TEST(RungeKuttaSteps, LocalErrorHasTheOrderOfTheMethod) {
   using S = TypeParam;
   const Hbvm<S> fine = make_hbvm<S>(8, 8);
-  HbvmStepper<S> first(this->kepler.problem, fine, SolverKind::fixed_point);
-  const State<S> start = after<S>(first, this->kepler, S(1) / 4, 4);
+  const State<S> start = after("hbvm:8,8", this->kepler, S(1) / 4, 4, SolverKind::fixed_point);
   for (const auto& [method, p] :
        {std::pair{classical<S>(), 4}, {radau<S>(), 3}, {gauss<S>(1), 2}, {gauss<S>(2), 4}, {gauss<S>(3), 6}}) {
     S last = 0;
@@ -105,9 +102,7 @@ TYPED_TEST(RungeKuttaSteps, LocalErrorHasTheOrderOfTheMethod) {
 /// RK4 and Gauss come to the same end where both are converged.
 TYPED_TEST(RungeKuttaSteps, ClassicalMethodConvergesToTheOrbit) {
   using S = TypeParam;
-  const Hbvm<S> fine = make_hbvm<S>(8, 8);
-  HbvmStepper<S> reference(this->kepler.problem, fine, SolverKind::fixed_point);
-  const State<S> expected = after<S>(reference, this->kepler, S(1) / 32, 32);
+  const State<S> expected = after("hbvm:8,8", this->kepler, S(1) / 32, 32, SolverKind::fixed_point);
   S last = 0;
   for (const long steps : {128L, 256L, 512L}) {
     const S error = distance(this->run(classical<S>(), S(S(1) / S(steps)), steps), expected);
@@ -141,9 +136,8 @@ acceleration = ["1/3", "-1/7"]
 )",
                                                     "scene"));
   const S h = S(1) / 4;
-  const Hbvm<S> method = make_hbvm<S>(2, 2);
-  HbvmStepper<S> stepper(scene.problem, method, SolverKind::fixed_point);
-  const State<S> expected = after<S>(stepper, scene, h, 8);  // a parabola, which all of them follow
+  // A parabola, which all of them follow.
+  const State<S> expected = after("hbvm:2,2", scene, h, 8, SolverKind::fixed_point);
   for (const RungeKutta<S>& other : {classical<S>(), radau<S>(), gauss<S>(1)}) {
     RungeKuttaStepper<S> step(scene.problem, other);
     EXPECT_LE(distance(after<S>(step, scene, h, 8), expected), 50 * epsilon<S>());
@@ -180,9 +174,7 @@ TEST_F(RungeKuttaSum, OfPositionsLosesNothingOverManySmallSteps) {
 TYPED_TEST(RungeKuttaSteps, TakeConstraintsByTheIndexReducedEquations) {
   using S = TypeParam;
   const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
-  const Hbvm<S> fine = make_hbvm<S>(8, 8);
-  HbvmStepper<S> exact(scene.problem, fine, SolverKind::newton);
-  const State<S> expected = after<S>(exact, scene, S(1) / 64, 16);
+  const State<S> expected = after("hbvm:8,8", scene, S(1) / 64, 16);
   StateEvaluator<S> point(scene.problem);
   const Vector<S> p = point.tangential(expected.q, expected.p);
   for (const OnConstraints on_constraints : {OnConstraints::drift, OnConstraints::project}) {
