@@ -12,9 +12,9 @@
 
 #include "groups.hpp"
 #include "hbvm/error.hpp"
-#include "hbvm/figure.hpp"
 #include "hbvm/table.hpp"
 #include "hbvm/version.hpp"
+#include "processes/draw.hpp"
 
 #ifndef HBVM_FLAGS
 #define HBVM_FLAGS "unknown"
@@ -22,6 +22,7 @@
 
 namespace {
 
+using namespace hbvm;
 using namespace hbvm::core;
 using namespace hbvm::core::speed;
 

@@ -15,7 +15,7 @@ bool has_test(const std::string& folder, const std::string& suite, const std::st
   return false;
 }
 
-/// tests/run --thread takes its turn once in ten days, and a filter that finds no test passes.
+/// tests/run --thread takes its turn once in twelve days, and a filter that finds no test passes.
 TEST(LongParts, TheThreadsRunTestsThatExist) {
   const std::regex line(R"(^ +\[(\w+)\]='([^']+)'$)"), filter(R"((\w+)\.(\w*))");
   int found = 0;
