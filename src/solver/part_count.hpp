@@ -27,6 +27,8 @@ struct PartCount {
 class PartCall {
  public:
   [[gnu::always_inline]] explicit PartCall(PartCount& part) : timer_(part.seconds) { ++part.calls; }
+  [[gnu::always_inline]] ~PartCall() = default;
+  PartCall(const PartCall&) = delete;
 
  private:
   PartTimer timer_;

@@ -29,11 +29,13 @@ struct DisplacementProduct {
   }
 
   ConstraintValue<S> value(Index dimension, const Vector<S>& q) const {
-    const Vector<S> a = displaced(x, dimension, q), b = displaced(y, dimension, q);
-    // Displacements carry the round-off of what they are differences of.
-    const S spread = max_norm(q);
+    return value_of(displaced(x, dimension, q), displaced(y, dimension, q), product, max_norm(q));
+  }
+
+  /// a.b - product. Displacements carry the round-off of what they are differences of: `spread` is how large that is.
+  static ConstraintValue<S> value_of(const Vector<S>& a, const Vector<S>& b, const S& product, const S& spread) {
     ConstraintValue<S> sum;
-    for (Index i = 0; i < dimension; ++i) {
+    for (Index i = 0; i < a.size(); ++i) {
       sum.add(a[i] * b[i]);
       sum.size += spread * (magnitude(a[i]) + magnitude(b[i]));
     }

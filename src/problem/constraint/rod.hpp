@@ -29,7 +29,10 @@ struct Rod {
 
   std::set<Index> coordinates(Index dimension) const { return hbvm::core::coordinates(x, dimension); }
 
-  ConstraintValue<S> value(Index dimension, const Vector<S>& q) const { return as_product().value(dimension, q); }
+  ConstraintValue<S> value(Index dimension, const Vector<S>& q) const {
+    const Vector<S> a = displaced(x, dimension, q);
+    return DisplacementProduct<S>::value_of(a, a, square, max_norm(q));
+  }
 
   S gradient_size(Index dimension, const S& r) const { return S(2 * dimension) * total_weight(x) * reach(x, r); }
 
