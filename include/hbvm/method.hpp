@@ -8,12 +8,23 @@
 
 namespace hbvm {
 
-/// A kind of method by its name before the colon, and how it is written: "hbvm", "hbvm:K,S".
+/// What runs where no method is asked for: energy and constraints to round-off, at order 6.
+inline constexpr const char* usual_method = "hbvm:auto,3";
+
+/// A kind of method, or another name of one.
 struct MethodKind {
-  std::string name, usage;
+  std::string name;   ///< before the colon: "hbvm"
+  std::string form;   ///< how it is written: "hbvm:K,S"
+  std::string meant;  ///< "rattle", if this is another name of it; what follows, but the note, is then empty
+  std::string order;  ///< "2S"
+  std::string keeps;  ///< what every motion keeps but for round-off, of "energy, momenta, constraints, reversal"
+  std::string work;   ///< what a step costs
+  std::string note;
 };
 /// All there are.
 std::vector<MethodKind> methods();
+std::string to_text(const std::vector<MethodKind>& kinds);
+std::string to_json(const std::vector<MethodKind>& kinds);
 
 /// What is known of one method.
 struct MethodFacts {

@@ -21,7 +21,7 @@ std::optional<ExactPoint> Laboratory::known(const Start& start, const Mpfr& t) c
 void Laboratory::walk(const ClaimGroup& group) {
   // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion. If
   // g is quadratic HBVM keeps it whatever the step, and RATTLE any other.
-  const MethodPtr method = degree(assembled_.problem.constraints) == 2 ? hbvm_of({4, 4}) : rattle_method({});
+  const MethodPtr method = degree(assembled_.problem.constraints) == 2 ? hbvm_of({4, 4}) : rattle_method();
   const std::unique_ptr<Stepper<Mpfr>> stepper = method->make_stepper(assembled_.problem, SolverKind::automatic);
   const Mpfr h = ldexp(Mpfr(1), group.log2_scale - 3);
   State<Mpfr> state(assembled_.q0, assembled_.p0);

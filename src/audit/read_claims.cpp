@@ -24,11 +24,10 @@ std::string located(const std::string& name, const std::filesystem::path& folder
 /// As parse_method has it, with files beside the claims' file first; a name of no family is a file with a tableau.
 MethodPtr method_of(const std::string& text, const std::filesystem::path& folder) {
   const MethodSpec spec = MethodSpec::parse(text);
-  const bool is_file = std::none_of(method_families().begin(), method_families().end(),
-                                    [&](const MethodFamily& known) { return known.name == spec.family; });
+  const bool is_file = !is_method_name(spec.family);
   if (!is_file && spec.family != "tableau") return parse_method(text);
   TableauArguments arguments = TableauArguments::parse(is_file ? text : spec.arguments);
-  arguments.file = located(arguments.file, folder);
+  arguments.name = located(arguments.name, folder);
   return tableau_method(arguments);
 }
 

@@ -58,10 +58,7 @@ std::vector<Claim> filtered(std::vector<Claim> claims, const std::string& filter
 
 /// A file with a tableau, or what parse_method reads.
 std::vector<Claim> claims_about(const std::string& method) {
-  const MethodSpec spec = MethodSpec::parse(method);
-  const auto& families = method_families();
-  const bool known =
-      std::any_of(families.begin(), families.end(), [&](const MethodFamily& f) { return f.name == spec.family; });
+  const bool known = is_method_name(MethodSpec::parse(method).family);
   const bool names_a_file = method.ends_with(".toml") || method.find('/') != std::string::npos;
   if (fs::is_regular_file(method) || (!known && names_a_file)) return tableau_claims(read_tableau(method));
   const MethodPtr parsed = parse_method(method);

@@ -8,6 +8,7 @@ namespace hbvm::core {
 void add_run_command(CLI::App& app);
 void add_nodes_command(CLI::App& app);
 void add_scenes_command(CLI::App& app);
+void add_methods_command(CLI::App& app);
 void add_scene_command(CLI::App& app);
 void add_study_command(CLI::App& app);
 void add_audit_command(CLI::App& app);

@@ -7,6 +7,7 @@
 #include "nearest.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/registry.hpp"
+#include "step/tableau_method.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -47,13 +48,12 @@ Methods of_stages(const std::string& family, double digits) {
   return methods;
 }
 
-/// A family of the registry that is a method without arguments, or none.
-Methods without_arguments(std::string_view name) {
-  try {
-    return {parse_method(name)};
-  } catch (const InputError&) {
-    return {};
-  }
+/// Whether a family that is not listed is a method worth a try unasked. First order never pays, and a tableau costs
+/// what one of the listed families costs at best.
+bool is_tried_unasked(const MethodFamily& family) {
+  if (family.form != family.name) return false;
+  const MethodPtr method = parse_method(family.name);
+  return method->order() > 1 && !as_tableau(*method);
 }
 
 std::vector<Family> families() {
@@ -98,9 +98,9 @@ std::vector<Family> families() {
   for (const MethodFamily& family : method_families()) {
     const auto known = [&](const Family& f) { return f.name == family.name; };
     if (std::any_of(result.begin(), result.end(), known)) continue;
-    if (without_arguments(family.name).empty()) continue;
+    if (!is_tried_unasked(family)) continue;
     const std::string name(family.name);
-    result.push_back({name, [name](double, Choice) { return without_arguments(name); }});
+    result.push_back({name, [name](double, Choice) { return parsed({name}); }});
   }
   return result;
 }
@@ -123,7 +123,7 @@ std::vector<MethodPtr> cost_methods(const std::vector<std::string>& list, double
   };
   for (const std::string& name : names) {
     const auto family = std::find_if(known.begin(), known.end(), [&](const Family& f) { return f.name == name; });
-    if (family == known.end() && name.find(':') == std::string::npos)
+    if (family == known.end() && !is_method_name(MethodSpec::parse(name).family))
       throw InputError("--methods: '" + name + "' is no family of methods" + did_you_mean(name, cost_families()) +
                        "; write a method as " + method_usage());
     if (family == known.end())

@@ -77,13 +77,16 @@ class TaylorMethod final : public MethodByTemplate<TaylorMethod> {
 
 }  // namespace
 
-MethodPtr taylor_method(std::string_view arguments) {
-  if (!arguments.empty())
-    throw InputError("method taylor takes no arguments, its order follows from the digits; it has '" +
-                     std::string(arguments) + "'");
-  return std::make_shared<const TaylorMethod>();
-}
+MethodPtr taylor_method() { return std::make_shared<const TaylorMethod>(); }
 
-void add_taylor_method() { add_method_family({"taylor", "taylor", taylor_method}); }
+void add_taylor_method() {
+  add_method_family({.name = "taylor",
+                     .form = "taylor",
+                     .make = [](const MethodSpec&) { return taylor_method(); },
+                     .example = "taylor",
+                     .order = "follows from the digits",
+                     .work = "the Taylor series of the motion",
+                     .note = "to round-off in each step, with MPFR alone"});
+}
 
 }  // namespace hbvm::core

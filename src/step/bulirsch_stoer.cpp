@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
-#include <charconv>
 
 #include "interruption.hpp"
 #include "linear/arrays.hpp"
+#include "method/method_spec.hpp"
 #include "odeint_number.hpp"
 #include "scalar/binary_exponent.hpp"
 #include "scalar/text.hpp"
@@ -166,13 +166,11 @@ class BulirschStoerMethod final : public MethodByTemplate<BulirschStoerMethod> {
 }  // namespace
 
 MethodPtr bulirsch_stoer_method(std::string_view arguments) {
-  int digits = 0;
-  const auto read = std::from_chars(arguments.data(), arguments.data() + arguments.size(), digits);
-  if (arguments.empty() || read.ec != std::errc() || read.ptr != arguments.data() + arguments.size() || digits < 1 ||
-      digits > 1'000)
+  const std::optional<int> digits = whole_number(arguments);
+  if (!digits || *digits < 1 || *digits > 1'000)
     throw InputError("method bulirsch_stoer:" + std::string(arguments) +
                      ": use bulirsch_stoer:DIGITS with a whole number of them, from 1 to 1000");
-  return std::make_shared<const BulirschStoerMethod>(digits);
+  return std::make_shared<const BulirschStoerMethod>(*digits);
 }
 
 }  // namespace hbvm::core

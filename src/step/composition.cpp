@@ -1,9 +1,8 @@
 #include "step/composition.hpp"
 
-#include <charconv>
-
 #include "copy_state.hpp"
 #include "linear/rounded.hpp"
+#include "method/method_spec.hpp"
 #include "step/registry.hpp"
 
 namespace hbvm::core {
@@ -103,17 +102,16 @@ StepResult<S> CompositionStepper<S>::step(State<S>& state, const S& h) {
 
 MethodPtr composition_method(std::string_view arguments) {
   const std::size_t comma = arguments.rfind(',');
-  int order = 0;
-  const std::string_view number = comma == std::string_view::npos ? "" : arguments.substr(comma + 1);
-  const auto read = std::from_chars(number.data(), number.data() + number.size(), order);
-  if (number.empty() || read.ec != std::errc() || read.ptr != number.data() + number.size())
+  const std::optional<int> order =
+      whole_number(comma == std::string_view::npos ? std::string_view() : arguments.substr(comma + 1));
+  if (!order)
     throw InputError("method compose:" + std::string(arguments) + ": use compose:rattle,P with an even order P");
-  check_order(order);
+  check_order(*order);
   const MethodPtr inner = parse_method(arguments.substr(0, comma));
   if (inner->order() != 2 || !inner->kept().reversal)
     throw InputError("method compose:" + std::string(arguments) + ": " + inner->text() +
                      " is not a symmetric method of order 2");
-  return std::make_shared<const Composition>(inner, order);
+  return std::make_shared<const Composition>(inner, *order);
 }
 
 #define HBVM_DEFINE(S)                                \

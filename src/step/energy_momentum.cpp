@@ -192,11 +192,7 @@ class EnergyMomentumMethod final : public MethodByTemplate<EnergyMomentumMethod>
 
 }  // namespace
 
-MethodPtr energy_momentum_method(std::string_view arguments) {
-  if (!arguments.empty())
-    throw InputError("method energy_momentum takes no arguments, and has '" + std::string(arguments) + "'");
-  return std::make_shared<const EnergyMomentumMethod>();
-}
+MethodPtr energy_momentum_method() { return std::make_shared<const EnergyMomentumMethod>(); }
 
 #define HBVM_DEFINE(S) template class EnergyMomentum<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)

@@ -73,6 +73,6 @@ class EnergyMomentum final : public CountingStepper<S> {
 };
 
 /// From no arguments. \throws InputError
-MethodPtr energy_momentum_method(std::string_view arguments);
+MethodPtr energy_momentum_method();
 
 }  // namespace hbvm::core

@@ -53,8 +53,7 @@ Orders HbvmMethod::orders() const {
 }
 
 Constants HbvmMethod::parameters() const {
-  Constants letters;
-  letters.insert_or_assign("s", Expression::parse(std::to_string(name_.s)));
+  Constants letters = letter_s(name_.s);
   if (!name_.is_auto()) letters.insert_or_assign("k", Expression::parse(std::to_string(name_.k)));
   if (name_.r != 0) letters.insert_or_assign("r", Expression::parse(std::to_string(name_.r)));
   return letters;

@@ -1,13 +1,12 @@
 #include "step/lobatto.hpp"
 
-#include <charconv>
-
 #include "basis/legendre.hpp"
 #include "copy_state.hpp"
 #include "linear/arrays.hpp"
 #include "linear/product.hpp"
 #include "linear/rounded.hpp"
 #include "method/hbvm_name.hpp"
+#include "method/method_spec.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -264,11 +263,7 @@ class LobattoMethod final : public MethodByTemplate<LobattoMethod> {
   Kept kept() const override {
     return {.energy = false, .momenta = true, .constraints = true, .hidden = true, .reversal = true};
   }
-  Constants parameters() const override {
-    Constants letters;
-    letters.insert_or_assign("s", Expression::parse(std::to_string(s_)));
-    return letters;
-  }
+  Constants parameters() const override { return letter_s(s_); }
   template <Scalar S>
   StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind) const {
     return [&problem, method = std::make_shared<const Lobatto<S>>(make_lobatto<S>(s_))] {
@@ -283,11 +278,9 @@ class LobattoMethod final : public MethodByTemplate<LobattoMethod> {
 }  // namespace
 
 MethodPtr lobatto_method(std::string_view arguments) {
-  int s = 0;
-  const auto read = std::from_chars(arguments.data(), arguments.data() + arguments.size(), s);
-  if (arguments.empty() || read.ec != std::errc() || read.ptr != arguments.data() + arguments.size())
-    throw InputError("method lobatto:" + std::string(arguments) + ": use lobatto:S with a whole number S >= 2");
-  return std::make_shared<const LobattoMethod>(s);
+  const std::optional<int> s = whole_number(arguments);
+  if (!s) throw InputError("method lobatto:" + std::string(arguments) + ": use lobatto:S with a whole number S >= 2");
+  return std::make_shared<const LobattoMethod>(*s);
 }
 
 #define HBVM_DEFINE(S)                      \

@@ -28,6 +28,13 @@ struct Orders {
   int angular_momentum = 0;  ///< where it is not kept
 };
 
+/// The letter s for a number of stages.
+inline Constants letter_s(int stages) {
+  Constants letters;
+  letters.insert_or_assign("s", Expression::parse(std::to_string(stages)));
+  return letters;
+}
+
 /// Makes steppers, each of which knows nothing of the others.
 template <Scalar S>
 using StepperMaker = std::function<std::unique_ptr<Stepper<S>>()>;

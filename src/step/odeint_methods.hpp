@@ -9,7 +9,7 @@ namespace hbvm::core {
 
 /// rkf78: the method of order 8 of Fehlberg's pair of orders 7 and 8, with 13 stages: runge_kutta_fehlberg78 of
 /// Boost.odeint. Its steps are those of the grid, none is refused. From no arguments. \throws InputError
-MethodPtr rkf78_method(std::string_view arguments);
+MethodPtr rkf78_method();
 
 /// bulirsch_stoer:DIGITS: extrapolation of the modified midpoint rule, of orders up to 16: bulirsch_stoer of
 /// Boost.odeint. Within each step of the grid it chooses its own, until the error it estimates in one is below

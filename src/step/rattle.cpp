@@ -6,8 +6,9 @@
 namespace hbvm::core {
 
 template <Scalar S>
-Rattle<S>::Rattle(const Problem<S>& problem)
+Rattle<S>::Rattle(const Problem<S>& problem, Kicks kicks)
     : problem_(problem),
+      is_halved_(kicks == Kicks::two_halves),
       one_half_(S(1) / 2),
       potential_(problem.potential, 1),
       projection_(problem),
@@ -52,7 +53,7 @@ template <Scalar S>
 void Rattle<S>::kick_and_drift(const State<S>& state) {
   const PartCall counted(kicks_);
   for (Index j = 0; j < p_.size(); ++j) {
-    set_product(p_[j], half_, force_(0, j));
+    set_product(p_[j], kick_, force_(0, j));
     set_sum(p_[j], p_[j], state.p[j]);
   }
   problem_.mass.velocity(lanes(std::as_const(p_)), lanes(v_));
@@ -64,12 +65,12 @@ void Rattle<S>::kick_and_drift(const State<S>& state) {
 
 template <Scalar S>
 void Rattle<S>::kick_back() {
-  for (Index j = 0; j < p_.size(); ++j) {
-    set_product(v_[j], half_, force_(0, j));
+  for (Index j = 0; is_halved_ && j < p_.size(); ++j) {
+    set_product(v_[j], kick_, force_(0, j));
     set_sum(p_[j], p_[j], v_[j]);
   }
   for (Index a = 0; a < pull_.size(); ++a) {
-    set_product(pull_.data()[a], half_, lambda_.data()[a]);
+    set_product(pull_.data()[a], kick_, lambda_.data()[a]);
     set_negative(pull_.data()[a], pull_.data()[a]);
   }
   projection_.directions().add_times(pull_, lanes(p_));
@@ -79,8 +80,11 @@ template <Scalar S>
 StepResult<S> Rattle<S>::step(State<S>& state, const S& h) {
   if (h != h_) {
     set(h_, h);
-    set_product(half_, h, one_half_);
-    set_product(factor_, h, half_);
+    if (is_halved_)
+      set_product(kick_, h, one_half_);
+    else
+      set(kick_, h);
+    set_product(factor_, h, kick_);
     set_negative(factor_, factor_);
   }
   arrive(state.q);
@@ -94,7 +98,10 @@ StepResult<S> Rattle<S>::step(State<S>& state, const S& h) {
     kick_back();
     if (problem_.nu() > 0) {
       const Matrix<S>& mu = projection_.make_tangential(p_);
-      for (Index a = 0; a < multiplier_.size(); ++a) set_quotient(multiplier_[a], mu.data()[a], half_);
+      for (Index a = 0; a < multiplier_.size(); ++a) {
+        set_quotient(multiplier_[a], mu.data()[a], kick_);
+        if (!is_halved_) set_sum(multiplier_[a], multiplier_[a], lambda_.data()[a]);
+      }
     }
     for (Index j = 0; j < q_.size(); ++j)
       if (!is_finite(q_[j]) || !is_finite(p_[j]))
@@ -115,27 +122,31 @@ namespace {
 
 class RattleMethod final : public MethodByTemplate<RattleMethod> {
  public:
-  std::string text() const override { return "rattle"; }
-  std::string title() const override { return "RATTLE"; }
-  int order() const override { return 2; }
+  explicit RattleMethod(Kicks kicks) : kicks_(kicks) {}
+
+  std::string text() const override { return is_halved() ? "rattle" : "symplectic_euler"; }
+  std::string title() const override { return is_halved() ? "RATTLE" : "symplectic Euler"; }
+  int order() const override { return is_halved() ? 2 : 1; }
   int stages() const override { return 1; }
   int terms() const override { return 2; }
   Kept kept() const override {
-    return {.energy = false, .momenta = true, .constraints = true, .hidden = true, .reversal = true};
+    return {.energy = false, .momenta = true, .constraints = true, .hidden = true, .reversal = is_halved()};
   }
   template <Scalar S>
   StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind) const {
-    return [&problem] { return std::make_unique<Rattle<S>>(problem); };
+    return [&problem, kicks = kicks_] { return std::make_unique<Rattle<S>>(problem, kicks); };
   }
+
+ private:
+  bool is_halved() const { return kicks_ == Kicks::two_halves; }
+
+  Kicks kicks_;
 };
 
 }  // namespace
 
-MethodPtr rattle_method(std::string_view arguments) {
-  if (!arguments.empty())
-    throw InputError("method rattle takes no arguments, and has '" + std::string(arguments) + "'");
-  return std::make_shared<const RattleMethod>();
-}
+MethodPtr rattle_method() { return std::make_shared<const RattleMethod>(Kicks::two_halves); }
+MethodPtr symplectic_euler_method() { return std::make_shared<const RattleMethod>(Kicks::one_whole); }
 
 #define HBVM_DEFINE(S) template class Rattle<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)

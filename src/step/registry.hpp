@@ -3,14 +3,21 @@
 #include <string_view>
 #include <vector>
 
+#include "method/method_spec.hpp"
 #include "step/method.hpp"
 
 namespace hbvm::core {
 
-/// One kind of method: its name before the colon, how it is used, and what makes one from the text after the colon.
+/// One kind of method: how it is written, what makes one, and what is said of it in a list.
 struct MethodFamily {
-  std::string_view name, usage;
-  MethodPtr (*make)(std::string_view arguments);
+  std::string_view name;                 ///< before the colon
+  std::string_view form;                 ///< "hbvm:K,S"; a form without a colon takes no arguments
+  MethodPtr (*make)(const MethodSpec&);  ///< \throws InputError for arguments that are none
+  std::string_view example = {};         ///< one that can be made; empty if there is none without a file
+  std::string_view order = {};           ///< of its members: "2S"
+  std::string_view work = {};            ///< what a step costs
+  std::string_view note = {};
+  bool projects = false;  ///< whether "+project" ends its steps on the constraints
 };
 
 /// All there are.
@@ -19,10 +26,24 @@ const std::vector<MethodFamily>& method_families();
 /// a program of one's own. Before threads are started.
 void add_method_family(const MethodFamily& family);
 
+/// A name that is known elsewhere for a method that is here.
+struct MethodAlias {
+  std::string_view form;   ///< "verlet", or "gauss:S" with a whole number S
+  std::string_view meant;  ///< "rattle", "hbvm:S,S"
+  std::string_view note = {};
+
+  std::string_view name() const { return form.substr(0, form.find(':')); }
+};
+
+const std::vector<MethodAlias>& method_aliases();
+
+/// Whether a family or an alias has this name.
+bool is_method_name(std::string_view name);
+
 /// \throws InputError for a family or arguments that do not exist, with what there is
 MethodPtr parse_method(std::string_view text);
 
-/// The usage of each family, separated by "; ".
+/// How methods are written, in one line.
 std::string method_usage();
 
 }  // namespace hbvm::core

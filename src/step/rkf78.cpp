@@ -69,9 +69,6 @@ class Rkf78Method final : public MethodByTemplate<Rkf78Method> {
 
 }  // namespace
 
-MethodPtr rkf78_method(std::string_view arguments) {
-  if (!arguments.empty()) throw InputError("method rkf78 takes no arguments, and has '" + std::string(arguments) + "'");
-  return std::make_shared<const Rkf78Method>();
-}
+MethodPtr rkf78_method() { return std::make_shared<const Rkf78Method>(); }
 
 }  // namespace hbvm::core

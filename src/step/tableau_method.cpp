@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "method/decimals.hpp"
+#include "method/known_tableaux.hpp"
 #include "method/order_conditions.hpp"
 #include "method/read_tableau.hpp"
 #include "method/symmetry_defect.hpp"
@@ -24,8 +25,8 @@ Mpfr tolerance(const Tableau& tableau) {
 
 }  // namespace
 
-TableauMethod::TableauMethod(Tableau tableau, std::string file, OnConstraints on_constraints)
-    : tableau_(std::move(tableau)), file_(std::move(file)), on_constraints_(on_constraints) {}
+TableauMethod::TableauMethod(Tableau tableau, std::string name, OnConstraints on_constraints)
+    : tableau_(std::move(tableau)), name_(std::move(name)), on_constraints_(on_constraints) {}
 
 int TableauMethod::order() const {
   if (tableau_.order) return *tableau_.order;
@@ -46,7 +47,7 @@ Kept TableauMethod::kept() const {
 }
 
 std::string TableauMethod::text() const {
-  return "tableau:" + file_ + (on_constraints_ == OnConstraints::project ? std::string(projected) : "");
+  return name_ + (on_constraints_ == OnConstraints::project ? std::string(projected) : "");
 }
 
 std::string TableauMethod::title() const {
@@ -63,11 +64,7 @@ std::string TableauMethod::key() const {
   return key;
 }
 
-Constants TableauMethod::parameters() const {
-  Constants letters;
-  letters.insert_or_assign("s", Expression::parse(std::to_string(stages())));
-  return letters;
-}
+Constants TableauMethod::parameters() const { return letter_s(stages()); }
 
 template <Scalar S>
 StepperMaker<S> TableauMethod::prepare_in(const Problem<S>& problem, SolverKind) const {
@@ -85,10 +82,20 @@ TableauArguments TableauArguments::parse(std::string_view text) {
 MethodPtr tableau_method(const TableauArguments& arguments) {
   const auto& [file, on_constraints] = arguments;
   if (file.empty()) throw InputError("method tableau: use tableau:FILE, or tableau:FILE+project");
-  return std::make_shared<const TableauMethod>(read_tableau(file), file, on_constraints);
+  return std::make_shared<const TableauMethod>(read_tableau(file), "tableau:" + file, on_constraints);
 }
 
 MethodPtr tableau_method(std::string_view arguments) { return tableau_method(TableauArguments::parse(arguments)); }
+
+MethodPtr known_tableau_method(std::string_view text) {
+  const auto [name, on_constraints] = TableauArguments::parse(text);
+  std::string all;
+  for (const KnownTableau& known : known_tableaux()) {
+    if (known.name == name) return std::make_shared<const TableauMethod>(known.tableau, name, on_constraints);
+    all += (all.empty() ? "" : ", ") + std::string(known.name);
+  }
+  throw InputError("unknown method '" + std::string(text) + "': there are " + all);
+}
 
 const TableauMethod* as_tableau(const Method& method) { return dynamic_cast<const TableauMethod*>(&method); }
 

@@ -6,11 +6,11 @@
 
 namespace hbvm::core {
 
-/// A Runge-Kutta method from a file, see RungeKuttaStepper for what it makes of constraints.
+/// A Runge-Kutta method from a file or by a name, see RungeKuttaStepper for what it makes of constraints.
 class TableauMethod final : public MethodByTemplate<TableauMethod> {
  public:
-  /// \param file it is from, for its name
-  TableauMethod(Tableau tableau, std::string file, OnConstraints on_constraints = OnConstraints::drift);
+  /// \param name as it is asked for, without "+project"
+  TableauMethod(Tableau tableau, std::string name, OnConstraints on_constraints = OnConstraints::drift);
 
   const Tableau& tableau() const { return tableau_; }
   OnConstraints on_constraints() const { return on_constraints_; }
@@ -31,21 +31,24 @@ class TableauMethod final : public MethodByTemplate<TableauMethod> {
 
  private:
   Tableau tableau_;
-  std::string file_;
+  std::string name_;
   OnConstraints on_constraints_;
 };
 
-/// "FILE" or "FILE+project", taken apart.
+/// "NAME" or "NAME+project", taken apart: a file, or a method with a name of its own.
 struct TableauArguments {
-  std::string file;
+  std::string name;
   OnConstraints on_constraints = OnConstraints::drift;
 
   static TableauArguments parse(std::string_view text);
 };
 
-/// \throws InputError as read_tableau does
+/// From a file. \throws InputError as read_tableau does
 MethodPtr tableau_method(const TableauArguments& arguments);
 MethodPtr tableau_method(std::string_view arguments);
+
+/// One of known_tableaux(): "rk4", "sdirk:3+project". \throws InputError with what there is
+MethodPtr known_tableau_method(std::string_view text);
 
 /// The method as one of these, or null.
 const TableauMethod* as_tableau(const Method& method);

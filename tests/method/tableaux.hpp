@@ -1,8 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
+#include "hbvm/error.hpp"
 #include "method/hbvm.hpp"
+#include "method/known_tableaux.hpp"
 #include "method/order_conditions.hpp"
 #include "printing.hpp"
 #include "scalar/literal.hpp"
@@ -13,23 +16,17 @@ inline Tableau tableau(const NumberRows& A, const Numbers& b, const Numbers& c, 
   return {"test", A, b, c, order};
 }
 
-inline Tableau rk4() {
-  return tableau({{"0", "0", "0", "0"}, {"1/2", "0", "0", "0"}, {"0", "0.5", "0", "0"}, {"0", "0", "1", "0"}},
-                 {"1/6", "1/3", "1/3", "1/6"}, {"0", "1/2", "1/2", "1"});
+/// A known one, of no stated order.
+inline Tableau known(std::string_view name) {
+  for (const KnownTableau& one : known_tableaux())
+    if (one.name == name) return tableau(one.tableau.A, one.tableau.b, one.tableau.c);
+  throw InputError("no known tableau");
 }
-inline Tableau radau_iia() { return tableau({{"5/12", "-1/12"}, {"3/4", "1/4"}}, {"3/4", "1/4"}, {"1/3", "1"}); }
 
-/// Dormand and Prince, order 5: large coefficients of both signs.
-inline Tableau dopri5() {
-  return tableau({{"0", "0", "0", "0", "0", "0"},
-                  {"1/5", "0", "0", "0", "0", "0"},
-                  {"3/40", "9/40", "0", "0", "0", "0"},
-                  {"44/45", "-56/15", "32/9", "0", "0", "0"},
-                  {"19372/6561", "-25360/2187", "64448/6561", "-212/729", "0", "0"},
-                  {"9017/3168", "-355/33", "46732/5247", "49/176", "-5103/18656", "0"}},
-                 {"35/384", "0", "500/1113", "125/192", "-2187/6784", "11/84"},
-                 {"0", "1/5", "3/10", "4/5", "8/9", "1"});
-}
+inline Tableau rk4() { return known("rk4"); }
+/// Large coefficients of both signs.
+inline Tableau dopri5() { return known("dopri5"); }
+inline Tableau radau_iia() { return tableau({{"5/12", "-1/12"}, {"3/4", "1/4"}}, {"3/4", "1/4"}, {"1/3", "1"}); }
 
 template <Scalar S>
 RungeKutta<S> gauss(int s) {

@@ -40,8 +40,8 @@ TEST(TableauMethods, KeepWhatTheirCoefficientsKeep) {
 }
 
 TEST(TableauMethods, NameTheirFileAndTheirTableau) {
-  const TableauMethod plain(hbvm::core::rk4(), "some/file.toml"),
-      projected(hbvm::core::rk4(), "some/file.toml", OnConstraints::project);
+  const TableauMethod plain(hbvm::core::rk4(), "tableau:some/file.toml"),
+      projected(hbvm::core::rk4(), "tableau:some/file.toml", OnConstraints::project);
   EXPECT_EQ(plain.text(), "tableau:some/file.toml");
   EXPECT_EQ(projected.text(), "tableau:some/file.toml+project");
   EXPECT_EQ(plain.title(), "test");
@@ -62,13 +62,21 @@ TEST(TableauMethods, KeysAreTheirNumbers) {
 }
 
 TEST(TableauMethods, ArgumentsAreAFileAndWhatToMakeOfConstraints) {
-  EXPECT_EQ(TableauArguments::parse("a.toml").file, "a.toml");
+  EXPECT_EQ(TableauArguments::parse("a.toml").name, "a.toml");
   EXPECT_EQ(TableauArguments::parse("a.toml").on_constraints, OnConstraints::drift);
-  EXPECT_EQ(TableauArguments::parse("a.toml+project").file, "a.toml");
+  EXPECT_EQ(TableauArguments::parse("a.toml+project").name, "a.toml");
   EXPECT_EQ(TableauArguments::parse("a.toml+project").on_constraints, OnConstraints::project);
-  EXPECT_EQ(TableauArguments::parse("+projects").file, "+projects");
+  EXPECT_EQ(TableauArguments::parse("+projects").name, "+projects");
   EXPECT_THROW(tableau_method("+project"), InputError);
   EXPECT_THROW(tableau_method(""), InputError);
+}
+
+TEST(TableauMethods, AreKnownByName) {
+  EXPECT_EQ(known_tableau_method("rk4")->text(), "rk4");
+  EXPECT_EQ(known_tableau_method("rk4")->title(), "RK4");
+  EXPECT_EQ(known_tableau_method("sdirk:3+project")->text(), "sdirk:3+project");
+  EXPECT_EQ(known_tableau_method("sdirk:3+project")->order(), 3);
+  EXPECT_THROW(known_tableau_method("sdirk:4"), InputError);
 }
 
 /// A step of the midpoint rule by hand on a harmonic trap: v = (p0 - h/2 q0)/(1 + h^2/4).

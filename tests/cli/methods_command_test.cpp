@@ -1,0 +1,28 @@
+#include <gtest/gtest.h>
+
+#include "cli/json.hpp"
+#include "cli/program.hpp"
+
+namespace hbvm::core {
+namespace {
+
+/// Each name in the list runs, by itself or with the number that its form asks for.
+TEST(Methods, ListsOnlyMethodsThatRun) {
+  for (const Json& method : Json::parse(ended_with(0, {"methods", "--json"}).out).at("methods")) {
+    const std::string form = method.at("form");
+    if (form.find(':') == std::string::npos && form != "taylor")
+      ended_with(0, run_of("kepler", form.c_str(), "1/64", "1/64"));
+  }
+  ended_with(0, run_of("kepler", "gauss:3", "1/64", "1/64"));
+  ended_with(0, run_of("kepler", "radau:3", "1/64", "1/64"));
+}
+
+TEST(Methods, AreATableOfNamesOrdersAndWork) {
+  const Outcome outcome = ended_with(0, {"methods"});
+  EXPECT_EQ(outcome.err, "");
+  for (const char* const word : {"hbvm:K,S", "2S-1", "energy", "verlet", "Other names"})
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+}
+
+}  // namespace
+}  // namespace hbvm::core
