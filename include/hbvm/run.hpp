@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hbvm/figure.hpp"
+#include "hbvm/method.hpp"
 #include "hbvm/scene.hpp"
 
 namespace hbvm {
@@ -17,8 +18,9 @@ namespace hbvm {
 /// say.
 struct RunRequest {
   Scene scene;
-  std::string method;                ///< "hbvm:4,2"
-  Number step, until;                ///< until is a multiple of the step
+  std::string method = usual_method;  ///< or any other that methods() lists
+  std::optional<Number> step = {};    ///< of which until is a multiple; without, one that suits the scene's time scale
+  Number until;
   std::string precision = "double";  ///< or "quad", or "mpfr:50" for 50 decimal digits
   std::string solver = "auto";       ///< of the stage equations
   std::string on_failure = "stop";   ///< or "halve": a step that cannot be made is divided

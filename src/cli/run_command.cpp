@@ -35,7 +35,8 @@ namespace hbvm::core {
 namespace {
 
 struct RunArguments {
-  std::string scene, method, step, until;
+  std::string scene, method = usual_method, until;
+  std::optional<std::string> step;
   std::string precision = "double", solver = "auto", on_failure = "stop";
   std::optional<std::string> out, start, plot;
   long every = 1;
@@ -322,8 +323,11 @@ void add_run_command(CLI::App& app) {
   auto o = std::make_shared<RunArguments>();
   CLI::App* const command = app.add_subcommand("run", "Integrate a scene and report the final state and its errors");
   command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
-  command->add_option("--method", o->method, method_usage())->required();
-  command->add_option("--step", o->step, "Step size: a number or an expression, as 2^(3/4)*pi/40")->required();
+  command->add_option("--method", o->method, method_usage())->capture_default_str();
+  command->add_option(
+      "--step", o->step,
+      "Step size: a number or an expression, as 2^(3/4)*pi/40; without, one that suits the scene: at most "
+      "an eighth of the radius of convergence of the motion's Taylor series");
   command->add_option("--until", o->until, "Final time, a multiple of the step")->required();
   command->add_option("--precision", o->precision, "double, quad, or mpfr:N, or N alone, for N digits")
       ->capture_default_str();

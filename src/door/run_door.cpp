@@ -9,6 +9,7 @@
 #include "door/run_of.hpp"
 #include "hbvm/run.hpp"
 #include "hbvm/version.hpp"
+#include "reference/usual_step.hpp"
 #include "run/run_figure.hpp"
 #include "run/run_page.hpp"
 #include "run/scene_run.hpp"
@@ -32,11 +33,13 @@ hbvm::Trajectory trajectory_of(std::istream& lines) {
 }  // namespace
 
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start) {
-  RunRequest request{scene_of(asked.scene),
+  const Scene scene = scene_of(asked.scene);
+  const Expression until = expression_of(asked.until, "until");
+  RunRequest request{scene,
                      parse_method(asked.method),
                      parse_solver(asked.solver),
-                     expression_of(asked.step, "step"),
-                     expression_of(asked.until, "until"),
+                     asked.step ? expression_of(*asked.step, "step") : usual_step(scene, until),
+                     until,
                      Precision::parse(asked.precision),
                      asked.account,
                      asked.shadow,
@@ -48,8 +51,8 @@ RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::st
 }
 
 std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request) {
-  return "hbvm run " + asked.scene.name() + " --method " + request.method->text() + " --step '" + asked.step.text() +
-         "' --until '" + asked.until.text() + "' --precision " + request.precision.name() + " --solver " +
+  return "hbvm run " + asked.scene.name() + " --method " + request.method->text() + " --step '" + request.step.text() +
+         "' --until '" + request.until.text() + "' --precision " + request.precision.name() + " --solver " +
          std::string(name_of(request.solver)) + (request.start ? " --start " + request.start->file : "") +
          (asked.reverse ? " --reverse" : "") + (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
 }

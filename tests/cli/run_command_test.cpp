@@ -47,6 +47,15 @@ TEST(RunJson, HasExactlyTheFieldsOfTheIssue) {
   EXPECT_GE(j["cpu_seconds"].get<double>(), 0);
 }
 
+/// Without a method and a step: that of the library, and a checkpoint goes on with them.
+TEST(RunDefaults, AreThoseOfTheLibraryInEachScene) {
+  const ordered_json j = json_of({"run", "kepler", "--until", "10"});
+  expect_members(j, ordered_json::parse(R"({"step": "0.03125", "steps": 320, "precision": "double"})"));
+  EXPECT_LT(std::stod(j["e_H"].get<std::string>()), 1e-13);
+  for (const std::string& line : lines_of(hbvm({"scenes"}).out))
+    EXPECT_GE(json_of({"run", line.substr(0, line.find(' ')), "--until", "1"})["steps"].get<long>(), 1) << line;
+}
+
 TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
   for (const char* precision : {"double", "quad", "mpfr:50", "mpfr:300"}) {
     const ordered_json j = json_of(run_of("modified_pendulum", "hbvm:3,2", "1/16", "1") +

@@ -54,6 +54,16 @@ TEST(DoorRun, KeepsRowsAsAsked) {
   EXPECT_THROW(run(request), InputError);
 }
 
+/// A method and a step are there for who asks for none.
+TEST(DoorRun, HasAMethodAndAStepOfItsOwn) {
+  const hbvm::Run made = run({.scene = load_scene("kepler"), .until = 10});
+  EXPECT_TRUE(made.method.starts_with("hbvm:")) << made.method;
+  EXPECT_TRUE(made.nodes);
+  EXPECT_EQ(made.step, "0.03125");
+  EXPECT_EQ(made.steps, 320);
+  EXPECT_NE(made.command.find("--step '1/32'"), std::string::npos) << made.command;
+}
+
 TEST(DoorRun, NamesTheColumnsThereAre) {
   const hbvm::Run made = run(pendulum());
   core::expect_words(core::message_of([&] { return made.trajectory.values("bob.z"); }),
