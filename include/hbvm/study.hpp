@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "hbvm/figure.hpp"
+#include "hbvm/scene.hpp"
 
 namespace hbvm {
 
@@ -33,5 +35,44 @@ struct Study {
 Study study(const StudyRequest& request);
 
 std::string to_json(const Study& study);
+
+/// Several methods on one scene, by the same step until the same time.
+struct MethodsRequest {
+  Scene scene;
+  std::vector<std::string> methods;  ///< as methods() lists them
+  std::optional<Number> step = {};   ///< of which until is a multiple; without, one that suits the scene's time scale
+  Number until;
+  std::string precision = "double";
+  bool reference = false;                                 ///< tell how many digits are right at the end
+  bool picture = false;                                   ///< also make a figure and a page that moves
+  std::function<void(long done, long of)> progress = {};  ///< called now and then, with steps of all methods
+  std::stop_token stop = {};
+};
+
+/// What became of one of them. Numbers are decimal text.
+struct MethodRun {
+  std::string method;            ///< as it was asked for
+  std::string e_H, e_g, e_hid;   ///< greatest errors at mesh points, of H, of g and of the hidden constraints
+  std::optional<double> digits;  ///< right ones of the positions at the end, of their greatest coordinate
+  double cpu_seconds = 0;
+  std::string failure;  ///< why it did not come to the end, with the time; all else but the method is then empty
+};
+
+struct MethodComparison {
+  std::string scene, title, step, until, precision;
+  std::vector<MethodRun> runs;
+  std::string no_digits;         ///< why there are none, if they were asked for
+  std::optional<Figure> figure;  ///< motions over one another and errors, if a picture was asked for
+  std::string page;              ///< HTML of its own, in which all move on one clock; likewise
+  std::string command;           ///< of the program, which makes the same
+};
+
+/// A run that fails on the way is told as such, and ends no other.
+/// \throws InputError, Interrupted
+MethodComparison compare_methods(const MethodsRequest& request);
+
+/// A table of names and errors.
+std::string to_text(const MethodComparison& comparison);
+std::string to_json(const MethodComparison& comparison);
 
 }  // namespace hbvm

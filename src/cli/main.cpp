@@ -34,10 +34,10 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
   app.footer("Example: hbvm run modified_pendulum --method hbvm:4,2 --step 1/16 --until 20 --precision mpfr:50 --json");
   for (const auto add :
        {hbvm::core::add_run_command, hbvm::core::add_nodes_command, hbvm::core::add_scenes_command,
-        hbvm::core::add_methods_command, hbvm::core::add_scene_command, hbvm::core::add_study_command,
-        hbvm::core::add_audit_command, hbvm::core::add_stability_command, hbvm::core::add_reference_command,
-        hbvm::core::add_cost_command, hbvm::core::add_report_command, hbvm::core::add_completion_command,
-        hbvm::core::add_help_command})
+        hbvm::core::add_methods_command, hbvm::core::add_scene_command, hbvm::core::add_compare_command,
+        hbvm::core::add_study_command, hbvm::core::add_audit_command, hbvm::core::add_stability_command,
+        hbvm::core::add_reference_command, hbvm::core::add_cost_command, hbvm::core::add_report_command,
+        hbvm::core::add_completion_command, hbvm::core::add_help_command})
     add(app);
   try {
     const CLI::App* command = &app;

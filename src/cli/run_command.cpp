@@ -14,7 +14,7 @@
 #include "integrate/time_grid.hpp"
 #include "interruption.hpp"
 #include "output_files.hpp"
-#include "processes/draw.hpp"
+#include "picture_file.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
 #include "resume.hpp"
@@ -225,37 +225,18 @@ std::vector<std::string> write_metadata(const RunArguments& o, const RunRequest&
 /// The picture of --plot, once there is something to be seen.
 class Plot {
  public:
-  /// \throws InputError for a file that no picture can be written to
-  explicit Plot(const std::string& file) : file_(file) {
-    refuse_ending();
-    std::error_code ignored;
-    const bool was_there = std::filesystem::exists(file, ignored);
-    if (!std::ofstream(file, std::ios::app)) throw InputError("--plot: cannot write '" + file + "'");
-    if (!was_there) std::filesystem::remove(file, ignored);
-  }
+  explicit Plot(const std::string& file) : file_(file) {}
 
   Recording* recording() { return &recording_; }
 
   void draw(const RunRequest& request, const std::string& command) const {
     if (recording_.samples.size() < 2) return;
-    if (is_page(file_))
-      write_file(file_, run_page(request, recording_, command));
-    else
-      hbvm::core::draw(figure_of(request, recording_, command), file_);
-    say_written(file_);
+    file_.write([&] { return figure_of(request, recording_, command); },
+                [&] { return run_page(request, recording_, command); });
   }
 
  private:
-  void refuse_ending() const {
-    if (is_page(file_)) return;
-    try {
-      gnuplot_script({}, file_);
-    } catch (const InputError& error) {
-      throw InputError(std::string("--plot: ") + error.what() + "; one that moves is .html");
-    }
-  }
-
-  std::string file_;
+  PictureFile file_;
   Recording recording_;
 };
 
@@ -263,7 +244,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
     throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
   if (!(o.every_seconds >= 0)) throw InputError("--every-seconds is negative");
-  for (const auto& [option, file] : {std::pair("--out", o.out), {"--plot", o.plot}, {"--checkpoint", o.checkpoint}})
+  for (const auto& [option, file] : {std::pair("--out", o.out), {"--checkpoint", o.checkpoint}})
     if (file) refuse_dash(option, *file);
   const RunIdentity identity = identity_of(o, command);
   const hbvm::RunRequest asked = asked_of(o, identity);

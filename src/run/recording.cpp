@@ -50,7 +50,8 @@ void MotionRecorder<S>::observe(const Snapshot<S>& s) {
   raise_to(hidden_, max_norm(redundant_.hidden(s.q, s.p)));
   if (s.n % recording_.every != 0 && s.n != steps_) return;
   recording_.samples.push_back({approximately(s.t), list_of<S>(s.q), list_of<S>(redundant_.multipliers(s.q, s.lambda)),
-                                log10_of(energy_), log10_of(constraints_), log10_of(hidden_)});
+                                log10_of(energy_), log10_of(constraints_), log10_of(hidden_),
+                                approximately(S(H - H0_))});
   set_zero(energy_);
   set_zero(constraints_);
   set_zero(hidden_);

@@ -20,12 +20,13 @@ struct Recording {
     /// Decimal logarithms of |H - H_0|, |g|_max and |grad g^T M^-1 p|_max, the greatest since the sample before; minus
     /// infinity for 0. Errors of hundreds of digits are beyond the range of double, their logarithms are not.
     double energy = 0, constraints = 0, hidden = 0;
+    double H_change = 0;  ///< H - H_0, at the sample
 
     void remember(Archive& archive) {
       archive(t);
       archive.sized(q);
       archive.sized(lambda);
-      archive(energy, constraints, hidden);
+      archive(energy, constraints, hidden, H_change);
     }
   };
 

@@ -2,23 +2,24 @@
 
 #include <string>
 
+#include "run/moving_page.hpp"
 #include "run/recording.hpp"
 #include "run/run_request.hpp"
 
 namespace hbvm::core {
 
-/// A page is smaller than this, however long the run and large its scene.
-constexpr std::size_t run_page_bytes = 1'000'000;
-
 /// Whether a picture in this file is a page: by its ending, .html.
 bool is_page(const std::string& file);
 
-/// The run as a page of HTML that needs nothing besides itself: its scene moves, beside the curves of run_figure(). Its
-/// numbers are the doubles of the recording, in decimals that read back exactly. Where all samples would be too many
-/// for run_page_bytes, it has every k-th and the last. Their errors are then the greatest since the sample before.
+/// The step that the last sample is after: that of the end, unless the run failed on the way.
+long last_step(const Recording& recording);
+
+/// What a page says of a run above and below; what moves is left to whoever asks.
+MovingPage page_about(const RunRequest& request, const std::string& command);
+
+/// The run as a page: its scene moves, beside the curves of run_figure().
 /// \param command what makes the run again
-/// \throws Error if not even its first and last state have room
-/// \throws InputError if the library was built without dygraphs
+/// \throws Error, InputError as moving_page() does
 std::string run_page(const RunRequest& request, const Recording& recording, const std::string& command);
 
 }  // namespace hbvm::core

@@ -125,7 +125,7 @@ TEST(RunPage, IsSmallAndLeavesNoErrorOut) {
   const Scene scene = load_scene("kepler");
   const Recording recording = large(1001, 400);
   const std::string page = run_page(request_for(scene), recording, "hbvm run");
-  EXPECT_LT(page.size(), run_page_bytes);
+  EXPECT_LT(page.size(), moving_page_bytes);
   const Json data = data_of(page);
   const std::size_t column = data["charts"][0]["curves"][0]["column"];
   double greatest = 0;

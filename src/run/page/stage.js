@@ -18,6 +18,8 @@ class Stage {
   /** Which colour each place has: what has mass its own, points of a rigid body that of the body. */
   coloursOfBodies() {
     const colours = new Map();
+    this.motion.places.forEach(({ colour }, i) => colour >= 0 && colours.set(i, colour));
+    if (colours.size > 0) return colours;
     this.motion.masses.forEach((place, i) => colours.set(place, i));
     const joined = this.motion.links.filter(([, , as]) => as === 'body');
     for (const [a, b] of joined) if (this.motion.places[b].has_mass) colours.set(a, colours.get(b));
@@ -214,7 +216,7 @@ class Stage {
   drawScene() {
     const { motion, letter } = this;
     const at = motion.places.map((_, i) => this.drawnAt(i));
-    const links = motion.links.map(([a, b, as]) => ({ near: at[a][2] + at[b][2], draw: () => this.drawLink(at[a], at[b], as, a) }));
+    const links = motion.links.map(([a, b, as]) => ({ near: at[a][2] + at[b][2], draw: () => this.drawLink(at[a], at[b], as, this.colourOfLink(a, b, as)) }));
     const places = (kind) => motion.places.flatMap((place, i) =>
       place.has_mass === kind && at[i].every(Number.isFinite)
         ? [{ near: at[i][2], draw: () => this.drawPlace(place, i, at[i], letter) }] : []);
@@ -222,10 +224,15 @@ class Stage {
       parts.sort((a, b) => a.near - b.near).forEach((part) => part.draw());
   }
 
-  drawLink(a, b, as, place) {
-    if (as === 'spring') this.stroke(this.coil(a, b), this.theme.get('rod'), 0.09 * this.letter);
-    else if (as === 'rod') this.stroke([a, b], this.theme.get('rod'), 0.17 * this.letter);
-    else this.stroke([a, b], this.colour(place), 0.3 * this.letter);
+  /** A body's own; of rods and springs that of their motion, where several are shown. */
+  colourOfLink(a, b, as) {
+    const given = [a, b].find((place) => this.motion.places[place].colour >= 0);
+    return as === 'body' || given !== undefined ? this.colour(given ?? a) : this.theme.get('rod');
+  }
+
+  drawLink(a, b, as, colour) {
+    if (as === 'spring') this.stroke(this.coil(a, b), colour, 0.09 * this.letter);
+    else this.stroke([a, b], colour, (as === 'rod' ? 0.17 : 0.3) * this.letter);
   }
 
   /** A spring's zigzag between two points. */

@@ -1,0 +1,35 @@
+#include "picture_file.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "hbvm/error.hpp"
+#include "output_files.hpp"
+#include "processes/draw.hpp"
+#include "run/run_page.hpp"
+#include "write_file.hpp"
+
+namespace hbvm::core {
+
+PictureFile::PictureFile(std::string file) : file_(std::move(file)) {
+  refuse_dash("--plot", file_);
+  try {
+    if (!is_page(file_)) gnuplot_script({}, file_);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--plot: ") + error.what() + "; one that moves is .html");
+  }
+  std::error_code ignored;
+  const bool was_there = std::filesystem::exists(file_, ignored);
+  if (!std::ofstream(file_, std::ios::app)) throw InputError("--plot: cannot write '" + file_ + "'");
+  if (!was_there) std::filesystem::remove(file_, ignored);
+}
+
+void PictureFile::write(const std::function<Figure()>& figure, const std::function<std::string()>& page) const {
+  if (is_page(file_))
+    write_file(file_, page());
+  else
+    draw(figure(), file_);
+  say_written(file_);
+}
+
+}  // namespace hbvm::core

@@ -1,0 +1,220 @@
+#include "run/moving_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "hbvm/error.hpp"
+#include "hbvm/version.hpp"
+#include "long_work/json.hpp"
+#include "report/axis_range.hpp"
+#include "report/html.hpp"
+#include "run/page_parts.hpp"
+
+namespace hbvm::core {
+namespace {
+
+/// As JavaScript's Number() reads it: JSON has no infinite numbers.
+OrderedJson any_number(double x) {
+  if (std::isnan(x)) return "NaN";
+  if (std::isinf(x)) return x > 0 ? "Infinity" : "-Infinity";
+  return x;
+}
+
+OrderedJson numbers_of(const std::vector<double>& values) {
+  OrderedJson list = OrderedJson::array();
+  for (const double value : values) list.push_back(any_number(value));
+  return list;
+}
+
+OrderedJson json_of(const Sketch& sketch, const std::vector<int>& colours) {
+  OrderedJson places = OrderedJson::array(), links = OrderedJson::array();
+  for (const Sketch::Place& place : sketch.places) {
+    OrderedJson blocks = OrderedJson::array();
+    for (const auto& block : place.at.blocks) blocks.push_back({block.offset, any_number(block.weight)});
+    places.push_back({{"name", place.name},
+                      {"blocks", blocks},
+                      {"shift", numbers_of({place.at.shift.begin(), place.at.shift.end()})},
+                      {"has_mass", place.has_mass},
+                      {"charge", any_number(place.charge)},
+                      {"labelled", place.labelled}});
+    if (!colours.empty()) places.back()["colour"] = colours[places.size() - 1];
+  }
+  for (const Sketch::Link& link : sketch.links) {
+    const char* const as = link.as == Sketch::Joins::rod ? "rod" : link.as == Sketch::Joins::spring ? "spring" : "body";
+    links.push_back({link.a, link.b, as});
+  }
+  return {{"dimension", sketch.dimension}, {"places", places}, {"links", links}};
+}
+
+/// What is no number exceeds all numbers: it must be seen.
+double greater(double a, double b) { return std::isnan(b) || b > a ? b : a; }
+
+/// Every k-th value and the last; of errors the greatest since the one before.
+std::vector<double> thinned(const std::vector<double>& values, std::size_t k, bool is_error) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::vector<double> kept;
+  double since = none;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    since = is_error ? greater(since, values[i]) : values[i];
+    if (i % k != 0 && i + 1 != values.size()) continue;
+    kept.push_back(since);
+    since = none;
+  }
+  return kept;
+}
+
+MovingPage thinned(const MovingPage& page, std::size_t k) {
+  if (k == 1) return page;
+  MovingPage result = page;
+  result.every *= static_cast<long>(k);
+  result.t = thinned(page.t, k, false);
+  result.q.clear();
+  for (std::size_t i = 0; i < page.q.size(); ++i)
+    if (i % k == 0 || i + 1 == page.q.size()) result.q.push_back(page.q[i]);
+  for (PageChart& chart : result.charts)
+    for (PageCurve& curve : chart.curves) curve.values = thinned(curve.values, k, curve.is_error);
+  return result;
+}
+
+constexpr int most_tics = 7;
+
+OrderedJson json_of(const AxisRange& range, const Tics& tics) {
+  OrderedJson list = OrderedJson::array();
+  for (const Tic& tic : tics.tics)
+    if (!tic.text.empty()) list.push_back({tic.at, tic.text});
+  return {{"range", {range.from, range.to}}, {"factor", tics.factor}, {"tics", list}};
+}
+
+OrderedJson json_of(const PageChart& chart, std::size_t first_column) {
+  constexpr double room = 1 / double{25};
+  std::vector<double> all;
+  OrderedJson curves = OrderedJson::array();
+  for (const PageCurve& curve : chart.curves) {
+    all.insert(all.end(), curve.values.begin(), curve.values.end());
+    curves.push_back({{"name", curve.name}, {"column", first_column++}});
+    if (curve.number > 0) curves.back()["number"] = curve.number;
+  }
+  const AxisRange range = widened(range_of(all), room);
+  OrderedJson json = json_of(range, tics_of(range, chart.scale, most_tics));
+  json["title"] = chart.title;
+  json["symbol"] = chart.symbol;
+  json["decimal"] = chart.scale == AxisScale::decimal;
+  json["curves"] = curves;
+  return json;
+}
+
+/// The charts, and rows of t, q and the values of all curves, where each chart finds its own.
+void add_data(OrderedJson& data, const MovingPage& page) {
+  OrderedJson charts = OrderedJson::array(), rows = OrderedJson::array();
+  std::size_t column = 1 + page.q.front().size();
+  for (const PageChart& chart : page.charts) {
+    charts.push_back(json_of(chart, column));
+    column += chart.curves.size();
+  }
+  for (std::size_t i = 0; i < page.t.size(); ++i) {
+    OrderedJson row = OrderedJson::array({any_number(page.t[i])});
+    for (const double x : page.q[i]) row.push_back(any_number(x));
+    for (const PageChart& chart : page.charts)
+      for (const PageCurve& curve : chart.curves) row.push_back(any_number(curve.values[i]));
+    rows.push_back(std::move(row));
+  }
+  const AxisRange time = range_of(page.t);
+  data["time"] = json_of(time, tics_of(time, AxisScale::linear, most_tics));
+  data["charts"] = charts;
+  data["samples"] = rows;
+}
+
+/// 12 000
+std::string grouped(long n) {
+  constexpr long short_enough = 10'000;
+  if (n < short_enough) return std::to_string(n);
+  std::string digits = std::to_string(n);
+  for (auto at = static_cast<long>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), "\u00A0");
+  return digits;
+}
+
+std::string ordinal(long n) {
+  const long last = n % 10, teens = n % 100 / 10;
+  return grouped(n) + (teens == 1 ? "th" : last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th");
+}
+
+/// What is seen of the run, and whether it came to its end.
+std::string account_of(const MovingPage& page) {
+  std::string text = page.every == 1
+                         ? fmt::format("Every state of {} step{}.", grouped(page.steps), page.steps == 1 ? "" : "s")
+                         : fmt::format(
+                               "Every {} of {} steps, and the last; each error is the greatest since the "
+                               "state shown before it.",
+                               ordinal(page.every), grouped(page.steps));
+  if (page.last_step < page.steps)
+    text += fmt::format(" The run ended early: what is shown ends at t = {:.6g}.", page.t.back());
+  return text;
+}
+
+/// A text with each {{name}} in it replaced; what is put there is not looked at again.
+std::string filled(std::string_view form, const std::map<std::string, std::string, std::less<>>& words) {
+  constexpr std::string_view open = "{{", close = "}}";
+  std::string result;
+  for (;;) {
+    const std::size_t at = form.find(open), end = form.find(close, at);
+    if (end == std::string_view::npos) return result.append(form);
+    result.append(form.substr(0, at));
+    result += words.find(form.substr(at + open.size(), end - at - open.size()))->second;
+    form.remove_prefix(end + close.size());
+  }
+}
+
+/// A scene that would fill the page is cut.
+std::string cut(const std::string& text) {
+  constexpr std::size_t most = moving_page_bytes / 10;
+  if (text.size() <= most) return text;
+  const std::size_t end = text.rfind('\n', most) + 1, rest = text.size() - end;
+  return text.substr(0, end) + "# … and " + grouped(static_cast<long>(rest)) + " bytes more\n";
+}
+
+}  // namespace
+
+std::string moving_page(const MovingPage& page) {
+  const PageParts& parts = page_parts();
+  if (parts.dygraphs.empty())
+    throw InputError("this build has no dygraphs, which draws the curves of a page; write .svg or .png instead");
+  const OrderedJson drawn = json_of(page.sketch, page.colours);
+  OrderedJson colours = OrderedJson::array();
+  for (const std::string_view colour : curve_colours) colours.push_back(colour);
+  std::map<std::string, std::string, std::less<>> words{{"title", html(page.title)},
+                                                        {"name", html(page.name)},
+                                                        {"method", html(page.method)},
+                                                        {"precision", html(page.precision)},
+                                                        {"step", html(page.step)},
+                                                        {"until", html(page.until)},
+                                                        {"program", html(std::string("hbvm ") + version())},
+                                                        {"command", html(page.command)},
+                                                        {"scene", html(cut(page.scene))},
+                                                        {"style", parts.dygraphs_style + parts.style},
+                                                        {"dygraphs", parts.dygraphs},
+                                                        {"script", parts.script}};
+  // As many times as there is room for.
+  for (std::size_t k = 1;; ++k) {
+    const MovingPage shown = thinned(page, k);
+    OrderedJson data{{"colours", colours},
+                     {"every", shown.every},
+                     {"steps", shown.steps},
+                     {"last_step", shown.last_step},
+                     {"sketch", drawn}};
+    add_data(data, shown);
+    words["account"] = html(account_of(shown));
+    words["data"] = within_script(dumped(data, -1));
+    std::string text = filled(parts.html, words);
+    if (text.size() < moving_page_bytes) return text;
+    if (shown.t.size() <= 2)
+      throw Error(fmt::format("'{}' has {} coordinates, too many for a page of less than {} bytes: use --plot FILE.svg",
+                              page.name, shown.q.front().size(), moving_page_bytes));
+  }
+}
+
+}  // namespace hbvm::core

@@ -1,0 +1,99 @@
+#include "compare/method_pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "runs/request_of.hpp"
+
+namespace hbvm::core {
+namespace {
+
+struct Compared {
+  RunRequest request;
+  std::vector<RecordedMethod> runs;
+
+  Compared(const char* scene, const std::vector<const char*>& names, const char* step, const char* until)
+      : request(request_of(load_scene(scene), "rattle", step, until)) {
+    std::vector<MethodPtr> methods;
+    for (const char* const name : names) methods.push_back(parse_method(name));
+    runs = run_methods(request, methods, {});
+  }
+  Figure figure() const { return methods_figure(request, runs, "hbvm compare"); }
+  nlohmann::json page() const {
+    const std::string page = methods_page(request, runs, "hbvm compare");
+    const std::size_t at = page.find('>', page.find("<script type=\"application/json\"")) + 1;
+    return nlohmann::json::parse(page.substr(at, page.find("</", at) - at));
+  }
+};
+
+TEST(MethodPictures, HaveACurveAMethodInEachPanel) {
+  const Figure figure = Compared("double_pendulum", {"hbvm:4,2", "rattle"}, "1/16", "2").figure();
+  ASSERT_EQ(figure.panels.size(), 5u);
+  for (const Panel& panel : figure.panels) {
+    ASSERT_EQ(panel.curves.size(), 2u) << panel.title;
+    EXPECT_EQ(panel.curves[0].label, plain("hbvm:4,2"));
+    EXPECT_EQ(panel.curves[1].label, "rattle");
+  }
+  EXPECT_TRUE(figure.panels[0].equal_axes);
+  EXPECT_EQ(figure.panels[1].y.scale, AxisScale::decimal);
+  EXPECT_EQ(figure.panels[2].y.scale, AxisScale::linear);
+  EXPECT_EQ(Compared("kepler", {"rk4"}, "1/16", "2").figure().panels.size(), 3u);
+  EXPECT_EQ(Compared("heavy_top", {"rattle"}, "1/16", "1").figure().panels.size(), 6u);
+}
+
+/// Both pendulums of a method are one curve, with a gap between them.
+TEST(MethodPictures, JoinThePathsOfAMotion) {
+  const Compared compared("double_pendulum", {"rattle"}, "1/16", "2");
+  const Curve curve = compared.figure().panels[0].curves[0];
+  ASSERT_EQ(curve.points.size(), 2 * 33u + 1);
+  EXPECT_TRUE(std::isnan(curve.points[33][0]));
+  EXPECT_EQ(curve.points[34][0], compared.runs[0].recording.samples[0].q[2]);
+}
+
+/// Explicit Euler spirals away from the sun; it is seen until it has left what the others stay in, its error is all.
+TEST(MethodPictures, ShowAMotionUntilItLeaves) {
+  const Compared compared("kepler", {"euler", "rattle"}, "1/8", "100");
+  const Figure figure = compared.figure();
+  const auto seen = [](const Curve& curve) {
+    return std::count_if(curve.points.begin(), curve.points.end(),
+                         [](const PlotPoint& x) { return std::isfinite(x[0]); });
+  };
+  const long all = seen(figure.panels[0].curves[1]);
+  EXPECT_EQ(all, 801);
+  EXPECT_LT(seen(figure.panels[0].curves[0]), all);
+  EXPECT_GT(seen(figure.panels[0].curves[0]), 10);
+  EXPECT_EQ(figure.panels[1].curves[0].points.size(), 801u);
+}
+
+/// Every motion has its places, its coordinates and one colour; what is fixed has none and is named once.
+TEST(MethodPictures, APageMovesAllOnOneClock) {
+  const Compared compared("double_pendulum", {"hbvm:4,2", "rattle"}, "1/16", "2");
+  const nlohmann::json data = compared.page(), places = data["sketch"]["places"];
+  ASSERT_EQ(places.size(), 6u);
+  EXPECT_EQ(data["charts"].size(), 4u);
+  EXPECT_EQ(data["samples"].size(), 33u);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool moves = !places[i]["blocks"].empty();
+    const long run = i < 3 ? 0 : 1;
+    EXPECT_EQ(places[i]["colour"], moves ? run : -1);
+    EXPECT_EQ(places[i]["labelled"], moves || run == 0);
+    if (!moves) continue;
+    const std::size_t column = 1 + places[i]["blocks"][0][0].get<std::size_t>();
+    const double x = data["samples"][20][column];
+    EXPECT_EQ(x, compared.runs[static_cast<std::size_t>(run)].recording.samples[20].q[(column - 1) % 4]);
+  }
+}
+
+TEST(MethodPictures, CallASingleBodyByItsMethod) {
+  const nlohmann::json places = Compared("kepler", {"gauss:2", "rk4"}, "1/16", "2").page()["sketch"]["places"];
+  std::vector<std::string> names;
+  for (const auto& place : places)
+    if (place["has_mass"]) names.push_back(place["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"hbvm:2,2", "rk4"}));
+}
+
+}  // namespace
+}  // namespace hbvm::core
