@@ -75,4 +75,48 @@ MethodComparison compare_methods(const MethodsRequest& request);
 std::string to_text(const MethodComparison& comparison);
 std::string to_json(const MethodComparison& comparison);
 
+/// Errors against the step, of several methods on one scene, and the rates that they tend to.
+struct ConvergenceRequest {
+  Scene scene;
+  std::vector<std::string> methods;
+  std::string steps;                 ///< "1/8:1/256", each half of the one before
+  std::optional<Number> until = {};  ///< a multiple of the steps; without, sixteen of the longest
+  std::vector<std::string> precisions = {"double"};
+  bool propagated = false;  ///< p and lambda as they are carried on, instead of those of the output state
+  bool picture = false;
+  std::function<void(long done, long of)> progress = {};  ///< called now and then, with steps of all runs
+  std::stop_token stop = {};
+};
+
+/// A rate lies within value +- uncertainty, as the audit's judge has it from the slopes of five steps or more.
+struct MeasuredRate {
+  double value = 0, uncertainty = 0;
+};
+
+/// One method in one precision. Parts are q, p and lambda; without constraints there is no lambda.
+struct MethodOrders {
+  struct Point {
+    std::string step, q, p, lambda;  ///< greatest errors at the end, as decimal text
+  };
+  std::string method, precision;
+  std::optional<MeasuredRate> q, p, lambda;  ///< none where too few errors are above round-off
+  std::vector<Point> points;                 ///< from coarse to fine
+  std::string failure;                       ///< of the first step that could not be made
+};
+
+struct ConvergenceStudy {
+  std::string scene, title, until;
+  bool propagated = false;
+  std::vector<MethodOrders> methods;
+  std::optional<Figure> figure;  ///< a panel for each of q, p and lambda, with slopes; if a picture was asked for
+  std::string command;           ///< of the program, which makes the same
+};
+
+/// \throws InputError, also where the exact motion is not known; Interrupted
+ConvergenceStudy convergence(const ConvergenceRequest& request);
+
+/// A table of rates, and of the errors of the finest step.
+std::string to_text(const ConvergenceStudy& convergence);
+std::string to_json(const ConvergenceStudy& convergence);
+
 }  // namespace hbvm

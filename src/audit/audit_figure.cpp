@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "audit/report.hpp"
+#include "audit/slope_triangle.hpp"
 #include "measurements.hpp"
 #include "scalar/with_scalar.hpp"
 #include "step/hbvm_method.hpp"
@@ -12,8 +12,6 @@
 
 namespace hbvm::core {
 namespace {
-
-constexpr double log10_of_2 = std::numbers::ln2 / std::numbers::ln10;
 
 /// One curve: errors over an interval of the modified pendulum, in one precision.
 struct Line {
@@ -35,15 +33,6 @@ std::vector<Rung> rungs_of(const Line& line) {
 }
 
 std::string text_of(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : ""; }
-
-/// A triangle of this slope a little below a curve, over two halvings that end at rung `at`.
-void add_triangle(Panel& panel, const std::vector<Rung>& rungs, std::size_t at, int slope) {
-  const double decades_below = (1 + slope) / double{4};
-  const double right = rungs.at(at - 2).step, left = rungs.at(at).step;
-  const double low = rungs[at].error * log10_of_2 - decades_below, high = low + slope * (right - left) * log10_of_2;
-  panel.lines.push_back({{{left, low}, {right, low}, {right, high}, {left, low}}});
-  panel.labels.push_back({{right, (low + high) / 2}, std::to_string(slope)});
-}
 
 /// A panel of some lines, whose numbers are kept in a file; `slopes`: of which line, its slope.
 Panel panel_of(const std::string& title, const std::vector<Line>& lines,
@@ -67,7 +56,7 @@ Panel panel_of(const std::string& title, const std::vector<Line>& lines,
     text += "\n";
   }
   write_file(csv, text);
-  for (const auto& [line, slope] : slopes) add_triangle(panel, ladders[line], ladders[line].size() - 3, slope);
+  for (const auto& [line, slope] : slopes) add_slope_triangle(panel, ladders[line], ladders[line].size() - 3, slope);
   return panel;
 }
 

@@ -10,6 +10,7 @@ void add_nodes_command(CLI::App& app);
 void add_scenes_command(CLI::App& app);
 void add_methods_command(CLI::App& app);
 void add_scene_command(CLI::App& app);
+void add_convergence_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_study_command(CLI::App& app);
 void add_audit_command(CLI::App& app);

@@ -25,6 +25,7 @@ PictureFile::PictureFile(std::string file) : file_(std::move(file)) {
 }
 
 void PictureFile::write(const std::function<Figure()>& figure, const std::function<std::string()>& page) const {
+  if (is_page(file_) && !page) throw InputError("--plot: nothing moves here; use .svg, .pdf or .png");
   if (is_page(file_))
     write_file(file_, page());
   else

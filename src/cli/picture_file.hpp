@@ -14,6 +14,7 @@ class PictureFile {
   explicit PictureFile(std::string file);
 
   /// Draws the figure or writes the page, whichever the ending asks for, and says so.
+  /// \param page nothing if there is none \throws InputError if it is asked for nevertheless
   void write(const std::function<Figure()>& figure, const std::function<std::string()>& page) const;
 
  private:

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include "door/door.hpp"
+#include "door/run_of.hpp"
+#include "hbvm/error.hpp"
+#include "hbvm/run.hpp"
+#include "hbvm/study.hpp"
+#include "hbvm/table.hpp"
+#include "long_work/json.hpp"
+#include "step/registry.hpp"
+#include "study/convergence_figure.hpp"
+
+namespace hbvm {
+namespace {
+
+core::ConvergenceWork work_of(const ConvergenceRequest& asked) {
+  if (asked.methods.empty()) throw InputError("no method is named");
+  if (asked.precisions.empty()) throw InputError("no precision is named");
+  const std::size_t curves = asked.methods.size() * asked.precisions.size();
+  if (curves > curve_colours.size())
+    throw InputError(
+        fmt::format("{} methods in {} precisions are more than the {} curves that a picture can tell apart",
+                    asked.methods.size(), asked.precisions.size(), curve_colours.size()));
+  const core::Constants constants = core::scene_of(asked.scene).constants;
+  std::vector<core::Expression> steps = core::halved_steps(asked.steps, constants);
+  const Number until = asked.until.value_or(Number(core::time_of_sixteen(steps.front(), constants).text()));
+  const core::RunRequest request =
+      core::request_of({.scene = asked.scene, .method = asked.methods.front(), .step = until, .until = until}, {});
+  core::ConvergenceWork work{request, {}, {}, std::move(steps)};
+  for (const std::string& name : asked.methods) work.methods.push_back(core::parse_method(name));
+  for (const std::string& name : asked.precisions) work.precisions.push_back(core::Precision::parse(name));
+  work.propagated = asked.propagated;
+  work.progress = asked.progress;
+  return work;
+}
+
+std::string command_of(const ConvergenceRequest& asked, const core::ConvergenceWork& work) {
+  std::string text = "hbvm convergence " + asked.scene.name() + " --methods";
+  for (const core::MethodPtr& method : work.methods) text += " " + method->text();
+  text += " --steps '" + asked.steps + "' --until '" + work.request.until.text() + "' --precision";
+  for (const core::Precision& precision : work.precisions) text += " " + precision.name();
+  return text + (work.propagated ? " --propagated" : "");
+}
+
+std::optional<MeasuredRate> rate_of(const std::optional<core::Rate>& rate) {
+  if (!rate) return std::nullopt;
+  return MeasuredRate{rate->value, rate->uncertainty};
+}
+
+MethodOrders orders_of(const core::MeasuredConvergence& one) {
+  MethodOrders orders{one.method, one.precision, rate_of(one.rates[0]), rate_of(one.rates[1]), rate_of(one.rates[2]),
+                      {},         one.failure};
+  for (const core::ConvergenceStep& step : one.steps)
+    orders.points.push_back({step.step, step.errors[0], step.errors[1], step.errors[2]});
+  return orders;
+}
+
+std::string text_of(const std::optional<MeasuredRate>& rate) {
+  return rate ? fmt::format("{:.2f} +- {:.2f}", rate->value, rate->uncertainty) : "-";
+}
+
+bool has_lambda(const ConvergenceStudy& convergence) {
+  for (const MethodOrders& one : convergence.methods)
+    if (!one.points.empty() && !one.points.front().lambda.empty()) return true;
+  return false;
+}
+
+}  // namespace
+
+ConvergenceStudy convergence(const ConvergenceRequest& door) {
+  const core::Admitted admitted(door.stop);
+  const core::ConvergenceWork work = work_of(door);
+  const std::vector<core::MeasuredConvergence> measured = core::measure_convergence(work);
+  ConvergenceStudy result;
+  result.scene = work.request.scene.name;
+  result.title = work.request.scene.title;
+  result.until = work.request.until.text();
+  result.propagated = work.propagated;
+  result.command = command_of(door, work);
+  for (const core::MeasuredConvergence& one : measured) result.methods.push_back(orders_of(one));
+  if (door.picture) result.figure = core::convergence_figure(work, measured, result.command);
+  return result;
+}
+
+std::string to_text(const ConvergenceStudy& convergence) {
+  const bool constrained = has_lambda(convergence);
+  Table table;
+  table.columns = {"method", "precision", "order of q", "order of p"};
+  if (constrained) table.columns.emplace_back("order of lambda");
+  table.columns.insert(table.columns.end(), {"finest step", "error of q", "error of p"});
+  if (constrained) table.columns.emplace_back("error of lambda");
+  const char* const parts = !constrained             ? ""
+                            : convergence.propagated ? "; p and lambda propagated"
+                                                     : "; p and lambda of the output state";
+  Table::Group group{
+      .heading = fmt::format("{}: {} at t = {}{}", convergence.scene, convergence.title, convergence.until, parts),
+      .keys = {},
+      .rows = {}};
+  std::string failures;
+  for (const MethodOrders& one : convergence.methods) {
+    std::vector<std::string> row{one.method, one.precision, text_of(one.q), text_of(one.p)};
+    if (constrained) row.push_back(text_of(one.lambda));
+    const MethodOrders::Point finest = one.points.empty() ? MethodOrders::Point{} : one.points.back();
+    row.insert(row.end(), {finest.step, finest.q, finest.p});
+    if (constrained) row.push_back(finest.lambda);
+    group.rows.push_back(row);
+    if (!one.failure.empty()) failures += one.method + ", " + one.precision + ", " + one.failure + "\n";
+  }
+  table.groups.push_back(group);
+  return to_text(table) + failures;
+}
+
+std::string to_json(const ConvergenceStudy& convergence) {
+  core::OrderedJson methods = core::OrderedJson::array();
+  for (const MethodOrders& one : convergence.methods) {
+    core::OrderedJson orders, points = core::OrderedJson::array();
+    const auto add = [&](const char* name, const std::optional<MeasuredRate>& rate) {
+      if (rate)
+        orders[name] = {{"rate", rate->value}, {"uncertainty", rate->uncertainty}};
+      else
+        orders[name] = nullptr;
+    };
+    add("q", one.q);
+    add("p", one.p);
+    if (has_lambda(convergence)) add("lambda", one.lambda);
+    for (const MethodOrders::Point& point : one.points) {
+      core::OrderedJson error{{"q", point.q}, {"p", point.p}};
+      if (!point.lambda.empty()) error["lambda"] = point.lambda;
+      points.push_back({{"step", point.step}, {"error", error}});
+    }
+    core::OrderedJson json{
+        {"method", one.method}, {"precision", one.precision}, {"orders", orders}, {"points", points}};
+    if (!one.failure.empty()) json["failure"] = one.failure;
+    methods.push_back(std::move(json));
+  }
+  return core::dumped({{"scene", convergence.scene},
+                       {"until", convergence.until},
+                       {"propagated", convergence.propagated},
+                       {"methods", methods},
+                       {"command", convergence.command}},
+                      2);
+}
+
+}  // namespace hbvm
