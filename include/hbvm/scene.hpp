@@ -85,6 +85,9 @@ class Scene {
   Scene& constraint(const Constraint& constraint);
   Scene& rod(const std::string& a, const std::string& b, const Number& length);
   Scene& effect(const Effect& effect);
+  /// Another value of a constant by its name, "L", or of a body's "a.mass" or "a.charge". The scene is read then.
+  /// \throws InputError for what there is not, with what there is
+  Scene& set(const std::string& what, const Number& value);
   /// "energy", "linear_momentum" or "angular_momentum": a run tells how well it is conserved.
   Scene& observe(const std::string& quantity);
 

@@ -7,13 +7,15 @@
 #include "hbvm/study.hpp"
 #include "picture_file.hpp"
 #include "progress_bar.hpp"
+#include "scene_argument.hpp"
 #include "signals.hpp"
 
 namespace hbvm::core {
 namespace {
 
 struct CompareArguments {
-  std::string scene, until, precision = "double";
+  SceneArgument scene;
+  std::string until, precision = "double";
   std::vector<std::string> methods, plots;
   std::optional<std::string> step;
   bool reference = false, json = false;
@@ -21,9 +23,9 @@ struct CompareArguments {
 
 void compare_command(const CompareArguments& o) {
   const std::vector<PictureFile> pictures(o.plots.begin(), o.plots.end());
-  ProgressBar bar(o.scene);
+  ProgressBar bar(o.scene.name);
   end_runs_on_signals();
-  const MethodComparison comparison = compare_methods({.scene = hbvm::load_scene(o.scene),
+  const MethodComparison comparison = compare_methods({.scene = o.scene.load(),
                                                        .methods = o.methods,
                                                        .step = o.step,
                                                        .until = o.until,
@@ -42,7 +44,7 @@ void add_compare_command(CLI::App& app) {
   auto o = std::make_shared<CompareArguments>();
   CLI::App* const command =
       app.add_subcommand("compare", "Run several methods on one scene: one table, one figure, one page that moves");
-  command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
+  o->scene.add_to(*command);
   command->add_option("--methods", o->methods, "Two methods or more, as `hbvm methods` lists them")
       ->required()
       ->delimiter(' ');

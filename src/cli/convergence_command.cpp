@@ -7,13 +7,15 @@
 #include "hbvm/study.hpp"
 #include "picture_file.hpp"
 #include "progress_bar.hpp"
+#include "scene_argument.hpp"
 #include "signals.hpp"
 
 namespace hbvm::core {
 namespace {
 
 struct ConvergenceArguments {
-  std::string scene, steps;
+  SceneArgument scene;
+  std::string steps;
   std::vector<std::string> methods, precisions{"double"};
   std::optional<std::string> until, plot;
   bool propagated = false, json = false;
@@ -22,9 +24,9 @@ struct ConvergenceArguments {
 void convergence_command(const ConvergenceArguments& o) {
   std::optional<PictureFile> picture;
   if (o.plot) picture.emplace(*o.plot);
-  ProgressBar bar(o.scene);
+  ProgressBar bar(o.scene.name);
   end_runs_on_signals();
-  const ConvergenceStudy result = convergence({.scene = hbvm::load_scene(o.scene),
+  const ConvergenceStudy result = convergence({.scene = o.scene.load(),
                                                .methods = o.methods,
                                                .steps = o.steps,
                                                .until = o.until,
@@ -42,7 +44,7 @@ void add_convergence_command(CLI::App& app) {
   auto o = std::make_shared<ConvergenceArguments>();
   CLI::App* const command =
       app.add_subcommand("convergence", "Measure the orders of methods: errors against the step, and their rates");
-  command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
+  o->scene.add_to(*command);
   command->add_option("--methods", o->methods, "One method or more, as `hbvm methods` lists them")->required();
   command->add_option("--steps", o->steps, "A:B, each step half of the one before, as 1/8:1/256; five at least")
       ->required();

@@ -17,6 +17,7 @@
 #include "processes/draw.hpp"
 #include "processes/in_processes.hpp"
 #include "report/csvw.hpp"
+#include "scene_argument.hpp"
 #include "signals.hpp"
 #include "write_file.hpp"
 
@@ -26,7 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CostArguments {
-  std::string scene, until = "10", quantity = "all", range = "2:100";
+  SceneArgument scene;
+  std::string until = "10", quantity = "all", range = "2:100";
   std::vector<std::string> methods, precisions;
   double seconds = 2;
   std::optional<int> digits;
@@ -59,7 +61,7 @@ std::pair<double, double> range_of_digits(const std::string& text) {
 }
 
 CostStudy study_of(const CostArguments& o) {
-  CostStudy study{load_scene(o.scene), expression_of(o.until, "--until:")};
+  CostStudy study{scene_of(o.scene.load()), expression_of(o.until, "--until:")};
   study.quantity = parse_cost_quantity(o.quantity);
   std::tie(study.least_digits, study.most_digits) = range_of_digits(o.range);
   study.methods = cost_methods(o.methods, study.most_digits);
@@ -79,7 +81,9 @@ std::string quoted_words(const std::vector<std::string>& words) {
 }
 
 std::string command_of(const CostArguments& o) {
-  std::string text = "hbvm cost" + quoted_words({o.scene}) + " --until" + quoted_words({o.until});
+  std::string text = "hbvm cost" + quoted_words({o.scene.name});
+  for (const std::string& setting : o.scene.settings) text += " --set" + quoted_words({setting});
+  text += " --until" + quoted_words({o.until});
   if (!o.methods.empty()) text += " --methods" + quoted_words(o.methods);
   if (!o.precisions.empty()) text += " --precisions" + quoted_words(o.precisions);
   return text + " --quantity " + o.quantity;
@@ -152,7 +156,7 @@ void grid_command(const CostArguments& o) {
 }
 
 void plan_command(const CostArguments& o) {
-  PlanRequest request{load_scene(o.scene), expression_of(o.until, "--until:"), *o.digits,
+  PlanRequest request{scene_of(o.scene.load()), expression_of(o.until, "--until:"), *o.digits,
                       parse_cost_quantity(o.quantity)};
   request.methods = cost_methods(o.methods, request.digits, Choice::dense);
   for (const std::string& name : o.precisions) request.precisions.push_back(Precision::parse(name));
@@ -177,7 +181,7 @@ void add_cost_command(CLI::App& app) {
       "cost", "What accuracy costs in time: error against time over methods, orders, steps and precisions");
   std::string families;
   for (const std::string& name : cost_families()) families += (families.empty() ? "" : ", ") + name;
-  command->add_option("SCENE", o->scene, "Scene file or built-in scene")->required();
+  o->scene.add_to(*command);
   command->add_option("--methods", o->methods,
                       "Methods, or families of them: " + families + " (default: all of these families)");
   command->add_option("--precisions", o->precisions, "Some of double, quad, mpfr:N (default: what the digits ask for)");

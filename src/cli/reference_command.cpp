@@ -21,6 +21,8 @@
 #include "reference/compute_reference.hpp"
 #include "reference/store.hpp"
 #include "scene/coordinate_names.hpp"
+#include "scene/set_number.hpp"
+#include "scene_argument.hpp"
 #include "signals.hpp"
 
 namespace hbvm::core {
@@ -28,6 +30,7 @@ namespace {
 
 struct ReferenceArguments {
   std::optional<std::string> scene, until, route, out, verify, show, checkpoint;
+  SceneArgument settings;  ///< what is set in the scene
   std::vector<std::string> at;
   ComparisonArguments against;
   int digits = 30;
@@ -188,13 +191,13 @@ void reference_command(const ReferenceArguments& o) {
   if (!o.scene) throw InputError("reference: a scene is missing (see hbvm reference --help)");
   if (!o.until && o.at.empty()) throw InputError("reference: --until or --at is missing");
   ReferenceRequest request;
-  request.scene = load_scene(*o.scene);
+  request.scene = scene_of(SceneArgument{*o.scene, o.settings.settings}.load());
   request.digits = o.digits;
   request.force = o.force;
   for (const std::string& text : o.at) request.times.push_back(time_of(text));
   if (o.at.empty()) request.times.push_back(time_of(*o.until));
   if (o.route) request.only = parse_route(*o.route);
-  std::string command = "hbvm reference " + *o.scene;
+  std::string command = "hbvm reference " + *o.scene + settings_in_command(request.scene);
   if (o.until) command += " --until " + *o.until;
   for (std::size_t i = 0; i < o.at.size(); ++i) command += (i == 0 ? " --at " : ",") + o.at[i];
   command += fmt::format(" --digits {}", o.digits);
@@ -219,6 +222,7 @@ void add_reference_command(CLI::App& app) {
                                                "that share only the scene, and by the closed "
                                                "form where there is one");
   command->add_option("SCENE,--scene", o->scene, "Scene file or built-in scene");
+  o->settings.add_settings_to(*command);
   command->add_option("--until", o->until, "Time of the state, as 10 or '2*pi'");
   command->add_option("--at", o->at, "Times T1,T2,... of the states instead, ascending")->delimiter(',');
   command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")

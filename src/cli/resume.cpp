@@ -18,10 +18,18 @@ bool may_be_another(const std::string& name) {
   return is_one_of(name, {"scene", "--start", "--out", "--every-seconds", "--json"});
 }
 
-std::string given(const CLI::Option& option) {
+std::string joined(const std::vector<std::string>& results) {
   std::string text;
-  for (const std::string& result : option.results()) text += (text.empty() ? "" : " ") + result;
+  for (const std::string& result : results) text += (text.empty() ? "" : " ") + result;
   return text;
+}
+
+/// What was given for an option, each time it was.
+std::vector<std::string> results_of(const GivenOptions& options, const std::string& name) {
+  std::vector<std::string> results;
+  for (const auto& [option, result] : options)
+    if (option == name) results.push_back(result);
+  return results;
 }
 
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
@@ -38,7 +46,8 @@ std::string shown(const CLI::Option& option, const std::string& text) {
 GivenOptions given_options(const CLI::App& command) {
   GivenOptions result;
   for (const CLI::Option* option : command.get_options())
-    if (option->count() > 0 && !says_where(option->get_name())) result.emplace_back(option->get_name(), given(*option));
+    if (option->count() > 0 && !says_where(option->get_name()))
+      for (const std::string& text : option->results()) result.emplace_back(option->get_name(), text);
   return result;
 }
 
@@ -47,16 +56,16 @@ void take_options(CLI::App& command, const std::string& file, const Checkpoint& 
   for (CLI::Option* const option : command.get_options()) {
     const std::string name = option->get_name();
     if (says_where(name)) continue;
-    const auto place = std::find_if(known.begin(), known.end(), [&](const auto& entry) { return entry.first == name; });
-    const bool was_given = place != known.end();
+    const std::vector<std::string> before = results_of(known, name);
+    const bool was_given = !before.empty();
     if (option->count() == 0) {
       if (!was_given) continue;
-      option->add_result(place->second);
+      for (const std::string& result : before) option->add_result(result);
       option->run_callback();
       continue;
     }
     if (may_be_another(name) && (was_given || name == "--json" || name == "--every-seconds")) continue;
-    const std::string now = given(*option), then = was_given ? place->second : option->get_default_str();
+    const std::string now = joined(option->results()), then = was_given ? joined(before) : option->get_default_str();
     if (now != then)
       throw InputError("--resume: '" + file + "' was written " + shown(*option, then) + ", and the command is " +
                        shown(*option, now));

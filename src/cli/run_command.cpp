@@ -27,6 +27,7 @@
 #include "run/trajectory_metadata.hpp"
 #include "scalar/text.hpp"
 #include "scene/coordinate_names.hpp"
+#include "scene_argument.hpp"
 #include "signals.hpp"
 #include "step/registry.hpp"
 #include "write_file.hpp"
@@ -35,7 +36,8 @@ namespace hbvm::core {
 namespace {
 
 struct RunArguments {
-  std::string scene, method = usual_method, until;
+  SceneArgument scene;
+  std::string method = usual_method, until;
   std::optional<std::string> step;
   std::string precision = "double", solver = "auto", on_failure = "stop";
   std::optional<std::string> out, start, plot;
@@ -154,7 +156,7 @@ void print(const RunRequest& request, const Run& result, const Account& account)
 std::unique_ptr<CsvFile> open(const std::string& path, const RunArguments& o) {
   try {
     if (o.resumed) return std::make_unique<CsvFile>(path, CsvFile::Opening::to_go_on);
-    for (const std::optional<std::string>& input : {std::optional(o.scene), o.start}) {
+    for (const std::optional<std::string>& input : {std::optional(o.scene.name), o.start}) {
       std::error_code ignored;
       if (input && std::filesystem::equivalent(path, *input, ignored))
         throw InputError("'" + path + "' is what the run starts from");
@@ -174,12 +176,12 @@ RunIdentity identity_of(const RunArguments& o, const CLI::App& command) {
     if (identity.program != version())
       refuse("was written by hbvm " + identity.program + ", and this is " + version() +
              ", whose steps may differ in the last bits");
-    if (o.scene_given && write_scene(load_scene(o.scene)) != identity.scene)
+    if (o.scene_given && write_scene(scene_of(o.scene.load())) != identity.scene)
       refuse("is of another scene: of '" + identity.scene_name + "' as it was then");
     if (o.start && o.start_given && read_file(*o.start) != identity.start)
       refuse("starts from another state than that in '" + *o.start + "'");
   } else {
-    const Scene scene = load_scene(o.scene);
+    const Scene scene = scene_of(o.scene.load());
     identity = {version(), scene.name, write_scene(scene), o.start ? read_file(*o.start) : std::string(), {}};
   }
   identity.options = given_options(command);
@@ -187,7 +189,7 @@ RunIdentity identity_of(const RunArguments& o, const CLI::App& command) {
 }
 
 hbvm::RunRequest asked_of(const RunArguments& o, const RunIdentity& identity) {
-  return {.scene = o.resumed ? hbvm::read_scene(identity.scene, identity.scene_name) : hbvm::load_scene(o.scene),
+  return {.scene = o.resumed ? hbvm::read_scene(identity.scene, identity.scene_name) : o.scene.load(),
           .method = o.method,
           .step = o.step,
           .until = o.until,
@@ -248,7 +250,8 @@ void run_command(const RunArguments& o, const CLI::App& command) {
     if (file) refuse_dash(option, *file);
   const RunIdentity identity = identity_of(o, command);
   const hbvm::RunRequest asked = asked_of(o, identity);
-  const RunRequest request = request_of(asked, o.start);
+  RunRequest request = request_of(asked, o.start);
+  if (o.resumed) request.scene.changes = o.scene.settings;
   const std::string made_by = command_of(asked, request);
   std::optional<Checkpoints> checkpoints = checkpoints_of(o, identity);
   RunHooks hooks;
@@ -303,7 +306,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
 void add_run_command(CLI::App& app) {
   auto o = std::make_shared<RunArguments>();
   CLI::App* const command = app.add_subcommand("run", "Integrate a scene and report the final state and its errors");
-  command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
+  o->scene.add_to(*command);
   command->add_option("--method", o->method, method_usage())->capture_default_str();
   command->add_option(
       "--step", o->step,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "door/door.hpp"
 #include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "run/describe.hpp"
@@ -11,21 +12,23 @@
 #include "scalar/with_scalar.hpp"
 #include "scene/project.hpp"
 #include "scene/with_start.hpp"
+#include "scene_argument.hpp"
 
 namespace hbvm::core {
 namespace {
 
 struct ProjectArguments {
-  std::string scene, precision = "double";
+  SceneArgument scene;
+  std::string precision = "double";
   std::optional<std::string> out;
 };
 
 void project_command(const ProjectArguments& o) {
-  const std::string given = scene_text(o.scene);
-  const Scene scene = read_scene(given, o.scene);
+  const std::string given = o.scene.text();
+  const Scene scene = read_scene(given, o.scene.name);
   const std::string text = with_scalar(Precision::parse(o.precision), [&]<Scalar S>() {
     std::string projected = with_start(given, project<S>(scene));
-    assemble<S>(read_scene(projected, o.scene));  // what is written must be accepted
+    assemble<S>(read_scene(projected, o.scene.name));  // what is written must be accepted
     return projected;
   });
   if (!o.out || *o.out == "-") {
@@ -40,11 +43,12 @@ void project_command(const ProjectArguments& o) {
 }
 
 struct ShowArguments {
-  std::string scene, plot;
+  SceneArgument scene;
+  std::string plot;
 };
 
 void show_command(const ShowArguments& o) {
-  const Scene scene = load_scene(o.scene);
+  const Scene scene = scene_of(o.scene.load());
   const Vector<double> q = assemble<double>(scene).q0;
   Figure figure = scene_figure(sketch(scene), {q.begin(), q.end()});
   figure.caption = plain(scene.title);
@@ -56,7 +60,7 @@ void show_command(const ShowArguments& o) {
 void add_show(CLI::App& scene) {
   auto o = std::make_shared<ShowArguments>();
   CLI::App* const command = scene.add_subcommand("show", "Draw a scene at its start");
-  command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
+  o->scene.add_to(*command);
   command->add_option("--plot", o->plot, "Draw into this file: .svg, .pdf or .png; NAME.svg of the scene if absent");
   command->footer("Example: hbvm scene show four_bar_linkage --plot linkage.pdf");
   command->callback([o] { show_command(*o); });
@@ -74,7 +78,7 @@ void add_scene_command(CLI::App& app) {
         check ? scene->add_subcommand("check", "Explain a scene: dimensions, effects, energy, momenta")
               : scene->add_subcommand(
                     "project", "Write the nearest scene whose initial state fulfils the constraints, comments and all");
-    command->add_option("scene", o->scene, "Scene file, or a name that `hbvm scenes` lists")->required();
+    o->scene.add_to(*command);
     command->add_option("--precision", o->precision, "double, quad, or mpfr:N, or N alone, for N digits")
         ->capture_default_str();
     if (!check) command->add_option("--out", o->out, "Write to this file instead of standard output");
@@ -82,7 +86,7 @@ void add_scene_command(CLI::App& app) {
                           : "Example: hbvm scene project mine.toml --precision mpfr:60 --out consistent.toml");
     command->callback([o, check] {
       if (check)
-        std::cout << describe(load_scene(o->scene), Precision::parse(o->precision));
+        std::cout << describe(scene_of(o->scene.load()), Precision::parse(o->precision));
       else
         project_command(*o);
     });

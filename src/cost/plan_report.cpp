@@ -5,6 +5,7 @@
 #include "cost/planner.hpp"
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
+#include "scene/set_number.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -38,8 +39,9 @@ std::string shell_word(const std::string& text) {
 }
 
 std::string run_command(const PlanRequest& request, const PlannedSetting& s) {
-  return fmt::format("hbvm run {} --method {} --step {} --until {} --precision {}", shell_word(request.scene.name),
-                     s.method->text(), shell_word(s.step), shell_word(request.until.text()), s.precision.name());
+  return fmt::format("hbvm run {} --method {} --step {} --until {} --precision {}",
+                     shell_word(request.scene.name) + settings_in_command(request.scene), s.method->text(),
+                     shell_word(s.step), shell_word(request.until.text()), s.precision.name());
 }
 
 std::string error_text(double log10) {

@@ -7,6 +7,7 @@
 #include "hbvm/study.hpp"
 #include "hbvm/table.hpp"
 #include "long_work/json.hpp"
+#include "scene/set_number.hpp"
 #include "step/registry.hpp"
 #include "study/convergence_figure.hpp"
 
@@ -35,7 +36,8 @@ core::ConvergenceWork work_of(const ConvergenceRequest& asked) {
 }
 
 std::string command_of(const ConvergenceRequest& asked, const core::ConvergenceWork& work) {
-  std::string text = "hbvm convergence " + asked.scene.name() + " --methods";
+  std::string text =
+      "hbvm convergence " + work.request.scene.name + core::settings_in_command(work.request.scene) + " --methods";
   for (const core::MethodPtr& method : work.methods) text += " " + method->text();
   text += " --steps '" + asked.steps + "' --until '" + work.request.until.text() + "' --precision";
   for (const core::Precision& precision : work.precisions) text += " " + precision.name();

@@ -4,6 +4,7 @@
 #include "cost/planner.hpp"
 #include "door/door.hpp"
 #include "hbvm/cost.hpp"
+#include "scene/set_number.hpp"
 
 namespace hbvm {
 namespace {
@@ -34,7 +35,8 @@ Plan plan(const PlanRequest& door) {
   plan.text = core::to_text(request, found);
   plan.json = core::to_json(
       request, found,
-      fmt::format("hbvm cost {} --until '{}' --digits {}", door.scene.name(), door.until.text(), door.digits));
+      fmt::format("hbvm cost {} --until '{}' --digits {}",
+                  request.scene.name + core::settings_in_command(request.scene), door.until.text(), door.digits));
   return plan;
 }
 

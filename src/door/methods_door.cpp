@@ -9,6 +9,7 @@
 #include "hbvm/table.hpp"
 #include "long_work/json.hpp"
 #include "scalar/text.hpp"
+#include "scene/set_number.hpp"
 #include "step/registry.hpp"
 
 namespace hbvm {
@@ -17,9 +18,9 @@ namespace {
 std::string command_of(const MethodsRequest& asked, const core::RunRequest& request) {
   std::string names;
   for (const std::string& method : asked.methods) names += " " + method;
-  return "hbvm compare " + asked.scene.name() + " --methods" + names + " --step '" + request.step.text() +
-         "' --until '" + request.until.text() + "' --precision " + request.precision.name() +
-         (asked.reference ? " --reference" : "");
+  return "hbvm compare " + request.scene.name + core::settings_in_command(request.scene) + " --methods" + names +
+         " --step '" + request.step.text() + "' --until '" + request.until.text() + "' --precision " +
+         request.precision.name() + (asked.reference ? " --reference" : "");
 }
 
 bool has_constraints(const MethodComparison& comparison) {

@@ -13,6 +13,7 @@
 #include "run/run_figure.hpp"
 #include "run/run_page.hpp"
 #include "run/scene_run.hpp"
+#include "scene/set_number.hpp"
 #include "scene/sketch.hpp"
 #include "step/registry.hpp"
 
@@ -51,10 +52,11 @@ RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::st
 }
 
 std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request) {
-  return "hbvm run " + asked.scene.name() + " --method " + request.method->text() + " --step '" + request.step.text() +
-         "' --until '" + request.until.text() + "' --precision " + request.precision.name() + " --solver " +
-         std::string(name_of(request.solver)) + (request.start ? " --start " + request.start->file : "") +
-         (asked.reverse ? " --reverse" : "") + (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
+  return "hbvm run " + request.scene.name + settings_in_command(request.scene) + " --method " + request.method->text() +
+         " --step '" + request.step.text() + "' --until '" + request.until.text() + "' --precision " +
+         request.precision.name() + " --solver " + std::string(name_of(request.solver)) +
+         (request.start ? " --start " + request.start->file : "") + (asked.reverse ? " --reverse" : "") +
+         (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
 }
 
 Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command) {

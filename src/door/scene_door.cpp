@@ -5,6 +5,7 @@
 #include "hbvm/scene.hpp"
 #include "scene/assemble.hpp"
 #include "scene/scene.hpp"
+#include "scene/set_number.hpp"
 
 namespace hbvm {
 namespace {
@@ -175,6 +176,17 @@ Scene& Scene::effect(const Effect& effect) {
   std::vector<std::vector<std::string>> pairs;
   for (const auto& [a, b] : effect.between) pairs.push_back({a, b});
   tables_ += table.some("between", pairs).text();
+  return *this;
+}
+
+Scene& Scene::set(const std::string& what, const Number& value) {
+  auto changed = std::make_shared<core::Scene>(
+      core::with_number(core::scene_of(*this), what, core::expression_of(value, what + ":")));
+  constants_.clear();
+  observables_.clear();
+  tables_.clear();
+  head_ = core::write_scene(*changed);
+  read_ = std::move(changed);
   return *this;
 }
 

@@ -118,7 +118,8 @@ struct Scene {
   std::vector<SceneAttachment> attachments;
   std::vector<SceneConstraint> constraints;
   std::vector<SceneEffect> effects;
-  std::vector<std::string> observables;  ///< among energy, linear_momentum, angular_momentum
+  std::vector<std::string> observables;   ///< among energy, linear_momentum, angular_momentum
+  std::vector<std::string> changes = {};  ///< that were made to what the name stands for: "L=1.2"
 
   bool observes(std::string_view what) const {
     return std::find(observables.begin(), observables.end(), what) != observables.end();

@@ -56,6 +56,30 @@ TEST(RunDefaults, AreThoseOfTheLibraryInEachScene) {
     EXPECT_GE(json_of({"run", line.substr(0, line.find(' ')), "--until", "1"})["steps"].get<long>(), 1) << line;
 }
 
+/// A run goes on with what was set in its scene, and refuses another value.
+TEST(RunSet, ChangesNumbersOfTheScene) {
+  const Folder folder;
+  const std::string kept = folder / "kept";
+  const Arguments run = run_of("tethered_satellites", "rattle", "1/16", "2"),
+                  set{"--set", "z0=101/5", "--set", "1.mass=2"};
+  const ordered_json j = json_of(run + set + Arguments{"--checkpoint", kept}, {});
+  EXPECT_NE(j["q"], json_of(run)["q"]);
+  EXPECT_NE(j["command"].get<std::string>().find("--set 'z0=101/5' --set '1.mass=2'"), std::string::npos)
+      << j["command"];
+  const ordered_json again = json_of({"run", "--resume", kept});
+  EXPECT_EQ(again["q"], j["q"]);
+  EXPECT_EQ(again["command"], j["command"]);
+  expect_refused({"run", "--resume", kept, "--set", "z0=22"}, {"--set"});
+  expect_refused(run + Arguments{"--set", "z0"}, {"--set z0", "NAME=VALUE"});
+  expect_refused(run + Arguments{"--set", "y=1"}, {"'y'", "z0"});
+  expect_refused(run + Arguments{"--set", "z0=1/"}, {"z0"});
+}
+
+/// Standard input is empty here, and that is no scene.
+TEST(RunSet, ReadsASceneFromStandardInput) {
+  expect_refused(run_of("-", "rattle", "1/16", "2"), {"-:1:", "dimension"});
+}
+
 TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
   for (const char* precision : {"double", "quad", "mpfr:50", "mpfr:300"}) {
     const ordered_json j = json_of(run_of("modified_pendulum", "hbvm:3,2", "1/16", "1") +

@@ -96,5 +96,20 @@ TEST(DoorScene, KnowsThoseThatAreBuiltIn) {
   for (const std::string& name : {names.front(), names.back()}) load_scene(name).check();
 }
 
+/// Of a scene that was read and of one that is built; the command makes the same again.
+TEST(DoorScene, TakesOtherNumbers) {
+  Scene scene = load_scene("double_pendulum");
+  scene.set("a.mass", "7/3");
+  const hbvm::Run changed = run({.scene = scene, .method = "rattle", .step = "1/32", .until = 1});
+  EXPECT_NE(changed.q, run({.scene = load_scene("double_pendulum"), .method = "rattle", .step = "1/32", .until = 1}).q);
+  EXPECT_NE(changed.command.find("double_pendulum --set 'a.mass=7/3' --method"), std::string::npos) << changed.command;
+  Scene built(2, "built");
+  built.constant("m", 1).point("o", {0, 0}).body({.name = "a", .mass = "m", .position = {1, 0}}).rod("o", "a", 1);
+  built.set("m", 3).observe("energy");
+  EXPECT_NE(built.toml().find("m = \"3\""), std::string::npos) << built.toml();
+  EXPECT_EQ(run({.scene = built, .method = "rattle", .step = "1/4", .until = 1}).steps, 4);
+  EXPECT_THROW(scene.set("c.mass", 1), InputError);
+}
+
 }  // namespace
 }  // namespace hbvm

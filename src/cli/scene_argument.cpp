@@ -1,0 +1,48 @@
+#include "scene_argument.hpp"
+
+#include <iostream>
+#include <iterator>
+
+#include "hbvm/error.hpp"
+#include "scene/scene.hpp"
+
+namespace hbvm::core {
+namespace {
+
+/// Standard input can be read but once.
+const std::string& standard_input() {
+  static const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  return text;
+}
+
+}  // namespace
+
+void SceneArgument::add_to(CLI::App& command) {
+  command.add_option("scene", name, "Scene file, - for standard input, or a name that `hbvm scenes` lists")->required();
+  add_settings_to(command);
+}
+
+void SceneArgument::add_settings_to(CLI::App& command) {
+  command
+      .add_option("--set", settings,
+                  "NAME=VALUE: another value of a constant, or of a body's mass or charge, as a.mass=3; repeatable")
+      ->allow_extra_args(false);
+}
+
+hbvm::Scene SceneArgument::load() const {
+  hbvm::Scene scene = name == "-" ? hbvm::read_scene(standard_input(), name) : hbvm::load_scene(name);
+  for (const std::string& setting : settings) {
+    const std::size_t at = setting.find('=');
+    if (at == std::string::npos || at == 0 || at + 1 == setting.size())
+      throw InputError("--set " + setting + ": use NAME=VALUE, as L=1.2 or a.mass=3");
+    scene.set(setting.substr(0, at), setting.substr(at + 1));
+  }
+  return scene;
+}
+
+std::string SceneArgument::text() const {
+  if (!settings.empty()) return load().toml();
+  return name == "-" ? standard_input() : scene_text(name);
+}
+
+}  // namespace hbvm::core
