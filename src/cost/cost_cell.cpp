@@ -17,6 +17,7 @@
 #include "interruption.hpp"
 #include "run/run_stepper.hpp"
 #include "scalar/with_scalar.hpp"
+#include "thread_caches.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -41,12 +42,11 @@ long in_new_heap(const F& f, int most = 16) {
   return std::async(std::launch::async,
                     [&, asker = stop_request] {
                       const StopScope scope(asker);
+                      const ThreadCaches freed;
                       const std::size_t before = mallinfo2().arena;
                       const auto first = std::make_unique<char>();
                       const bool is_new = mallinfo2().arena != before;
-                      const long result = is_new || most == 0 ? f() : in_new_heap(f, most - 1);
-                      mpfr_free_cache();
-                      return result;
+                      return is_new || most == 0 ? f() : in_new_heap(f, most - 1);
                     })
       .get();
 }

@@ -1,7 +1,5 @@
 #include "long_work/cells.hpp"
 
-#include <mpfr.h>
-
 #include <algorithm>
 #include <atomic>
 #include <charconv>
@@ -14,6 +12,7 @@
 #include "hbvm/version.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
+#include "thread_caches.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -165,6 +164,7 @@ std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& c
     std::exception_ptr error;
     const auto work = [&, asker = stop_request] {
       const StopScope scope(asker);
+      const ThreadCaches freed;
       for (std::size_t n = next++; n < open.size(); n = next++) {
         try {
           end_if_asked("the work was not finished");
@@ -175,7 +175,6 @@ std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& c
           next = open.size();
         }
       }
-      mpfr_free_cache();
     };
     {
       std::vector<std::jthread> threads;

@@ -18,6 +18,7 @@
 #include "reference/route_run.hpp"
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
+#include "thread_caches.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -112,6 +113,7 @@ class Attempt {
       if (request_.only ? *request_.only == route : route != Route::hbvm || !without_hbvm_)
         futures.emplace_back(route, std::async(std::launch::async, [this, route, asker = stop_request] {
                                const StopScope scope(asker);
+                               const ThreadCaches freed;
                                return run(route);
                              }));
     std::vector<NamedRun> runs;
