@@ -29,7 +29,7 @@ WeakTerms::WeakTerms(const Assembled<Mpfr>& scene, int log2_scale, int exact_deg
   constexpr unsigned patterns = 4;
   for (unsigned pattern = 1; pattern <= patterns; ++pattern) {
     const Vector<Mpfr> off = kick(problem, point, log2_scale, scene.q0, scene.p0, pattern).q;
-    places_.push_back(scene.q0 + off / 64);
+    places_.emplace_back(scene.q0 + off / 64);
     directions_.push_back(off);
     raise_to(size_, max_norm(off));
   }

@@ -61,10 +61,8 @@ void MethodErrors::learn(const std::function<void(double)>& progress) {
                            std::log10(typical_reach(*method)) + nature_.log2_radius * std::log10(double{2}),
                            nature_.digits_lost};
     PlannedMethod planned{method, guess};
-    if (method->digits() || (is_gauss(*method) && method->stages() > most_piloted_stages))
-      methods_.push_back(planned);
-    else if (learn(planned))
-      methods_.push_back(planned);
+    const bool guessed = method->digits() || (is_gauss(*method) && method->stages() > most_piloted_stages);
+    if (guessed || learn(planned)) methods_.push_back(planned);
   }
   share_reach();
 }
@@ -106,9 +104,10 @@ bool MethodErrors::learn(PlannedMethod& planned) {
 /// Of a method that does not say its order: from half of the steps.
 void MethodErrors::learn_order(PlannedMethod& planned, const Precision& precision, long steps, double digits) const {
   if (planned.method->order() > 0 || steps < 2) return;
-  const CostMeasurement m = run(planned.method, precision, steps / 2, {1, 1, 0, false});
+  const long half = steps / 2;
+  const CostMeasurement m = run(planned.method, precision, half, {1, 1, 0, false});
   if (!m.failure.empty()) return;
-  const double ratio = std::log10(static_cast<double>(steps) / static_cast<double>(steps / 2));
+  const double ratio = std::log10(static_cast<double>(steps) / static_cast<double>(half));
   planned.model.order = std::max(double{1}, (digits + m.errors.of(request_.quantity)) / ratio);
 }
 

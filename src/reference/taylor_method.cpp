@@ -24,9 +24,9 @@ class TaylorStepper final : public CountingStepper<Mpfr> {
       TaylorMotion motion(problem_, state.q, state.p, [] { end_if_asked("a step is made of many"); });
       motion.advance_to(h);
       const auto steps = static_cast<std::uint64_t>(motion.steps() + 1);
-      for (std::size_t t = 0; t < effects_.size(); ++t) {
-        effects_[t].calls += steps;
-        effects_[t].evaluations += steps * static_cast<std::uint64_t>(motion.order());
+      for (auto& effect : effects_) {
+        effect.calls += steps;
+        effect.evaluations += steps * static_cast<std::uint64_t>(motion.order());
       }
       set(state.q, motion.q());
       set(state.p, motion.p());

@@ -102,8 +102,9 @@ FigureLayout layout_of(const Figure& figure) {
   FigureLayout layout{{static_cast<double>(columns) * width, static_cast<double>(rows) * height + top + foot}, {}};
   for (std::size_t i = 0; i < count; ++i) {
     PanelPlace place = ranges_of(figure.panels[i]);
+    const std::size_t row = i / columns;
     place.left = static_cast<double>(i % columns) * width + left_of_box;
-    place.bottom = foot + static_cast<double>(rows - 1 - i / columns) * height + below_box;
+    place.bottom = foot + static_cast<double>(rows - 1 - row) * height + below_box;
     layout.panels.push_back(place);
   }
   return layout;

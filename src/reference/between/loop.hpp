@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ball.hpp"
+#include "linear/index.hpp"
 
 namespace hbvm::core {
 
