@@ -56,11 +56,11 @@ Lobatto<S> make_lobatto(int s) {
     const Matrix<Mpfr> P = legendre_values<Mpfr>(exact.c, s), I = legendre_integrals<Mpfr>(exact.c, s);
     exact.b.resize(s);
     for (int i = 0; i < s; ++i) exact.b[i] = Mpfr(2 * N + 1) / (N * (N + 1) * P(i, N) * P(i, N));
-    // The formula integrates P_i P_j exactly but for i = j = N, where it finds 2 + 1/N for 1.
-    Matrix<Mpfr> projection(s, s);
-    for (int j = 0; j < s; ++j)
-      for (int i = 0; i < s; ++i) projection(j, i) = exact.b[i] * P(i, j) * (j == N ? Mpfr(N) / (2 * N + 1) : Mpfr(1));
-    exact.A = I.lazyProduct(projection);
+    // The formula integrates P_i P_j exactly but for i = j = N. The integral of P_N is 0 at every node.
+    Matrix<Mpfr> projection(N, s);
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < s; ++i) projection(j, i) = exact.b[i] * P(i, j);
+    exact.A = I.leftCols(N).lazyProduct(projection);
     for (int j = 0; j < s; ++j) {
       exact.A(0, j) = 0;
       exact.A(N, j) = exact.b[j];

@@ -159,6 +159,22 @@ TEST_F(RoutesAgreement, RoundsSmallComponents) {
   EXPECT_EQ(literal<Mpfr>(states[1].q[1]), 0);
 }
 
+/// A motion in a plane: across it momenta are 0, and what rounding makes of them is measured by those in the plane.
+TEST(RoutesAgreementOfMomenta, MeasuresAZeroByTheOtherComponents) {
+  const PrecisionScope scope(working);
+  const Assembled<Mpfr> scene =
+      assemble<Mpfr>(read_scene("dimension = 3\n" + body("a", "1", "[1, 0, 0]", "[0, 1, 0]") + point("o", "[0, 0, 0]") +
+                                    effect("central_gravity", "center = \"o\"\nstrength = 1"),
+                                "plane"));
+  const RouteRun run = by_taylor(scene);
+  RouteRun other = run;
+  for (ExactPoint& at : other.points) at.p[2] += literal<Mpfr>("1e-50");
+  const Agreement agreement(scene, times(), {{"taylor", run}, {"hbvm", other}}, wanted);
+  ASSERT_EQ(agreement.momentum_names().size(), 3u);
+  EXPECT_TRUE(agreement.holds());
+  EXPECT_GE(agreement.digits(), 48);
+}
+
 /// A law of force that is off by 1e-30 in one of the routes alone.
 TEST(RoutesAgreementTeeth, FindsAForceLawThatIsOff) {
   const PrecisionScope scope(working);

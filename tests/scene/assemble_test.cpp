@@ -415,7 +415,6 @@ TEST(Assemble, SettlesAStartThatIsConsistentToItsOwnDigits) {
 
 /// Redundant constraints are found before their rounding makes them look apart.
 TEST(Assemble, SettlesAStartWithRedundantConstraints) {
-  const PrecisionScope digits(50);
   // A square with both diagonals is one rod stiffer than it need be.
   const std::string text = R"(dimension = 2
 body = [{ name = "a", mass = 1, position = [0, 0], velocity = [0, 0] },
@@ -425,10 +424,13 @@ body = [{ name = "a", mass = 1, position = [0, 0], velocity = [0, 0] },
 )" + rod("a", "b", "1") + rod("b", "c", "1") +
                            rod("c", "d", "1") + rod("d", "a", "1") + rod("a", "c", "\"sqrt(2)\"") +
                            rod("b", "d", "\"sqrt(2)\"");
-  const auto scene = assembled<Mpfr>(text);
-  EXPECT_EQ(scene.problem.nu(), 5);
-  EXPECT_EQ(scene.problem.redundant.size(), 1u);
-  EXPECT_NE(scene.settled, "");
+  for (const unsigned digits : {24U, 30U, 35U, 50U, 100U}) {
+    const PrecisionScope scope(digits);
+    const auto scene = assembled<Mpfr>(text);
+    EXPECT_EQ(scene.problem.nu(), 5) << digits;
+    EXPECT_EQ(scene.problem.redundant.size(), 1u) << digits;
+    EXPECT_NE(scene.settled, "") << digits;
+  }
 }
 
 /// What is dense in the constraints that share a body only would not end.

@@ -51,6 +51,21 @@ TYPED_TEST(NewtonCourseTest, KeepsAnExpensiveJacobianLonger) {
   EXPECT_TRUE(this->make(course, {power_of_two<S>(-19), power_of_two<S>(-19), power_of_two<S>(-19)}));
 }
 
+/// The Jacobian is evaluated where that costs less than the sweeps that it saves.
+TYPED_TEST(NewtonCourseTest, WeighsAnEvaluationAgainstTheSweepsItSaves) {
+  using S = TypeParam;
+  const S tolerance = power_of_two<S>(-32);
+  for (const auto& [sweeps_an_evaluation, evaluates] : {std::pair(0.5, true), {8., false}}) {
+    NewtonCourse<S> course(tolerance, sweeps_an_evaluation, true);
+    course.start(true);
+    // Two bits a sweep, eight sweeps to go.
+    EXPECT_EQ(this->make(course, {power_of_two<S>(-8), power_of_two<S>(-10), power_of_two<S>(-12), power_of_two<S>(-14),
+                                  power_of_two<S>(-16)}),
+              evaluates)
+        << sweeps_an_evaluation;
+  }
+}
+
 /// Increments that grow are steps too far: by half, and half again, if the Jacobian is that of the iterate before, and
 /// else taken back.
 TYPED_TEST(NewtonCourseTest, TakesBackStepsTooFar) {

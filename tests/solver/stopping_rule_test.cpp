@@ -233,6 +233,9 @@ TYPED_TEST(StoppingRuleTest, EndsTypedWhereNothingConverges) {
   EXPECT_EQ(sequence.run(5, [&](long, Index j) { return j == 0 ? S(0) : infinity; }), Verdict::not_finite);
   EXPECT_EQ(sequence.run(5, [&](long, Index j) { return j == 1 ? S(0) : S(infinity - infinity); }),
             Verdict::not_finite);
+  for (const S& lost : {infinity, S(infinity - infinity)})
+    EXPECT_EQ(sequence.run(9, [&](long n, Index j) { return j == 1 && n > 3 ? lost : power_of_two<S>(-n); }),
+              Verdict::not_finite);
 }
 
 /// Changes that begin small and rise with those of another coordinate are no divergence.

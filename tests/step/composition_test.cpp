@@ -62,5 +62,35 @@ TEST(Composition, ThatFailsLeavesTheState) {
   EXPECT_EQ(state.p, scene.p0);
 }
 
+/// A stepper whose third step fails.
+class FailsAtTheThird final : public ForwardingStepper<double> {
+ public:
+  using ForwardingStepper<double>::ForwardingStepper;
+  StepResult<double> step(State<double>& state, const double& h) override {
+    if (++steps_ == 3) throw StageFailure(FailureCause::precision_exhausted, "it is to fail", "1", 7);
+    return inner().step(state, h);
+  }
+
+ private:
+  int steps_ = 0;
+};
+
+/// The parts made before the one that fails are taken back.
+TEST(Composition, ThatFailsHalfwayTakesItsPartsBack) {
+  const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
+  CompositionStepper<double> stepper(std::make_unique<FailsAtTheThird>(std::make_unique<Rattle<double>>(scene.problem)),
+                                     composition_steps<double>(4)),
+      other(std::make_unique<Rattle<double>>(scene.problem), composition_steps<double>(4));
+  State<double> state(scene.q0, scene.p0), expected = state;
+  const double h = 1. / 8;
+  expect_words(message_of<StageFailure>([&] { stepper.step(state, h); }), {"part 3 of 5", "it is to fail"});
+  EXPECT_EQ(state.q, scene.q0);
+  EXPECT_EQ(state.p, scene.p0);
+  EXPECT_EQ(max_norm(state.q_carry), 0);
+  stepper.step(state, h);
+  other.step(expected, h);
+  EXPECT_LE(distance(state.q, expected.q), 16 * epsilon<double>());
+}
+
 }  // namespace
 }  // namespace hbvm::core

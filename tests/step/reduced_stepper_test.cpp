@@ -91,6 +91,21 @@ TYPED_TEST(Reduced, AStepThatFailsLeavesTheState) {
   EXPECT_EQ(state.p, expected.p);
 }
 
+/// Between steps a scene can change p alone: by an impulse, or for the motion backwards.
+TYPED_TEST(Reduced, MeetsOtherMomentaAtTheSamePositions) {
+  using S = TypeParam;
+  const Assembled<S> scene = assemble<S>(load_scene("double_pendulum"));
+  Euler<S> euler(scene.problem), fresh(scene.problem);
+  State<S> state(scene.q0, scene.p0);
+  euler.step(state, S(S(1) / 64));
+  State<S> turned(state.q, Vector<S>(-2 * state.p)), expected = turned;
+  euler.step(turned, S(S(1) / 64));
+  fresh.step(expected, S(S(1) / 64));
+  EXPECT_EQ(turned.q, expected.q);
+  EXPECT_EQ(turned.p, expected.p);
+  EXPECT_NE(turned.q, state.q);
+}
+
 TEST(ReducedEquation, SaysWhereGradientsAreDependentAndForcesAreNone) {
   const Assembled<double> pendulum = assemble<double>(load_scene("double_pendulum")),
                           kepler = assemble<double>(load_scene("kepler"));

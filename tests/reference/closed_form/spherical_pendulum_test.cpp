@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include "reference/closed_form/against_taylor.hpp"
+#include "reference/closed_form/recognition.hpp"
+#include "scalar/literal.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -48,6 +50,21 @@ TEST(SphericalPendulum, NearAPlane) {
       expect_follows_taylor(
           bob("[\"3/5\", 0, \"-4/5\"]", fmt::format("[\"{0}*4/5\", \"{1}\", \"{0}*3/5\"]", along, aside)),
           spherical_name, {"1", "10"}, 50, 12);
+}
+
+/// A velocity across the plane of 1000 units of rounding is one; of a few it is none.
+TEST(SphericalPendulum, LeavesAPlaneByMoreThanRounding) {
+  const PrecisionScope scope(60);
+  for (const auto& [units, plane] : {std::pair("1000", false), {"1", true}, {"0", true}}) {
+    const Assembled<Mpfr> scene = assemble<Mpfr>(
+        read_scene(bob("[\"9/25\", \"12/25\", \"-4/5\"]",
+                       fmt::format("[\"12/25 - {0}e-60*4/5\", \"16/25 + {0}e-60*3/5\", \"3/5\"]", units)),
+                   "nearly plane"));
+    const Recognition content(scene, literal<Mpfr>("1e-60"));
+    const std::optional<OnSphere> sphere = content.on_sphere();
+    ASSERT_TRUE(sphere);
+    EXPECT_EQ(plane_of_motion(content, *sphere, -Vector<Mpfr>::Unit(3, 2)).has_value(), plane) << units;
+  }
 }
 
 /// So small a cone that the square of its radius is less than a digit, and the same beside the highest point.
