@@ -38,6 +38,7 @@ struct RouteReport {
 struct Reference {
   std::string scene, title, scene_hash;
   int digits = 0;
+  std::vector<std::string> q_names, p_names, lambda_names;  ///< "a.x", "a.px", the constraint of each multiplier
   std::vector<ReferenceState> times;
   std::vector<std::string> momentum_names;
   std::vector<RouteReport> routes;

@@ -139,6 +139,8 @@ struct Run {
   std::string start;          ///< the file or text it started from, if not the scene's own start
   std::string start_settled;  ///< how the start was moved to where the constraints hold; empty if it was not
   long steps = 0;
+  std::vector<std::string> q_names, p_names;         ///< "a.x", "a.px"
+  std::vector<std::string> lambda_names;             ///< the constraint of each multiplier
   std::vector<std::string> q, p, lambda;             ///< at the end; lambda by (57)
   std::vector<std::string> q_carry, p_carry;         ///< what rounding took from q and p
   std::vector<std::string> output_p, output_lambda;  ///< p projected to the tangent space, and the multiplier there
@@ -162,7 +164,9 @@ struct Run {
 /// \throws InputError, IntegrationError with the time where the run could not go on, Interrupted
 Run run(const RunRequest& request);
 
-/// One JSON object, as `hbvm run --json` prints it; the trajectory is left out.
-std::string to_json(const Run& run);
+/// One JSON object, as `hbvm run --json` prints it. Every number of the working precision is decimal text that reads
+/// back exactly. What is about a run, as its time and its digits, is a JSON number.
+/// \param states also the mesh points of the trajectory
+std::string to_json(const Run& run, bool states = false);
 
 }  // namespace hbvm

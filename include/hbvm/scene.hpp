@@ -27,16 +27,28 @@ struct Body {
   NumberRows mass_matrix = {};  ///< instead of the mass
 };
 
+/// How a rigid body is turned from the axes of space: one of these. In the plane the angle alone.
+struct Orientation {
+  std::optional<Number> angle = {};  ///< in space about the axis
+  Numbers axis = {};                 ///< of any length but 0
+  Numbers quaternion = {};           ///< w, x, y, z, of any length but 0
+  Numbers euler = {};                ///< three angles, about the axes that the sequence names
+  std::string sequence = {};         ///< "zxz": each about an axis of the body as it is turned already
+};
+
 /// A rigid body, in the plane or in space; the page of scenes, studies/scenes, says what its keys mean.
 struct RigidBody {
   std::string name = {};
   Number mass = 1;
   Numbers position = {};  ///< of its reference point
   bool fixed = false;
-  Numbers velocity = {};          ///< of its reference point; at rest if absent
-  Numbers center = {};            ///< of mass, in the body's frame
-  NumberRows second_moment = {};  ///< integral of X X^T dm about the reference point, in the body's frame
-  NumberRows directors = {};      ///< row i is director i in space
+  Numbers velocity = {};                        ///< of its reference point; at rest if absent
+  Numbers center = {};                          ///< of mass, in the body's frame
+  NumberRows second_moment = {};                ///< integral of X X^T dm about the reference point, in the body's frame
+  NumberRows directors = {};                    ///< row i is director i in space
+  std::optional<Orientation> orientation = {};  ///< instead of the directors
+  NumberRows inertia = {};        ///< about the centre of mass, instead of the second moment: a matrix, or one row of
+                                  ///< principal moments; in the plane one number
   Numbers angular_velocity = {};  ///< one number in the plane, three in space
 };
 
@@ -117,7 +129,62 @@ class Scene {
 Scene load_scene(const std::string& path_or_name);
 /// A scene from the text of a file. \param name stands in messages and results
 Scene read_scene(const std::string& toml, const std::string& name = "scene");
-/// The names of those that are built in.
-std::vector<std::string> scene_names();
+/// What a scene is and how it starts. Numbers that are text have all digits of the precision.
+struct SceneFacts {
+  std::string name, title, source;
+  int dimension = 0;
+  long bodies = 0;
+  struct Rigid {
+    std::string name;
+    std::vector<double> inertia;  ///< principal moments about the centre of mass
+  };
+  std::vector<Rigid> rigid_bodies;
+  long attachments = 0;
+  std::vector<std::string> coordinates;   ///< of q, in order: "a.x"
+  std::vector<std::string> constraints;   ///< what each multiplier belongs to, redundant ones included
+  std::vector<long> redundant;            ///< the numbers of those that follow from others, from 1
+  std::vector<std::string> redundancies;  ///< from which they follow
+  long degrees_of_freedom = 0;
+  std::optional<int> degree_of_g, degree_of_U;  ///< none if it is not a polynomial; of g the greatest, 0 without any
+  std::string settled;                          ///< how the start was moved to where the constraints hold, if it was
+  std::optional<double> gram_condition;         ///< of the normalised gradients at the start
+  struct Effect {
+    std::string kind;
+    std::optional<int> degree;                                ///< of its part of U
+    bool constant_force = false;                              ///< it is evaluated once
+    std::vector<std::vector<std::string>> on;                 ///< bodies, pairs or groups, an entry for each value
+    std::vector<std::pair<std::string, std::string>> not_on;  ///< bodies it leaves out, and why
+    std::string remark;                                       ///< where on rigid bodies it acts, if on any
+  };
+  std::vector<Effect> effects;
+  std::string energy, kinetic, potential;
+  struct Momentum {
+    std::string name, value;
+    bool conserved = false;
+    bool linear = false;
+  };
+  std::vector<Momentum> momenta;
+};
+
+/// \throws InputError for a scene that is not consistent, or where an effect has no value at the start
+SceneFacts describe(const Scene& scene, const std::string& precision = "double");
+
+/// For people, as `hbvm scene check` prints them.
+std::string to_text(const SceneFacts& facts);
+/// One JSON object, as `hbvm scene check --json` prints it.
+std::string to_json(const SceneFacts& facts);
+
+/// A built-in scene, as `hbvm scenes` lists it.
+struct SceneEntry {
+  std::string name, title, source;
+  int dimension = 0;
+  long bodies = 0, rigid_bodies = 0;
+  std::vector<std::string> constraints, effects;  ///< their kinds, each once
+};
+
+/// Those that are built in.
+std::vector<SceneEntry> scenes();
+std::string to_text(const std::vector<SceneEntry>& scenes);
+std::string to_json(const std::vector<SceneEntry>& scenes);
 
 }  // namespace hbvm

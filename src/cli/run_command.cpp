@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "commands.hpp"
 #include "door/run_of.hpp"
@@ -43,6 +44,7 @@ struct RunArguments {
   std::optional<std::string> out, start, plot;
   long every = 1;
   bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false;
+  bool states = false;
   std::optional<std::string> checkpoint, resume;
   double every_seconds = 60;
   std::optional<Checkpoint> resumed;
@@ -246,6 +248,9 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
     throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
   if (!(o.every_seconds >= 0)) throw InputError("--every-seconds is negative");
+  if (o.states && !o.json) throw InputError("--states goes with --json; a trajectory in a file is --out FILE.csv");
+  if (o.states && (o.out || o.checkpoint || o.resume))
+    throw InputError("--states does not go with --out, --checkpoint or --resume: the file of --out holds the states");
   for (const auto& [option, file] : {std::pair("--out", o.out), {"--checkpoint", o.checkpoint}})
     if (file) refuse_dash(option, *file);
   const RunIdentity identity = identity_of(o, command);
@@ -266,6 +271,8 @@ void run_command(const RunArguments& o, const CLI::App& command) {
       written = write_metadata(o, request, made_by, columns);
     };
   }
+  std::stringstream lines;
+  if (o.states) hooks.trajectory = &lines;
   std::optional<Plot> plot;
   const auto show_files = [&] {
     std::for_each(written.begin(), written.end(), say_written);
@@ -288,8 +295,9 @@ void run_command(const RunArguments& o, const CLI::App& command) {
     }();
     show_files();
     result.command = made_by;
+    result.trajectory = trajectory_of(lines);
     if (o.json)
-      std::cout << to_json(result) << std::endl;
+      std::cout << to_json(result, o.states) << std::endl;
     else
       print(request, result, account);
     constexpr int doubtful = 3;
@@ -329,7 +337,7 @@ void add_run_command(CLI::App& app) {
   command->add_option(
       "--plot", o->plot,
       "Draw motion, multipliers and errors into this file: .svg, .pdf or .png; as .html the motion moves");
-  command->add_option("--every", o->every, "Steps between two lines of the CSV file")
+  command->add_option("--every", o->every, "Steps between two lines of the CSV file, or two states")
       ->check(CLI::Number)
       ->capture_default_str();
   command->add_option(
@@ -360,6 +368,7 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--shadow", o->shadow,
                     "Repeat the run with 16 more digits and say how many of each component survived rounding");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
+  command->add_flag("--states", o->states, "Also put the mesh points into the JSON object, of --every steps one");
   command->footer(
       "Example: hbvm run tethered_satellites --method hbvm:5,1 --step 0.1 --until 100 --out satellites.csv");
   command->callback([o, command] { run_command(*o, *command); });

@@ -5,9 +5,9 @@
 
 #include "commands.hpp"
 #include "door/door.hpp"
+#include "hbvm/scene.hpp"
 #include "output_files.hpp"
 #include "processes/draw.hpp"
-#include "run/describe.hpp"
 #include "run/run_figure.hpp"
 #include "scalar/with_scalar.hpp"
 #include "scene/project.hpp"
@@ -16,6 +16,27 @@
 
 namespace hbvm::core {
 namespace {
+
+constexpr const char* precision_usage = "double, quad, or mpfr:N, or N alone, for N digits";
+
+struct CheckArguments {
+  SceneArgument scene;
+  std::string precision = "double";
+  bool json = false;
+};
+
+void add_check(CLI::App& scene) {
+  auto o = std::make_shared<CheckArguments>();
+  CLI::App* const command = scene.add_subcommand("check", "Explain a scene: dimensions, effects, energy, momenta");
+  o->scene.add_to(*command);
+  command->add_option("--precision", o->precision, precision_usage)->capture_default_str();
+  command->add_flag("--json", o->json, "Print one JSON object and nothing else");
+  command->footer("Example: hbvm scene check tethered_satellites --precision quad");
+  command->callback([o] {
+    const SceneFacts facts = describe(o->scene.load(), o->precision);
+    std::cout << (o->json ? to_json(facts) + "\n" : to_text(facts)) << std::flush;
+  });
+}
 
 struct ProjectArguments {
   SceneArgument scene;
@@ -40,6 +61,17 @@ void project_command(const ProjectArguments& o) {
   } catch (const InputError& error) {
     throw InputError(std::string("--out: ") + error.what());
   }
+}
+
+void add_project(CLI::App& scene) {
+  auto o = std::make_shared<ProjectArguments>();
+  CLI::App* const command = scene.add_subcommand(
+      "project", "Write the nearest scene whose initial state fulfils the constraints, comments and all");
+  o->scene.add_to(*command);
+  command->add_option("--precision", o->precision, precision_usage)->capture_default_str();
+  command->add_option("--out", o->out, "Write to this file instead of standard output");
+  command->footer("Example: hbvm scene project mine.toml --precision mpfr:60 --out consistent.toml");
+  command->callback([o] { project_command(*o); });
 }
 
 struct ShowArguments {
@@ -72,25 +104,8 @@ void add_scene_command(CLI::App& app) {
   CLI::App* const scene = app.add_subcommand("scene", "Explain or draw a scene, or make its start consistent");
   scene->require_subcommand(1);
   scene->footer("Example: hbvm scene check tethered_satellites");
-  for (const bool check : {true, false}) {
-    auto o = std::make_shared<ProjectArguments>();
-    CLI::App* const command =
-        check ? scene->add_subcommand("check", "Explain a scene: dimensions, effects, energy, momenta")
-              : scene->add_subcommand(
-                    "project", "Write the nearest scene whose initial state fulfils the constraints, comments and all");
-    o->scene.add_to(*command);
-    command->add_option("--precision", o->precision, "double, quad, or mpfr:N, or N alone, for N digits")
-        ->capture_default_str();
-    if (!check) command->add_option("--out", o->out, "Write to this file instead of standard output");
-    command->footer(check ? "Example: hbvm scene check tethered_satellites --precision quad"
-                          : "Example: hbvm scene project mine.toml --precision mpfr:60 --out consistent.toml");
-    command->callback([o, check] {
-      if (check)
-        std::cout << describe(scene_of(o->scene.load()), Precision::parse(o->precision));
-      else
-        project_command(*o);
-    });
-  }
+  add_check(*scene);
+  add_project(*scene);
   add_show(*scene);
 }
 

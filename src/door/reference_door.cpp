@@ -21,6 +21,7 @@ Reference reference(const ReferenceRequest& door) {
 
 std::string to_json(const Reference& r, const std::string& command) {
   core::OrderedJson j{{"scene", r.scene}, {"until", r.times.back().t}, {"digits", r.digits}};
+  j["names"] = {{"q", r.q_names}, {"p", r.p_names}, {"lambda", r.lambda_names}};
   j["times"] = core::OrderedJson::array();
   for (const ReferenceState& state : r.times) {
     core::OrderedJson entry{{"t", state.t}, {"q", state.q}, {"p", state.p}, {"lambda", state.lambda}, {"H", state.H}};

@@ -19,7 +19,6 @@
 
 namespace hbvm {
 namespace core {
-namespace {
 
 hbvm::Trajectory trajectory_of(std::istream& lines) {
   hbvm::Trajectory trajectory;
@@ -30,8 +29,6 @@ hbvm::Trajectory trajectory_of(std::istream& lines) {
       trajectory.rows.push_back(split_csv_line(line));
   return trajectory;
 }
-
-}  // namespace
 
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start) {
   const Scene scene = scene_of(asked.scene);

@@ -54,9 +54,31 @@ core::OrderedJson json_of(const Shadow& shadow) {
             {"every", shadow.every}}}};
 }
 
+/// The mesh points, each with the output state as the end has it.
+core::OrderedJson states_of(const Run& run) {
+  const std::size_t m = run.q.size(), nu = run.lambda.size();
+  core::OrderedJson states = core::OrderedJson::array();
+  for (const std::vector<std::string>& row : run.trajectory.rows) {
+    auto cell = row.begin();
+    const auto next = [&](std::size_t count) {
+      const auto first = cell;
+      cell += static_cast<std::ptrdiff_t>(count);
+      return std::vector<std::string>(first, cell);
+    };
+    core::OrderedJson state{{"t", next(1).front()}};
+    state["q"] = next(m);
+    state["p"] = next(m);
+    state["lambda"] = next(nu);
+    state["output"]["p"] = next(m);
+    state["output"]["lambda"] = next(nu);
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
 }  // namespace
 
-std::string to_json(const Run& run) {
+std::string to_json(const Run& run, bool states) {
   core::OrderedJson j;
   j["scene"] = run.scene;
   j["method"] = run.method;
@@ -68,6 +90,7 @@ std::string to_json(const Run& run) {
   if (!run.start.empty()) j["start"] = run.start;
   if (!run.start_settled.empty()) j["start_settled"] = run.start_settled;
   j["steps"] = run.steps;
+  j["names"] = {{"q", run.q_names}, {"p", run.p_names}, {"lambda", run.lambda_names}};
   j["t"] = run.t;
   j["q"] = run.q;
   j["p"] = run.p;
@@ -75,6 +98,7 @@ std::string to_json(const Run& run) {
   j["p_carry"] = run.p_carry;
   j["lambda"] = run.lambda;
   j["output"] = {{"p", run.output_p}, {"lambda", run.output_lambda}, {"delta_H", run.output_delta_H}};
+  if (states) j["states"] = states_of(run);
   j["e_H"] = run.e_H;
   j["e_g"] = run.e_g;
   j["e_hid"] = run.e_hid;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <istream>
+
 #include "hbvm/run.hpp"
 #include "run/scene_run.hpp"
 
@@ -10,6 +12,9 @@ namespace hbvm::core {
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start);
 /// The command of the program that makes the same motion.
 std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request);
+
+/// The trajectory whose CSV lines these are.
+hbvm::Trajectory trajectory_of(std::istream& lines);
 
 /// The figure of a run: motion, multipliers and errors, with what made it below.
 Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command);

@@ -52,11 +52,29 @@ class SceneTable {
     for (const auto& [name, value] : values) key(name, value);
     return *this;
   }
+  /// A table in one line.
+  SceneTable& inline_table(const std::string& name, const SceneTable& entries) {
+    std::string inside = entries.text_.substr(entries.text_.find("]]\n") + 3);
+    for (char& c : inside)
+      if (c == '\n') c = ',';
+    if (!inside.empty()) inside.pop_back();
+    text_ += name + " = { " + inside + " }\n";
+    return *this;
+  }
   const std::string& text() const { return text_; }
 
  private:
   std::string text_;
 };
+
+SceneTable orientation_lines(const Orientation& o) {
+  SceneTable table("orientation");
+  if (o.angle) table.key("angle", *o.angle);
+  return table.some("axis", o.axis)
+      .some("quaternion", o.quaternion)
+      .some("euler", o.euler)
+      .some("sequence", o.sequence);
+}
 
 /// A key that TOML takes without quotes, or one within them.
 std::string toml_key(const std::string& name) {
@@ -134,8 +152,15 @@ Scene& Scene::rigid_body(const RigidBody& body) {
   SceneTable table("rigid_body");
   table.key("name", body.name).key(body.fixed ? "fixed_at" : "position", body.position);
   if (!body.fixed) table.key("velocity", body.velocity.empty() ? Numbers(body.position.size(), 0) : body.velocity);
-  table.key("mass", body.mass).key("center", body.center).key("second_moment", body.second_moment);
-  table.key("directors", body.directors);
+  table.key("mass", body.mass).some("center", body.center).some("second_moment", body.second_moment);
+  if (body.inertia.size() == 1 && body.inertia.front().size() == 1)
+    table.key("inertia", body.inertia.front().front());
+  else if (body.inertia.size() == 1)
+    table.key("inertia", body.inertia.front());
+  else
+    table.some("inertia", body.inertia);
+  table.some("directors", body.directors);
+  if (body.orientation) table.inline_table("orientation", orientation_lines(*body.orientation));
   if (body.angular_velocity.size() == 1)
     table.key("angular_velocity", body.angular_velocity.front());
   else
@@ -225,12 +250,6 @@ Scene read_scene(const std::string& toml, const std::string& name) {
 Scene load_scene(const std::string& path_or_name) {
   // The text as it is, so that messages name its lines.
   return read_scene(core::scene_text(path_or_name), path_or_name);
-}
-
-std::vector<std::string> scene_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, text] : core::built_in_scenes()) names.push_back(name);
-  return names;
 }
 
 namespace core {

@@ -11,6 +11,7 @@
 #include "checksum.hpp"
 #include "clock.hpp"
 #include "interruption.hpp"
+#include "problem/redundant_constraints.hpp"
 #include "reference/agreement.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "reference/effort.hpp"
@@ -18,6 +19,7 @@
 #include "reference/route_run.hpp"
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
+#include "scene/coordinate_names.hpp"
 #include "thread_caches.hpp"
 
 namespace hbvm::core {
@@ -222,6 +224,9 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
                    .title = request.scene.title,
                    .scene_hash = scene_hash(request.scene),
                    .digits = request.digits,
+                   .q_names = coordinate_names(request.scene),
+                   .p_names = coordinate_names(request.scene, "p"),
+                   .lambda_names = {},
                    .times = {},
                    .momentum_names = {},
                    .routes = {},
@@ -232,7 +237,8 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
     attempt.estimate();
     const std::vector<NamedRun> runs = attempt.run();
     const PrecisionScope scope(attempt.digits());
-    const Agreement agreement(assemble<Mpfr>(request.scene), request.times, runs, request.digits);
+    const Assembled<Mpfr> assembled = assemble<Mpfr>(request.scene);
+    const Agreement agreement(assembled, request.times, runs, request.digits);
     if (!agreement.holds()) {
       if (round == rounds) agreement.require();
       guard += static_cast<int>(std::max(0L, request.digits + 1 - agreement.digits())) + more_guard;
@@ -240,6 +246,7 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
     }
     result.times = agreement.states();
     result.momentum_names = agreement.momentum_names();
+    result.lambda_names = names_of_constraints(assembled.problem);
     for (const NamedRun& run : runs) result.routes.push_back({run.name, run.run.settings, run.run.cpu_seconds});
     return result;
   }

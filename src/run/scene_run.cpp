@@ -11,6 +11,7 @@
 #include "run/vector_text.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
+#include "scene/coordinate_names.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -121,6 +122,8 @@ Run told_of(const RunRequest& request) {
   run.precision = request.precision.name();
   run.reverse = request.direction == Direction::backward;
   if (request.start) run.start = request.start->file;
+  run.q_names = coordinate_names(request.scene);
+  run.p_names = coordinate_names(request.scene, "p");
   run.observes = !request.scene.observables.empty();
   return run;
 }
@@ -137,6 +140,7 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   }
   std::unique_ptr<CsvFile> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
   Run result = told_of(request);
+  result.lambda_names = names_of_constraints(scene.problem);
   const Assembled<S> seen = seen_by_stepper(scene, request.direction);
   RunStepper<S> stepper(seen, request.method, grid.step(), request.solver, request.on_failure);
   const Method& method = *stepper.method();
@@ -148,7 +152,7 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   std::optional<KeptFile<S>> kept_file;
   std::ostream* const lines = csv ? csv.get() : hooks.trajectory;
   if (lines) {
-    const auto columns = trajectory_columns(request.scene, names_of_constraints(scene.problem));
+    const auto columns = trajectory_columns(request.scene, result.lambda_names);
     if (hooks.describe_csv) hooks.describe_csv(columns);
     trajectory.emplace(scene.problem, *lines, hooks.every, grid.steps(), names_of(columns));
     observers.push_back(&*trajectory);

@@ -10,6 +10,8 @@
 #include "problem/constraint/registry.hpp"
 #include "problem/effect/registry.hpp"
 #include "scene/formula_names.hpp"
+#include "scene/inertia.hpp"
+#include "scene/orientation.hpp"
 #include "scene/scene.hpp"
 #include "toml/toml_table.hpp"
 
@@ -122,20 +124,36 @@ class SceneReader {
     scene_.bodies.push_back(std::move(b));
   }
 
+  /// Whether a table has the first key and not the second; without both, the second is missed in the end.
+  static bool either(TomlTable& table, const std::string& key, const std::string& other) {
+    if (table.has(key) && table.has(other)) table.fail("give '" + key + "' or '" + other + "', not both");
+    if (!table.has(key) && !table.has(other)) table.missing({other, key});
+    table.take(table.has(key) ? other : key);
+    return table.has(key);
+  }
+
   void rigid_body(TomlTable table) {
     const std::string name = new_name(table, "rigid_body");
     const bool fixed = table.has("fixed_at");
     if (!fixed) table.take("fixed_at");
-    SceneRigidBody b{name,
-                     fixed,
-                     table.vector(fixed ? "fixed_at" : "position", d_),
-                     fixed ? SceneVector{} : table.vector("velocity", d_),
-                     table.number("mass"),
-                     table.vector("center", d_),
-                     table.matrix("second_moment", d_),
-                     table.matrix("directors", d_),
-                     d_ == 2 ? SceneVector{table.number("angular_velocity")} : table.vector("angular_velocity", 3),
-                     table.line()};
+    const bool by_inertia = either(table, "inertia", "second_moment");
+    const bool by_orientation = either(table, "orientation", "directors");
+    const Expression mass = table.number("mass");
+    // Of an inertia about the centre of mass the reference point is that centre, unless another is given.
+    const SceneVector center =
+        by_inertia && !table.has("center") ? SceneVector(d_, Expression::parse("0")) : table.vector("center", d_);
+    table.take("center");
+    SceneRigidBody b{
+        name,
+        fixed,
+        table.vector(fixed ? "fixed_at" : "position", d_),
+        fixed ? SceneVector{} : table.vector("velocity", d_),
+        mass,
+        center,
+        by_inertia ? second_moment_of(read_inertia(table, d_), mass, center) : table.matrix("second_moment", d_),
+        by_orientation ? read_orientation(table, d_, scene_.constants) : table.matrix("directors", d_),
+        d_ == 2 ? SceneVector{table.number("angular_velocity")} : table.vector("angular_velocity", 3),
+        table.line()};
     table.finish();
     rigid_.insert(b.name);
     scene_.rigid_bodies.push_back(std::move(b));

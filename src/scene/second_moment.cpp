@@ -44,7 +44,8 @@ Matrix<S> usable_second_moment(const MassDistribution<S>& of, bool fixed) {
   const Index d = of.center.size();
   const Matrix<S> center = of_the_center(of), about_center = of.second_moment - center;
   const std::string what =
-      "no body has this 'second_moment', which is S, the integral of X X^T dm about the reference "
+      "no body has this 'second_moment', given or from its 'inertia', which is S, the integral of X X^T dm about the "
+      "reference "
       "point: about the centre of mass c, ";
   // Another quantity typed here is off by much more than the digits that a sheet, which has 0 across itself, is given
   // with.
@@ -61,8 +62,8 @@ Matrix<S> usable_second_moment(const MassDistribution<S>& of, bool fixed) {
   }
   if (!is_positive_definite(Matrix<S>(about_center + Matrix<S>::Identity(d, d) * rounding)))
     throw InputError(what +
-                     "S - m c c^T is not positive semidefinite; an inertia tensor J about c stands here as S = "
-                     "tr(J)/2 I - J + m c c^T");
+                     "S - m c c^T is not positive semidefinite; an inertia tensor J about c, of which no principal "
+                     "moment is greater than the sum of the others, stands here as S = tr(J)/2 I - J + m c c^T");
   return of.second_moment;
 }
 

@@ -39,6 +39,14 @@ class StartEditor {
     for (std::size_t i = 0; i < rows.size(); ++i) replace((*entries)[i], rows[i]);
   }
 
+  /// An orientation: the angles are replaced by the directors, unless they are those already.
+  void turn(const toml::table& table, const SceneMatrix& now, const SceneMatrix& before) {
+    const toml::node* const node = table.get("orientation");
+    if (!node || texts_of(now) == texts_of(before)) return;
+    const std::size_t begin = source_.offset_of(node->source().begin), end = source_.offset_of(node->source().end);
+    replacements_.push_back({begin, end, "{ directors = " + texts_of(now) + " }"});
+  }
+
   template <class Values>
   void replace(const toml::table& table, std::string_view key, const Values& values) {
     if (const toml::node* const node = table.get(key)) replace(*node, values);
@@ -54,6 +62,16 @@ class StartEditor {
   }
 
  private:
+  static std::string texts_of(const SceneMatrix& rows) {
+    std::string text;
+    for (const SceneVector& row : rows) {
+      std::string entries;
+      for (const Expression& e : row) entries += (entries.empty() ? "\"" : ", \"") + e.text() + "\"";
+      text += (text.empty() ? "[" : ", [") + entries + "]";
+    }
+    return "[" + text + "]";
+  }
+
   const TomlSource& source_;
   std::vector<Replacement> replacements_;
 };
@@ -72,11 +90,13 @@ std::string with_start(const std::string& toml, const Scene& start) {
     editor.replace(*bodies[i], "momentum", start.bodies[i].momentum);
   }
   const auto rigid = top.tables("rigid_body");
+  const Scene before = rigid.empty() ? Scene() : read_scene(toml, start.name);
   for (std::size_t i = 0; i < std::min(rigid.size(), start.rigid_bodies.size()); ++i) {
     const SceneRigidBody& body = start.rigid_bodies[i];
     editor.replace(*rigid[i], "position", body.position);
     editor.replace(*rigid[i], "velocity", body.velocity);
     editor.replace(*rigid[i], "directors", body.directors);
+    editor.turn(*rigid[i], body.directors, before.rigid_bodies[i].directors);
     editor.replace(*rigid[i], "angular_velocity", body.angular_velocity);
   }
   return editor.edited();

@@ -106,7 +106,9 @@ void TomlTable::missing(const std::vector<std::string>& keys) const {
           if (const toml::table* const table = entry.as_table()) look_inside(*table, std::string(name.str()));
     }
   }
-  fail("the key '" + keys.front() + "' is missing");
+  std::string others;
+  for (std::size_t i = 1; i < keys.size(); ++i) others += std::string(i > 1 ? " " : "") + "or '" + keys[i] + "'";
+  fail("the key '" + keys.front() + "' is missing" + (others.empty() ? "" : " (" + others + ")"));
 }
 
 void TomlTable::misplaced(std::string_view key, const toml::node& node) const {

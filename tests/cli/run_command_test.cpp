@@ -31,9 +31,10 @@ Texts to_texts(const Vector<S>& v) {
 TEST(RunJson, HasExactlyTheFieldsOfTheIssue) {
   const ordered_json j = json_of(run_of("simple_pendulum", "hbvm:3,2", "1/8", "2") +
                                  Arguments{"--precision", "quad", "--solver", "paper"});
-  EXPECT_EQ(keys_of(j), words_of("scene method solver precision step until steps t q p q_carry p_carry lambda output "
-                                 "e_H e_g e_hid health iterations_per_step cpu_seconds version command title "
-                                 "scene_text"));
+  EXPECT_EQ(keys_of(j),
+            words_of("scene method solver precision step until steps names t q p q_carry p_carry lambda output "
+                     "e_H e_g e_hid health iterations_per_step cpu_seconds version command title "
+                     "scene_text"));
   EXPECT_EQ(keys_of(j["output"]), (Texts{"p", "lambda", "delta_H"}));
   expect_members(j, ordered_json::parse(R"({"scene": "simple_pendulum", "method": "hbvm:3,2", "solver": "paper",
       "precision": "quad", "step": "0.125", "until": "2", "steps": 16, "t": "2", "title": "Simple pendulum", "command":
@@ -99,6 +100,18 @@ TEST(RunJson, HoldsTheLibrarysNumbersWithAllDigits) {
       return 0;
     });
   }
+}
+
+TEST(RunStates, AreInTheJsonIfAskedFor) {
+  Arguments arguments = run_of("kepler", "hbvm:3,2", "1/4", "1");
+  arguments.insert(arguments.end(), {"--states", "--every", "3"});
+  expect_words(ended_with(2, arguments).err, {"--states", "--json"});
+  arguments.emplace_back("--json");
+  const ordered_json states = ordered_json::parse(ended_with(0, arguments).out).at("states");
+  ASSERT_EQ(states.size(), 3u);
+  EXPECT_EQ(states[1].at("t"), "0.75");
+  arguments.insert(arguments.end(), {"--out", "-"});
+  ended_with(2, arguments);
 }
 
 TEST(RunHealth, IsInTheJsonAndTheText) {

@@ -1,3 +1,4 @@
+#include "cli/json.hpp"
 #include "cli/program.hpp"
 #include "scalar/literal.hpp"
 #include "scene/scene.hpp"
@@ -33,6 +34,13 @@ TEST(SceneCheck, ReadsAFileInThePrecisionAsked) {
   for (const auto& [precision, H] :
        {std::pair("double", "-0.29289321881345"), {"mpfr:40", "-0.29289321881345247559915"}})
     expect_words(hbvm({"scene", "check", path, "--precision", precision}).out, {H});
+}
+
+TEST(SceneCheck, IsAlsoJson) {
+  const Json json = Json::parse(ended_with(0, {"scene", "check", "kepler", "--json", "--precision", "30"}).out);
+  EXPECT_EQ(json.at("scene"), "kepler");
+  EXPECT_EQ(json.at("degrees_of_freedom"), 2);
+  EXPECT_EQ(json.at("constraints"), Json::array());
 }
 
 TEST(SceneCheck, SaysOnWhomEffectsAct) {

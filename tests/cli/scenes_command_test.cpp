@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "cli/json.hpp"
 #include "cli/program.hpp"
 
 namespace hbvm::core {
@@ -22,6 +23,12 @@ TEST(Scenes, ListsThePapersFourWithTheirTitles) {
 TEST(Scenes, ListsOnlyScenesThatRun) {
   for (const std::string& line : lines_of(hbvm({"scenes"}).out))
     ended_with(0, run_of(line.substr(0, line.find(' ')), "hbvm:2,2", "0.01", "0.01"));
+}
+
+TEST(Scenes, AreAlsoJson) {
+  const Json scenes = Json::parse(ended_with(0, {"scenes", "--json"}).out).at("scenes");
+  EXPECT_EQ(scenes.size(), lines_of(hbvm({"scenes"}).out).size());
+  for (const Json& scene : scenes) ended_with(0, {"scene", "check", scene.at("name").get<std::string>()});
 }
 
 }  // namespace

@@ -29,5 +29,28 @@ TEST(DoorRunJson, SaysWhatTheRunIs) {
   EXPECT_EQ(read_scene(json.at("scene_text")).toml(), made.scene_toml);
 }
 
+/// Every other point of four steps, as the end is told, by names.
+TEST(DoorRunJson, HoldsTheStatesIfAsked) {
+  RunRequest request{.scene = load_scene("double_pendulum"), .method = "hbvm:3,2", .step = "1/4", .until = 1};
+  request.every = 2;
+  const hbvm::Run made = run(request);
+  EXPECT_FALSE(nlohmann::json::parse(to_json(made)).contains("states"));
+  const nlohmann::json json = nlohmann::json::parse(to_json(made, true));
+  EXPECT_EQ(json.at("names").at("q"), (std::vector<std::string>{"a.x", "a.y", "b.x", "b.y"}));
+  EXPECT_EQ(json.at("names").at("p").at(3), "b.py");
+  EXPECT_EQ(json.at("names").at("lambda"), (std::vector<std::string>{"rod 'pivot'-'a'", "rod 'a'-'b'"}));
+  const nlohmann::json& states = json.at("states");
+  ASSERT_EQ(states.size(), 3u);
+  EXPECT_EQ(states[0].at("t"), "0");
+  EXPECT_EQ(states[0].at("q"), (std::vector<std::string>{"0.8", "-0.6", "1.3", "-1.8"}));
+  EXPECT_EQ(states[1].at("t"), "0.5");
+  EXPECT_EQ(states[2].at("t"), json.at("t"));
+  for (const char* const what : {"q", "p", "lambda", "output"}) {
+    nlohmann::json end = json.at(what);
+    if (what == std::string("output")) end.erase("delta_H");
+    EXPECT_EQ(states[2].at(what), end) << what;
+  }
+}
+
 }  // namespace
 }  // namespace hbvm

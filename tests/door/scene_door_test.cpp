@@ -90,10 +90,32 @@ TEST(DoorScene, SaysWhatIsWrong) {
   core::expect_words(refusal({.name = "a", .mass = -1, .position = {0, 0}}), {"'a'", "mass must be positive"});
 }
 
-TEST(DoorScene, KnowsThoseThatAreBuiltIn) {
-  const std::vector<std::string> names = scene_names();
-  EXPECT_GT(names.size(), 30u);
-  for (const std::string& name : {names.front(), names.back()}) load_scene(name).check();
+/// A body by its inertia and orientation, and the same by its second moment and directors.
+TEST(DoorScene, BuildsRigidBodiesByInertiaAndOrientation) {
+  Scene by_angle(2, "bar"), by_directors(2, "bar");
+  RigidBody bar{.name = "bar", .mass = 2, .position = {0, 0}, .fixed = true, .center = {1, 0}, .angular_velocity = {1}};
+  bar.inertia = {{"2/3"}};
+  bar.orientation = Orientation{.angle = "pi/2"};
+  by_angle.rigid_body(bar);
+  bar.inertia.clear();
+  bar.orientation.reset();
+  bar.second_moment = {{"7/3", 0}, {0, "1/3"}};
+  bar.directors = {{0, 1}, {-1, 0}};
+  by_directors.rigid_body(bar);
+  const auto turned = [](const Scene& scene) {
+    return run({.scene = scene, .method = "rattle", .step = 1, .until = 1});
+  };
+  EXPECT_EQ(turned(by_angle).q, turned(by_directors).q);
+  Scene top(3, "top");
+  RigidBody disc{
+      .name = "disc", .position = {0, 0, 0}, .fixed = true, .center = {0, 0, 1}, .angular_velocity = {0, 0, 9}};
+  disc.inertia = {{1, 1, "3/2"}};
+  for (const Orientation& orientation :
+       {Orientation{.quaternion = {1, 2, 3, 4}}, Orientation{.angle = 1, .axis = {1, 2, 3}},
+        Orientation{.euler = {1, 2, 3}, .sequence = "zxz"}}) {
+    disc.orientation = orientation;
+    EXPECT_NO_THROW(Scene(top).rigid_body(disc).check());
+  }
 }
 
 /// Of a scene that was read and of one that is built; the command makes the same again.

@@ -15,7 +15,7 @@ namespace {
 class Description {
  public:
   explicit Description(const std::string& scene, const std::string& precision = "double")
-      : text_(describe(read_scene(scene, "test.toml"), Precision::parse(precision))) {
+      : text_(to_text(describe(read_scene(scene, "test.toml"), Precision::parse(precision)))) {
     std::istringstream lines(text_);
     std::getline(lines, first);
     for (std::string line; std::getline(lines, line);) {
@@ -201,7 +201,7 @@ TEST(Describe, AllScenesThatAreShipped) {
   for (const auto& [name, text] : built_in_scenes()) {
     const Scene scene = read_scene(text, name);
     for (const char* precision : {"double", "quad", "mpfr:40"})
-      EXPECT_TRUE(describe(scene, Precision::parse(precision)).starts_with(name + ": " + scene.title));
+      EXPECT_TRUE(to_text(describe(scene, Precision::parse(precision))).starts_with(name + ": " + scene.title));
   }
 }
 

@@ -52,6 +52,20 @@ TEST(WithStart, FindsPlacesBehindCharactersOfSeveralBytesAndAByteOrderMark) {
   EXPECT_NE(edited.find("position = [1, \"3\"], momentum = [\"1/3\", \"7\"] }]"), std::string::npos) << edited;
 }
 
+/// A body that is turned by angles gets directors in their place, if they changed; then they are those of the scene.
+TEST(WithStart, PutsDirectorsWhereAnglesStood) {
+  const std::string text =
+      "dimension = 2\n[[rigid_body]]\nname = \"bar\"\nfixed_at = [0, 0]\nmass = 1\ninertia = 1\n"
+      "orientation = 0.3   # a little\nangular_velocity = 1\n";
+  Scene scene = read_scene(text, "test.toml");
+  EXPECT_EQ(with_start(text, scene), text);
+  scene.rigid_bodies[0].directors[0][1] = Expression::parse("1/2");
+  const std::string edited = with_start(text, scene);
+  EXPECT_NE(edited.find("orientation = { directors = ["), std::string::npos) << edited;
+  EXPECT_NE(edited.find("# a little"), std::string::npos) << edited;
+  EXPECT_EQ(write_scene(read_scene(edited, "test.toml")), write_scene(scene));
+}
+
 /// What is written is the projected scene, whatever the scene: bodies and rigid ones, in the plane and in space.
 TEST(WithStart, WritesWhatProjectionGives) {
   for (const auto& [name, text] : built_in_scenes()) {

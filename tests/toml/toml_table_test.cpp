@@ -91,6 +91,10 @@ TEST(TomlTables, RefuseWithFileLineAndKey) {
   expect(message_of([&] { t.tables("t"); }), "7", "[[t]]");
   expect(message_of([&] { t.number("y"); }), "8", "'y' must be finite");
   expect(message_of([&] { t.number("absent"); }), "1", "the key 'absent' is missing");
+  expect(message_of([&] {
+           t.missing({"one", "two", "three"});
+         }),
+         "1", "the key 'one' is missing (or 'two' or 'three')");
 }
 
 TEST(TomlTables, GuessWhatAMisspeltKeyWasMeantToBe) {
