@@ -76,7 +76,10 @@ class Encloser {
       case Kind::sinh:
       case Kind::cosh:
       case Kind::tanh:
+      case Kind::asin:
+      case Kind::acos:
       case Kind::atan:
+      case Kind::atan2:
         return 16;
       case Kind::tan:
         return 32;
@@ -143,8 +146,20 @@ class Encloser {
         return growing(mpfr_cosh, magnitude(a));  // cosh a = cosh |a|
       case Kind::tanh:
         return growing(mpfr_tanh, a);
+      case Kind::asin:
+        take_for_one(a);
+        return growing(mpfr_asin, a);
+      case Kind::acos: {
+        take_for_one(a);
+        std::swap(a.low, a.high);
+        return growing(mpfr_acos, a);
+      }
       case Kind::atan:
         return growing(mpfr_atan, a);
+      case Kind::atan2:
+        return angle(std::move(a), *right);
+      case Kind::abs:
+        return magnitude(a);
       default:
         break;
     }
@@ -172,6 +187,33 @@ class Encloser {
   void take_for_zero(Interval& a, const char* reason) const {
     if (!counts_as_zero(a)) throw Undecided{reason};
     mpfr_set_zero(raw(a.low), 1);
+  }
+
+  /// The bounds reach beyond 1 or -1, where there is no arc sine and cosine: what they exceed it by may be rounding.
+  void take_for_one(Interval& a) const {
+    for (const long end : {1L, -1L}) {
+      Interval beyond = fresh();
+      mpfr_sub_si(raw(beyond.low), raw(a.low), end, MPFR_RNDD);
+      mpfr_sub_si(raw(beyond.high), raw(a.high), end, MPFR_RNDU);
+      if (end < 0) beyond = negative(beyond);
+      if (mpfr_sgn(raw(beyond.high)) <= 0) continue;
+      const char* const reason = "arc sine or cosine of a number beyond 1";
+      if (mpfr_sgn(raw(beyond.low)) > 0) throw ExpressionError(reason);
+      if (!counts_as_zero(beyond)) throw Undecided{reason};
+      mpfr_set_si(raw(end > 0 ? a.high : a.low), end, MPFR_RNDN);
+    }
+  }
+
+  /// The angle of (x, y). It is monotone in x and in y off the half line y = 0, x <= 0.
+  Interval angle(Interval y, const Interval& x) const {
+    if (holds_zero(y) && mpfr_sgn(raw(x.low)) <= 0) {
+      const char* const reason = "angle of a point at 0 or near y = 0, x < 0";
+      if (!counts_as_zero(y)) throw Undecided{reason};
+      if (holds_zero(x)) no_value(x, "angle of the point 0");
+      if (mpfr_sgn(raw(x.high)) > 0) throw Undecided{reason};
+      return growing(mpfr_const_pi);
+    }
+    return corners(y, x, mpfr_atan2);
   }
 
   /// Bounds of an f that grows with each argument.

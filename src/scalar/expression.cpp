@@ -24,7 +24,7 @@ std::string quoted(std::string_view text) {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-constexpr std::array<std::pair<std::string_view, Kind>, 10> functions{{{"sqrt", Kind::sqrt},
+constexpr std::array<std::pair<std::string_view, Kind>, 14> functions{{{"sqrt", Kind::sqrt},
                                                                        {"sin", Kind::sin},
                                                                        {"cos", Kind::cos},
                                                                        {"tan", Kind::tan},
@@ -33,14 +33,18 @@ constexpr std::array<std::pair<std::string_view, Kind>, 10> functions{{{"sqrt", 
                                                                        {"sinh", Kind::sinh},
                                                                        {"cosh", Kind::cosh},
                                                                        {"tanh", Kind::tanh},
-                                                                       {"atan", Kind::atan}}};
+                                                                       {"asin", Kind::asin},
+                                                                       {"acos", Kind::acos},
+                                                                       {"atan", Kind::atan},
+                                                                       {"atan2", Kind::atan2},
+                                                                       {"abs", Kind::abs}}};
 
 /// Recursive descent over
 ///   sum     = product (('+' | '-') product)*
 ///   product = signed (('*' | '/') signed)*
 ///   signed  = ('+' | '-')* power
 ///   power   = primary ('^' signed)?
-///   primary = decimal | name | function '(' sum ')' | '(' sum ')'
+///   primary = decimal | name | function '(' sum ')' | 'atan2' '(' sum ',' sum ')' | '(' sum ')'
 class Parser {
  public:
   Parser(std::string_view text, Expression::Syntax syntax) : text_(text), syntax_(syntax) {}
@@ -207,9 +211,13 @@ class Parser {
     for (const auto& [function, kind] : functions) {
       if (word != function) continue;
       if (!accept('(')) fail("comes where '(' is expected after " + word);
-      const NodePtr argument = sum();
+      NodePtr argument = sum(), second;
+      if (kind == Kind::atan2) {
+        if (!accept(',')) fail("comes where ',' is expected: it is atan2(y, x)");
+        second = sum();
+      }
       close();
-      return make(start, kind, argument);
+      return make(start, kind, std::move(argument), std::move(second));
     }
     if (word == "pi") return make(start, Kind::pi);
     if (at_ < text_.size() && text_[at_] == '(' && word.size() > 1) unknown_function(start, word);

@@ -28,12 +28,16 @@ struct Expression::Node {
     sinh,
     cosh,
     tanh,
-    atan
+    asin,
+    acos,
+    atan,
+    atan2,
+    abs
   };
   Kind kind;
-  std::string text;  ///< of a decimal or a name
-  std::shared_ptr<const Node> left, right;
-  std::size_t at = 0;  ///< where in the text it stands: of an operation its sign
+  std::string text;                         ///< of a decimal or a name
+  std::shared_ptr<const Node> left, right;  ///< of a function its arguments
+  std::size_t at = 0;                       ///< where in the text it stands: of an operation its sign
 };
 
 }  // namespace hbvm::core

@@ -132,7 +132,7 @@ SceneMatrix read_orientation(TomlTable& body, std::size_t dimension, const Const
           "turn is about an axis of the body as it is turned already");
     return turned_by_euler_angles(angles, sequence);
   };
-  const SceneMatrix directors = read();
+  SceneMatrix directors = read();
   reader.finish();
   return directors;
 }

@@ -52,6 +52,9 @@ inline RealBall log(const RealBall& a) { return made(arb_log, a); }
 inline RealBall sinh(const RealBall& a) { return made(arb_sinh, a); }
 inline RealBall cosh(const RealBall& a) { return made(arb_cosh, a); }
 inline RealBall tanh(const RealBall& a) { return made(arb_tanh, a); }
+inline RealBall asin(const RealBall& a) { return made(arb_asin, a); }
+inline RealBall acos(const RealBall& a) { return made(arb_acos, a); }
 inline RealBall atan(const RealBall& a) { return made(arb_atan, a); }
+inline RealBall atan2(const RealBall& y, const RealBall& x) { return made(arb_atan2, y, x); }
 
 }  // namespace hbvm::core

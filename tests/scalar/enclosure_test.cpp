@@ -82,7 +82,7 @@ class Generator {
       result.binding = own;
       result.value = value;
     };
-    const int kind = pick(12);
+    const int kind = pick(13);
     switch (kind) {
       case 6: {
         Formula b;
@@ -116,9 +116,21 @@ class Generator {
       case 11: {
         if (exponent_of(a.value) > 8) return std::nullopt;
         static const std::pair<const char*, RealBall (*)(const RealBall&)> more[] = {
-            {"tan", tan}, {"sinh", sinh}, {"cosh", cosh}, {"tanh", tanh}, {"atan", atan}};
-        const auto& [name, f] = more[pick(5)];
+            {"tan", tan},   {"sinh", sinh}, {"cosh", cosh}, {"tanh", tanh},
+            {"asin", asin}, {"acos", acos}, {"atan", atan}};
+        const auto& [name, f] = more[pick(7)];
         function(name, f(a.value));
+        break;
+      }
+      case 12: {
+        if (pick(2) == 0) {
+          result.text = "abs(" + a.text + ")";
+          arb_abs(raw(result.value), raw(a.value));
+          break;
+        }
+        const Formula b = formula(depth - 1);
+        result.text = "atan2(" + a.text + "," + blank() + b.text + ")";
+        result.value = atan2(a.value, b.value);
         break;
       }
       default: {

@@ -82,20 +82,43 @@ INSTANTIATE_TEST_SUITE_P(Blanks, Value,
                          ::testing::Values(Example{" 1 + 2 ", 3}, Example{"\t1\t+\t2", 3}, Example{"( 1 + 2 ) * 3", 9},
                                            Example{"sqrt ( 4 )", 2}, Example{"2 ^ - 1", 0.5}));
 
-INSTANTIATE_TEST_SUITE_P(Functions, Value,
-                         ::testing::Values(Example{"sqrt(9)", 3}, Example{"exp(0)", 1}, Example{"log(1)", 0},
-                                           Example{"sin(0)", 0}, Example{"cos(0)", 1}, Example{"4*cos(pi/3)", 2},
-                                           Example{"log(exp(3))", 3}, Example{"exp(log(7))", 7},
-                                           Example{"tan(pi/4)", 1}, Example{"sinh(log(3))*3", 4},
-                                           Example{"cosh(-log(3))*3", 5}, Example{"cosh(0)", 1},
-                                           Example{"tanh(log(3))*5", 4}, Example{"4*atan(1)/pi", 1},
-                                           Example{"sqrt(2)*sqrt(2)", 2}, Example{"8^(1/3)", 2},
-                                           Example{"sin(pi/6)", 0.5}, Example{"pi", 3.141592653589793}));
+INSTANTIATE_TEST_SUITE_P(
+    Functions, Value,
+    ::testing::Values(
+        Example{"sqrt(9)", 3}, Example{"exp(0)", 1}, Example{"log(1)", 0}, Example{"sin(0)", 0}, Example{"cos(0)", 1},
+        Example{"4*cos(pi/3)", 2}, Example{"log(exp(3))", 3}, Example{"exp(log(7))", 7}, Example{"tan(pi/4)", 1},
+        Example{"sinh(log(3))*3", 4}, Example{"cosh(-log(3))*3", 5}, Example{"cosh(0)", 1},
+        Example{"tanh(log(3))*5", 4}, Example{"4*atan(1)/pi", 1}, Example{"6*asin(1/2)/pi", 1},
+        Example{"2*asin(1)/pi", 1}, Example{"2*asin(-1)/pi", -1}, Example{"3*acos(1/2)/pi", 1}, Example{"acos(1)", 0},
+        Example{"acos(-1)/pi", 1}, Example{"2*asin(sqrt(2)*sqrt(2)/2)/pi", 1}, Example{"acos(-3*(1/3))/pi", 1},
+        Example{"4*atan2(1, 1)/pi", 1}, Example{"4*atan2(1, -1)/pi", 3}, Example{"4*atan2(-1, -1)/pi", -3},
+        Example{"2*atan2(-2, 0)/pi", -1}, Example{"atan2(0, -5)/pi", 1}, Example{"atan2(-0, -5)/pi", 1},
+        Example{"atan2(sin(pi), -1)/pi", 1}, Example{"atan2(0, 7)", 0}, Example{"abs(-7/2)", 3.5}, Example{"abs(2)", 2},
+        Example{"abs(0)", 0}, Example{"abs(1 - sqrt(2)*sqrt(2)/2)", 0}, Example{"sqrt(2)*sqrt(2)", 2},
+        Example{"8^(1/3)", 2}, Example{"sin(pi/6)", 0.5}, Example{"pi", 3.141592653589793}));
+
+TEST(Expression, HasNoValueOutsideADomain) {
+  for (const auto& [text, reason] : {std::pair("asin(1 + 1e-60)", "beyond 1"),
+                                     {"asin(-2)", "beyond 1"},
+                                     {"acos(1.5)", "beyond 1"},
+                                     {"acos(-1 - 1e-60)", "beyond 1"},
+                                     {"atan2(0, 0)", "angle of the point 0"},
+                                     {"atan2(sin(pi), cos(pi/2))", "angle of the point 0"}})
+    expect_words(message_of<ExpressionError>([&, text = text] { literal<double>(text); }), {text, reason});
+}
+
+TEST(Expression, TakesTheTwoArgumentsOfAnAngle) {
+  expect_words(message_of<ExpressionError>([] { Expression::parse("atan2(1)"); }), {"column 8", "atan2(y, x)"});
+  EXPECT_THROW(Expression::parse("sin(1, 2)"), ExpressionError);
+  EXPECT_THROW(Expression::parse("atan2(1, 2, 3)"), ExpressionError);
+  EXPECT_THROW(Expression::parse("(1, 2)"), ExpressionError);
+}
 
 TEST(Expression, UnknownFunctionsListThoseThereAre) {
   for (const auto& [text, words] :
-       {std::pair("1 + atan2(y, x)", "column 5: 'atan2' is no function: did you mean 'atan'? There are sqrt, sin,"),
-        {"abs(x)", "'abs' is no function; there are sqrt, sin, cos, tan, exp, log, sinh, cosh, tanh, atan"},
+       {std::pair("1 + atan3(y, x)", "column 5: 'atan3' is no function: did you mean 'atan'? There are sqrt, sin,"),
+        {"mod(x)",
+         "'mod' is no function; there are sqrt, sin, cos, tan, exp, log, sinh, cosh, tanh, asin, acos, atan, "},
         {"mu(x + 1)", "if it is a name, a product is written mu*(...)"}})
     expect_words(
         message_of<ExpressionError>([&, text = text] { Expression::parse(text, Expression::Syntax::formula); }),

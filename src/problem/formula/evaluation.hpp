@@ -78,7 +78,7 @@ class FormulaEvaluation {
 
   T operation(const Node& node) {
     using Kind = Node::Kind;
-    using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
+    using std::abs, std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tanh;
     if (node.kind == Kind::name) return values_.find(node.text)->second;
     if (node.kind == Kind::power) return power_of(node);
     const T a = value(node.left);
@@ -111,8 +111,19 @@ class FormulaEvaluation {
         return cosh(a);
       case Kind::tanh:
         return tanh(a);
+      case Kind::asin:
+        return atan(a / sqrt((1 - a) * (a + 1)));
+      case Kind::acos:
+        return 2 * atan(sqrt((1 - a) / (a + 1)));
       case Kind::atan:
         return atan(a);
+      case Kind::atan2: {
+        // Half the angle, whose tangent has no pole but at the angle pi.
+        const T x = value(node.right);
+        return 2 * atan(a / (sqrt(x * x + a * a) + x));
+      }
+      case Kind::abs:
+        return abs(a);
       default:  // decimal, pi
         break;
     }

@@ -49,6 +49,8 @@ class Checking : public FormulaEvaluation<Checking<S>, S, S> {
     if (kind == Kind::sqrt) return "square root of a negative number";
     if (kind == Kind::log) return "logarithm of a number that is not positive";
     if (kind == Kind::power) return "a power without a value";
+    if (kind == Kind::asin || kind == Kind::acos) return "arc sine or cosine of a number beyond 1";
+    if (kind == Kind::atan2) return "angle of a point with y = 0 and x <= 0";
     return "a value beyond the range of numbers";
   }
 

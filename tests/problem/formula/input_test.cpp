@@ -168,6 +168,11 @@ TEST(Formula, IsRefusedWhereItHasNoValue) {
   EXPECT_EQ(refusal_of("sqrt(x - y)", "1"), "1: square root of a negative number at the start");
   EXPECT_EQ(refusal_of("(x - y)^(1/3)", "1"), "8: a power without a value at the start");
   EXPECT_EQ(refusal_of("exp(1000*y)", "1"), "1: a value beyond the range of numbers at the start");
+  EXPECT_EQ(refusal_of("y + asin(x)", "2"), "5: arc sine or cosine of a number beyond 1 at the start");
+  EXPECT_EQ(refusal_of("acos(x)", "-2"), "1: arc sine or cosine of a number beyond 1 at the start");
+  EXPECT_EQ(refusal_of("acos(x)", "1"), "1: a derivative has no value at the start");
+  EXPECT_EQ(refusal_of("atan2(y - 2, -x)", "1"), "1: angle of a point with y = 0 and x <= 0 at the start");
+  EXPECT_EQ(refusal_of("atan2(y, x)", "0"), "");
   EXPECT_EQ(refusal_of("sqrt(x^2)", "0"), "1: a derivative has no value at the start");
   EXPECT_EQ(refusal_of("x + 1/(2 - 2)", "0"), "6: division by 0");
   EXPECT_EQ(refusal_of("x^2000", "0"), "2: the exponent must be from -1000 to 1000");

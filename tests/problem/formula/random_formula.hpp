@@ -103,7 +103,11 @@ class RandomFormula {
                                "sinh(cos{a})",
                                "cosh(sin{a})",
                                "tanh{a}",
-                               "atan{a}"};
+                               "atan{a}",
+                               "asin(sin{a}/2)",
+                               "acos(cos{a}/2)",
+                               "atan2(1 + {a}^2, {b})",
+                               "abs(sin{a} - 2)"};
     static_assert(texts.size() == static_cast<std::size_t>(Kind::leaf));
     text_ =
         fmt::format(fmt::runtime(texts[static_cast<std::size_t>(kind_)]), fmt::arg("a", "(" + parts_[0]->text_ + ")"),
@@ -115,7 +119,8 @@ class RandomFormula {
 
   template <class S>
   Jet<S> jet(const std::vector<Jet<S>>& variables) const {
-    using std::atan, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+    using std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log, std::sin, std::sinh,
+        std::sqrt, std::tan, std::tanh;
     using J = Jet<S>;
     const std::size_t n = variables.front().first.size();
     const auto plus = [&](const J& a, int number) { return J::sum(a, J::number(S(number), n), 1); };
@@ -185,6 +190,24 @@ class RandomFormula {
         const S slope = 1 / (1 + x * x);
         return a.through(atan(x), slope, S(-2 * x * slope * slope));
       }
+      case Kind::arc_sine: {
+        const J s = sine(a) * J::number(S(S(1) / 2), n);
+        const S slope = 1 / sqrt(S(1 - s.value * s.value));
+        return s.through(asin(s.value), slope, S(s.value * slope * slope * slope));
+      }
+      case Kind::arc_cosine: {
+        const J c = cosine(a) * J::number(S(S(1) / 2), n);
+        const S slope = 1 / sqrt(S(1 - c.value * c.value));
+        return c.through(acos(c.value), S(-slope), S(-c.value * slope * slope * slope));
+      }
+      case Kind::angle: {  // pi/2 - atan(b/(1 + a^2))
+        const J cotangent = b * plus(a * a, 1).power(S(-1));
+        const S& t = cotangent.value;
+        const S slope = 1 / (1 + t * t);
+        return cotangent.through(atan2(S(1), t), S(-slope), S(2 * t * slope * slope));
+      }
+      case Kind::absolute:
+        return J::sum(J::number(S(2), n), sine(a), -1);
       case Kind::leaf:
         break;
     }
@@ -211,6 +234,10 @@ class RandomFormula {
     hyperbolic_cosine,
     hyperbolic_tangent,
     arc_tangent,
+    arc_sine,
+    arc_cosine,
+    angle,
+    absolute,
     leaf
   };
   Kind kind_;
