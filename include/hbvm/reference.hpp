@@ -28,6 +28,7 @@ struct ReferenceState {
   std::string H;
   std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
   long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors
+  std::vector<std::string> observed = {};  ///< what the scene observes; angles in (-pi, pi]
 };
 
 struct RouteReport {
@@ -40,7 +41,7 @@ struct Reference {
   int digits = 0;
   std::vector<std::string> q_names, p_names, lambda_names;  ///< "a.x", "a.px", the constraint of each multiplier
   std::vector<ReferenceState> times;
-  std::vector<std::string> momentum_names;
+  std::vector<std::string> momentum_names, observed_names;
   std::vector<RouteReport> routes;
   double digits_lost = 0;  ///< by which the motion magnifies an error of the start, in decimal digits
 };

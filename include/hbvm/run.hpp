@@ -118,8 +118,8 @@ struct AccountEntry {
 
 /// The mesh points of a run. Every number is decimal text that reads back exactly.
 struct Trajectory {
-  /// "t"; "bob.x" ... of q; "bob.px" ... of p; "lambda1" ...; the same of the output state, as "output.bob.px"; and
-  /// "delta_H", "g" and "hidden".
+  /// "t"; "bob.x" ... of q; "bob.px" ... of p; "lambda1" ...; the same of the output state, as "output.bob.px";
+  /// "delta_H", "g" and "hidden"; and what the scene observes.
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 
@@ -152,8 +152,9 @@ struct Run {
   std::optional<HalvingReport> halving;  ///< if steps might be divided
   std::optional<Shadow> shadow;
   std::optional<ErrorEstimate> error;
-  bool observes = false;              ///< whether the scene names quantities to be observed
-  std::vector<Observed> observables;  ///< those of them that the motion conserves
+  bool observes = false;                  ///< whether the scene names quantities to be observed
+  std::vector<Observed> observables;      ///< those of them that the motion conserves
+  std::vector<Observation> observations;  ///< of the output state at the end
   std::vector<AccountEntry> account;
   Trajectory trajectory;
   std::optional<Figure> figure;  ///< motion, multipliers and errors, if a picture was asked for

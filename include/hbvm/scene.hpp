@@ -102,6 +102,9 @@ class Scene {
   Scene& set(const std::string& what, const Number& value);
   /// "energy", "linear_momentum" or "angular_momentum": a run tells how well it is conserved.
   Scene& observe(const std::string& quantity);
+  /// A run tells a formula's value along the motion, by this name: "tension(o, bob)", "180/pi*angle(a.d1)". The names
+  /// that it may have are listed on the page of scene files. The scene is read then. \throws InputError
+  Scene& observe(const std::string& name, const std::string& formula);
 
   const std::string& name() const { return name_; }
   /// As a scene file has it.
@@ -117,12 +120,18 @@ class Scene {
   Scene() = default;
   /// One that was read, in parts to which others can be added.
   void take_apart();
+  void become(core::Scene changed);
 
   std::string name_;
   std::string head_;  ///< of one that was read: the whole text
   std::vector<std::string> constants_ = {}, observables_ = {};
   std::string tables_ = {};
   std::shared_ptr<const core::Scene> read_ = {};  ///< what it says; null of one that is in parts
+};
+
+/// What a scene observes, by its name, and its value at some time.
+struct Observation {
+  std::string name, formula, value;
 };
 
 /// The scene of a file, or a built-in one by its name. \throws InputError with file, line and what is wrong
@@ -164,6 +173,7 @@ struct SceneFacts {
     bool linear = false;
   };
   std::vector<Momentum> momenta;
+  std::vector<Observation> observed;  ///< at the start
 };
 
 /// \throws InputError for a scene that is not consistent, or where an effect has no value at the start

@@ -110,6 +110,7 @@ void print(const Scene& scene, const Reference& r) {
     lines.add_vector("lambda", {}, state.lambda);
     lines.add("H", "", state.H);
     for (std::size_t i = 0; i < state.momenta.size(); ++i) lines.add(r.momentum_names[i], "", state.momenta[i]);
+    for (std::size_t i = 0; i < state.observed.size(); ++i) lines.add(r.observed_names[i], "", state.observed[i]);
     lines.print();
     if (r.routes.size() > 1)
       fmt::print("{} digits after the leading one; the routes agree in {}\n", r.digits, state.agreed);
@@ -191,7 +192,7 @@ void reference_command(const ReferenceArguments& o) {
   if (!o.scene) throw InputError("reference: a scene is missing (see hbvm reference --help)");
   if (!o.until && o.at.empty()) throw InputError("reference: --until or --at is missing");
   ReferenceRequest request;
-  request.scene = scene_of(SceneArgument{*o.scene, o.settings.settings}.load());
+  request.scene = scene_of(SceneArgument{*o.scene, o.settings.settings, o.settings.observations}.load());
   request.digits = o.digits;
   request.force = o.force;
   for (const std::string& text : o.at) request.times.push_back(time_of(text));
@@ -223,6 +224,7 @@ void add_reference_command(CLI::App& app) {
                                                "form where there is one");
   command->add_option("SCENE,--scene", o->scene, "Scene file or built-in scene");
   o->settings.add_settings_to(*command);
+  o->settings.add_observations_to(*command);
   command->add_option("--until", o->until, "Time of the state, as 10 or '2*pi'");
   command->add_option("--at", o->at, "Times T1,T2,... of the states instead, ascending")->delimiter(',');
   command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")

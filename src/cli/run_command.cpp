@@ -150,6 +150,8 @@ void print(const RunRequest& request, const Run& result, const Account& account)
   if (!result.observables.empty()) fmt::print("conserved by the exact motion\n");
   for (const Observed& o : result.observables)
     fmt::print("  {:<14} {}, changed by up to {}\n", o.name, o.initial, o.drift);
+  if (!result.observations.empty()) fmt::print("observed at the end\n");
+  for (const Observation& o : result.observations) fmt::print("  {:<20} {}\n", o.name, o.value);
   fmt::print("cost\n  {:.2f} iterations per step, {:.3f} s of processor time\n", result.iterations_per_step,
              result.cpu_seconds);
   if (request.account) fmt::print("\n{}", to_text(account));
@@ -256,7 +258,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   const RunIdentity identity = identity_of(o, command);
   const hbvm::RunRequest asked = asked_of(o, identity);
   RunRequest request = request_of(asked, o.start);
-  if (o.resumed) request.scene.changes = o.scene.settings;
+  if (o.resumed) request.scene.changes = o.scene.changes();
   const std::string made_by = command_of(asked, request);
   std::optional<Checkpoints> checkpoints = checkpoints_of(o, identity);
   RunHooks hooks;
@@ -315,6 +317,7 @@ void add_run_command(CLI::App& app) {
   auto o = std::make_shared<RunArguments>();
   CLI::App* const command = app.add_subcommand("run", "Integrate a scene and report the final state and its errors");
   o->scene.add_to(*command);
+  o->scene.add_observations_to(*command);
   command->add_option("--method", o->method, method_usage())->capture_default_str();
   command->add_option(
       "--step", o->step,

@@ -29,6 +29,22 @@ void SceneArgument::add_settings_to(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
+void SceneArgument::add_observations_to(CLI::App& command) {
+  command
+      .add_option(
+          "--observe", observations,
+          "NAME=FORMULA or FORMULA: also tell its value along the motion, as 'angle(a, b)' or 'T=tension(o, bob)'; "
+          "repeatable")
+      ->allow_extra_args(false);
+}
+
+std::vector<std::string> SceneArgument::changes() const {
+  std::vector<std::string> options;
+  for (const std::string& setting : settings) options.push_back("--set '" + setting + "'");
+  for (const std::string& observation : observations) options.push_back("--observe '" + observation + "'");
+  return options;
+}
+
 hbvm::Scene SceneArgument::load() const {
   hbvm::Scene scene = name == "-" ? hbvm::read_scene(standard_input(), name) : hbvm::load_scene(name);
   for (const std::string& setting : settings) {
@@ -37,11 +53,19 @@ hbvm::Scene SceneArgument::load() const {
       throw InputError("--set " + setting + ": use NAME=VALUE, as L=1.2 or a.mass=3");
     scene.set(setting.substr(0, at), setting.substr(at + 1));
   }
+  for (const std::string& observation : observations) {
+    const std::size_t at = observation.find('=');
+    try {
+      scene.observe(observation.substr(0, at), at == std::string::npos ? observation : observation.substr(at + 1));
+    } catch (const InputError& error) {
+      throw InputError("--observe " + observation + ": " + error.what());
+    }
+  }
   return scene;
 }
 
 std::string SceneArgument::text() const {
-  if (!settings.empty()) return load().toml();
+  if (!settings.empty() || !observations.empty()) return load().toml();
   return name == "-" ? standard_input() : scene_text(name);
 }
 

@@ -125,6 +125,8 @@ std::string to_text(const SceneFacts& facts) {
                                                : momentum.linear   ? "  conserved"
                                                : quadratic         ? "  conserved by the motion, and by k = s"
                                                                    : "  conserved by the motion, and by k = r = s"));
+  for (const Observation& o : facts.observed)
+    lines.add("observed", o.name + " = " + o.value + (o.name == o.formula ? "" : ", " + o.formula));
   return lines.text();
 }
 
@@ -155,6 +157,7 @@ std::string to_json(const SceneFacts& facts) {
   json["kinetic"] = facts.kinetic;
   json["potential"] = facts.potential;
   json["momenta"] = momenta;
+  for (const Observation& o : facts.observed) json["observed"][o.name] = {{"formula", o.formula}, {"value", o.value}};
   return core::dumped(json, 2);
 }
 

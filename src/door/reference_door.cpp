@@ -27,6 +27,7 @@ std::string to_json(const Reference& r, const std::string& command) {
     core::OrderedJson entry{{"t", state.t}, {"q", state.q}, {"p", state.p}, {"lambda", state.lambda}, {"H", state.H}};
     entry["momenta"] = core::OrderedJson::object();
     for (std::size_t i = 0; i < state.momenta.size(); ++i) entry["momenta"][r.momentum_names[i]] = state.momenta[i];
+    for (std::size_t i = 0; i < state.observed.size(); ++i) entry["observed"][r.observed_names[i]] = state.observed[i];
     entry["agreed"] = r.routes.size() > 1 ? core::OrderedJson(state.agreed) : core::OrderedJson(nullptr);
     j["times"].push_back(entry);
   }

@@ -71,6 +71,9 @@ core::OrderedJson states_of(const Run& run) {
     state["lambda"] = next(nu);
     state["output"]["p"] = next(m);
     state["output"]["lambda"] = next(nu);
+    constexpr std::ptrdiff_t errors = 3;  // delta_H, g, hidden
+    cell += errors;
+    for (const Observation& o : run.observations) state["observed"][o.name] = next(1).front();
     states.push_back(std::move(state));
   }
   return states;
@@ -134,6 +137,7 @@ std::string to_json(const Run& run, bool states) {
     j["observables"] = core::OrderedJson::object();
     for (const Observed& o : run.observables) j["observables"][o.name] = {{"initial", o.initial}, {"drift", o.drift}};
   }
+  for (const Observation& o : run.observations) j["observed"][o.name] = o.value;
   if (!run.account.empty()) {
     j["account"] = core::OrderedJson::array();
     for (const AccountEntry& line : run.account) {

@@ -4,6 +4,7 @@
 #include "hbvm/error.hpp"
 #include "hbvm/scene.hpp"
 #include "scene/assemble.hpp"
+#include "scene/observe.hpp"
 #include "scene/scene.hpp"
 #include "scene/set_number.hpp"
 
@@ -204,20 +205,27 @@ Scene& Scene::effect(const Effect& effect) {
   return *this;
 }
 
-Scene& Scene::set(const std::string& what, const Number& value) {
-  auto changed = std::make_shared<core::Scene>(
-      core::with_number(core::scene_of(*this), what, core::expression_of(value, what + ":")));
+void Scene::become(core::Scene changed) {
   constants_.clear();
   observables_.clear();
   tables_.clear();
-  head_ = core::write_scene(*changed);
-  read_ = std::move(changed);
+  head_ = core::write_scene(changed);
+  read_ = std::make_shared<core::Scene>(std::move(changed));
+}
+
+Scene& Scene::set(const std::string& what, const Number& value) {
+  become(core::with_number(core::scene_of(*this), what, core::expression_of(value, what + ":")));
   return *this;
 }
 
 Scene& Scene::observe(const std::string& quantity) {
   take_apart();
   observables_.push_back(quantity);
+  return *this;
+}
+
+Scene& Scene::observe(const std::string& name, const std::string& formula) {
+  become(core::with_observation(core::scene_of(*this), name == formula ? name : name + "=" + formula));
   return *this;
 }
 

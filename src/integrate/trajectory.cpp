@@ -18,14 +18,15 @@ void write(std::ostream& out, const Vector<S>& v) {
 
 template <Scalar S>
 Trajectory<S>::Trajectory(const Problem<S>& problem, std::ostream& out, long every, long steps,
-                          const std::vector<std::string>& columns)
+                          const std::vector<std::string>& columns, const Observations<S>* observations)
     : problem_(problem),
       point_(problem),
       redundant_(problem),
       out_(out),
       every_(every),
       steps_(steps),
-      columns_(columns) {}
+      columns_(columns),
+      observations_(observations) {}
 
 template <Scalar S>
 void Trajectory<S>::observe(const Snapshot<S>& s) {
@@ -44,7 +45,9 @@ void Trajectory<S>::observe(const Snapshot<S>& s) {
   S g = max_norm(point_.constraints(s.q)), hidden = max_norm(point_.hidden_constraints(s.q, s.p));
   raise_to(g, max_norm(redundant_.values(s.q)));
   raise_to(hidden, max_norm(redundant_.hidden(s.q, s.p)));
-  out_ << ',' << to_text(S(H - H0_)) << ',' << to_text(g) << ',' << to_text(hidden) << '\n';
+  out_ << ',' << to_text(S(H - H0_)) << ',' << to_text(g) << ',' << to_text(hidden);
+  if (observations_) write(out_, observations_->values());
+  out_ << '\n';
 }
 
 #define HBVM_DEFINE(S) template class Trajectory<S>;

@@ -1,5 +1,7 @@
 #include "integrate/trajectory_columns.hpp"
 
+#include <algorithm>
+
 #include "scene/coordinate_names.hpp"
 
 namespace hbvm::core {
@@ -35,6 +37,13 @@ std::vector<TrajectoryColumn> trajectory_columns(const Scene& scene, const std::
   add("delta_H", "H(q, p) - H(q_0, p_0), with H = 1/2 p^T M^-1 p - U(q)");
   add("g", "greatest |g_i(q)| of the constraints");
   add("hidden", "greatest |grad g_i(q)^T M^-1 p| of the hidden constraints");
+  for (const SceneObservation& observation : scene.observations) {
+    const std::string name = on_one_line(observation.name);
+    if (std::any_of(columns.begin(), columns.end(), [&](const TrajectoryColumn& c) { return c.name == name; }))
+      throw InputError(scene.name + ": observe '" + name +
+                       "': a column of the trajectory is called so; take another name");
+    add(name, "observed of the output state: " + on_one_line(observation.value.text()));
+  }
   return columns;
 }
 

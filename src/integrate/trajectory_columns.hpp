@@ -14,8 +14,10 @@ struct TrajectoryColumn {
 };
 
 /// The columns that Trajectory writes, in order: t; "upper.x", ... of q; "upper.px", ... of p; "lambda1", ... of (57).
-/// Then the output state's, as "output.upper.px" and "output.lambda1"; delta_H, g and hidden.
+/// Then the output state's, as "output.upper.px" and "output.lambda1"; delta_H, g and hidden; and the scene's
+/// observations by their names.
 /// \param constraints what each multiplier belongs to, as names_of_constraints() says it
+/// \throws InputError for an observation that has the name of another column
 std::vector<TrajectoryColumn> trajectory_columns(const Scene& scene, const std::vector<std::string>& constraints);
 
 /// Their names alone.

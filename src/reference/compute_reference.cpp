@@ -10,6 +10,7 @@
 
 #include "checksum.hpp"
 #include "clock.hpp"
+#include "integrate/observations.hpp"
 #include "interruption.hpp"
 #include "problem/redundant_constraints.hpp"
 #include "reference/agreement.hpp"
@@ -19,6 +20,7 @@
 #include "reference/route_run.hpp"
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
+#include "scalar/text.hpp"
 #include "scene/coordinate_names.hpp"
 #include "thread_caches.hpp"
 
@@ -206,8 +208,44 @@ Route parse_route(std::string_view name) {
 std::string scene_hash(const Scene& scene) {
   Scene plain = scene;
   plain.name = plain.title = plain.source = "";
+  plain.observations.clear();
   return Checksum(write_scene(plain)).text();
 }
+
+namespace {
+
+/// x to the digits on which the routes agree, or which were asked for.
+std::string agreed_text(const std::vector<Mpfr>& x, int digits) {
+  using std::floor, std::log10;
+  Mpfr difference = 0;
+  for (const Mpfr& other : x) raise_to(difference, magnitude(Mpfr(other - x.front())));
+  const Mpfr size = magnitude(x.front());
+  if (size <= difference) return "0";
+  long agreed = digits + 1;
+  if (difference > 0) agreed = std::min(agreed, static_cast<long>(floor(log10(Mpfr(size / difference)))));
+  return rounded_text(to_text(x.front()), static_cast<int>(std::max(1L, agreed)));
+}
+
+/// What the scene observes, at each time by each route.
+void add_observed(Reference& result, const ReferenceRequest& request, const Problem<Mpfr>& problem,
+                  const std::vector<NamedRun>& runs) {
+  if (request.scene.observations.empty()) return;
+  Observations<Mpfr> observations(request.scene, problem);
+  for (const SceneObservation& observation : request.scene.observations)
+    result.observed_names.push_back(observation.name);
+  for (std::size_t n = 0; n < result.times.size(); ++n) {
+    std::vector<std::vector<Mpfr>> values(result.observed_names.size());
+    for (const NamedRun& run : runs) {
+      const ExactPoint& at = run.run.points[n];
+      const Vector<Mpfr>& seen =
+          observations.see(evaluate<Mpfr>(request.times[n], request.scene.constants), at.q, at.p);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i].push_back(seen[static_cast<Index>(i)]);
+    }
+    for (const std::vector<Mpfr>& x : values) result.times[n].observed.push_back(agreed_text(x, request.digits));
+  }
+}
+
+}  // namespace
 
 RouteFunction function_of(Route route) {
   if (route == Route::taylor) return [](const RouteWork& work, double) { return taylor_route(work); };
@@ -229,6 +267,7 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
                    .lambda_names = {},
                    .times = {},
                    .momentum_names = {},
+                   .observed_names = {},
                    .routes = {},
                    .digits_lost = nature.digits_lost};
   int guard = first_guard;
@@ -247,6 +286,7 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
     result.times = agreement.states();
     result.momentum_names = agreement.momentum_names();
     result.lambda_names = names_of_constraints(assembled.problem);
+    add_observed(result, request, assembled.problem, runs);
     for (const NamedRun& run : runs) result.routes.push_back({run.name, run.run.settings, run.run.cpu_seconds});
     return result;
   }

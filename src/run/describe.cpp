@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "integrate/observations.hpp"
 #include "problem/effect/execution.hpp"
 #include "problem/effect/trace.hpp"
 #include "problem/momenta.hpp"
@@ -129,6 +130,13 @@ SceneFacts describe_in(const Scene& scene) {
   facts.kinetic = to_text(S(H - U));
   facts.potential = to_text(U);
   facts.momenta = momenta_of(assembled);
+  if (!scene.observations.empty()) {
+    Observations<S> observations(scene, problem);
+    const Vector<S>& values = observations.see(S(0), assembled.q0, assembled.p0);
+    for (std::size_t i = 0; i < scene.observations.size(); ++i)
+      facts.observed.push_back(
+          {scene.observations[i].name, scene.observations[i].value.text(), to_text(values[static_cast<Index>(i)])});
+  }
   return facts;
 }
 

@@ -32,8 +32,9 @@ std::vector<std::size_t> shown_multipliers(const Recording& recording) {
 }
 
 template <Scalar S>
-MotionRecorder<S>::MotionRecorder(const Problem<S>& problem, long steps, Recording& recording)
-    : point_(problem), redundant_(problem), steps_(steps), recording_(recording) {
+MotionRecorder<S>::MotionRecorder(const Problem<S>& problem, long steps, Recording& recording,
+                                  const Observations<S>* observations)
+    : point_(problem), redundant_(problem), steps_(steps), recording_(recording), observations_(observations) {
   recording_.every = std::max(1L, (steps + Recording::most - 1) / Recording::most);
   recording_.steps = steps;
   recording_.constraints = names_of_constraints(problem);
@@ -50,8 +51,8 @@ void MotionRecorder<S>::observe(const Snapshot<S>& s) {
   raise_to(hidden_, max_norm(redundant_.hidden(s.q, s.p)));
   if (s.n % recording_.every != 0 && s.n != steps_) return;
   recording_.samples.push_back({approximately(s.t), list_of<S>(s.q), list_of<S>(redundant_.multipliers(s.q, s.lambda)),
-                                log10_of(energy_), log10_of(constraints_), log10_of(hidden_),
-                                approximately(S(H - H0_))});
+                                log10_of(energy_), log10_of(constraints_), log10_of(hidden_), approximately(S(H - H0_)),
+                                observations_ ? list_of<S>(observations_->values()) : std::vector<double>{}});
   set_zero(energy_);
   set_zero(constraints_);
   set_zero(hidden_);

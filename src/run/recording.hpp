@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "integrate/observer.hpp"
+#include "integrate/observations.hpp"
 #include "problem/redundant_constraints.hpp"
 #include "problem/state_evaluator.hpp"
 
@@ -21,18 +21,21 @@ struct Recording {
     /// infinity for 0. Errors of hundreds of digits are beyond the range of double, their logarithms are not.
     double energy = 0, constraints = 0, hidden = 0;
     double H_change = 0;  ///< H - H_0, at the sample
+    std::vector<double> observed = {};
 
     void remember(Archive& archive) {
       archive(t);
       archive.sized(q);
       archive.sized(lambda);
       archive(energy, constraints, hidden, H_change);
+      archive.sized(observed);
     }
   };
 
-  long every = 1;                        ///< mesh points a sample
-  long steps = 0;                        ///< of the whole run, also if it fails on the way
-  std::vector<std::string> constraints;  ///< whose multipliers these are
+  long every = 1;                         ///< mesh points a sample
+  long steps = 0;                         ///< of the whole run, also if it fails on the way
+  std::vector<std::string> constraints;   ///< whose multipliers these are
+  std::vector<std::string> observations;  ///< names of what was observed
   std::vector<Sample> samples;
 };
 
@@ -43,7 +46,9 @@ std::vector<std::size_t> shown_multipliers(const Recording& recording);
 template <Scalar S>
 class MotionRecorder final : public Observer<S> {
  public:
-  MotionRecorder(const Problem<S>& problem, long steps, Recording& recording);
+  /// \param observations that see each point before; null if there are none
+  MotionRecorder(const Problem<S>& problem, long steps, Recording& recording,
+                 const Observations<S>* observations = nullptr);
   void observe(const Snapshot<S>& snapshot) override;
   void remember(Archive& archive) override;
 
@@ -52,6 +57,7 @@ class MotionRecorder final : public Observer<S> {
   RedundantConstraints<S> redundant_;
   long steps_;
   Recording& recording_;
+  const Observations<S>* observations_;
   S H0_ = 0, energy_ = 0, constraints_ = 0, hidden_ = 0;
 };
 

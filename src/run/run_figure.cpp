@@ -53,6 +53,13 @@ Panel multipliers_panel(const Recording& recording) {
   return panel;
 }
 
+Panel observation_panel(const Recording& recording, std::size_t i) {
+  const std::string name = plain(recording.observations[i]);
+  Panel panel = against_time(name, {name});
+  panel.curves.push_back(curve_of("", recording, [i](const Recording::Sample& sample) { return sample.observed[i]; }));
+  return panel;
+}
+
 Panel errors_panel(const Recording& recording) {
   Panel panel = against_time("Errors of energy and constraints", {"error", AxisScale::decimal});
   panel.curves.push_back(curve_of("|H − H_0|", recording, [](const auto& sample) { return sample.energy; }));
@@ -117,6 +124,8 @@ Panel motion_panel(const Sketch& sketch, const Recording& recording, const Proje
 Figure run_figure(const Sketch& sketch, const Recording& recording) {
   Figure figure;
   figure.panels = motion_panels(sketch, recording, "Motion");
+  for (std::size_t i = 0; i < recording.observations.size(); ++i)
+    figure.panels.push_back(observation_panel(recording, i));
   if (!recording.constraints.empty()) figure.panels.push_back(multipliers_panel(recording));
   figure.panels.push_back(errors_panel(recording));
   return figure;

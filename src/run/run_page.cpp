@@ -27,6 +27,14 @@ PageChart multipliers_of(const Recording& recording) {
   return chart;
 }
 
+PageChart chart_of(const Recording& recording, std::size_t observation) {
+  const std::string& name = recording.observations[observation];
+  PageChart chart{name, name, AxisScale::linear, {PageCurve{name, {}}}};
+  for (const Recording::Sample& sample : recording.samples)
+    chart.curves.front().values.push_back(sample.observed[observation]);
+  return chart;
+}
+
 PageChart errors_of(const Recording& recording) {
   PageChart chart{"Errors of energy and constraints", "error", AxisScale::decimal, {}};
   chart.curves.push_back(curve_of("|H − H₀|", recording, &Recording::Sample::energy));
@@ -65,6 +73,7 @@ std::string run_page(const RunRequest& request, const Recording& recording, cons
     page.t.push_back(sample.t);
     page.q.push_back(sample.q);
   }
+  for (std::size_t i = 0; i < recording.observations.size(); ++i) page.charts.push_back(chart_of(recording, i));
   if (!shown_multipliers(recording).empty()) page.charts.push_back(multipliers_of(recording));
   page.charts.push_back(errors_of(recording));
   page.every = recording.every;

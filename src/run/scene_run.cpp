@@ -2,6 +2,7 @@
 
 #include "integrate/energy_scale.hpp"
 #include "integrate/momentum_drift.hpp"
+#include "integrate/observations.hpp"
 #include "integrate/output_state.hpp"
 #include "integrate/trajectory.hpp"
 #include "run/error_estimate.hpp"
@@ -148,18 +149,24 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
 
   Progress<S> progress(hooks.progress, grid.steps());
   std::vector<Observer<S>*> observers{&progress};
+  std::optional<Observations<S>> observations;
+  if (!request.scene.observations.empty()) observers.push_back(&observations.emplace(request.scene, scene.problem));
+  const Observations<S>* const observed = observations ? &*observations : nullptr;
   std::optional<Trajectory<S>> trajectory;
   std::optional<KeptFile<S>> kept_file;
   std::ostream* const lines = csv ? csv.get() : hooks.trajectory;
   if (lines) {
     const auto columns = trajectory_columns(request.scene, result.lambda_names);
     if (hooks.describe_csv) hooks.describe_csv(columns);
-    trajectory.emplace(scene.problem, *lines, hooks.every, grid.steps(), names_of(columns));
+    trajectory.emplace(scene.problem, *lines, hooks.every, grid.steps(), names_of(columns), observed);
     observers.push_back(&*trajectory);
     if (csv) observers.push_back(&kept_file.emplace(*csv));
   }
   std::optional<MotionRecorder<S>> recorder;
-  if (hooks.recording) observers.push_back(&recorder.emplace(scene.problem, grid.steps(), *hooks.recording));
+  if (hooks.recording) observers.push_back(&recorder.emplace(scene.problem, grid.steps(), *hooks.recording, observed));
+  if (hooks.recording)
+    for (const SceneObservation& observation : request.scene.observations)
+      hooks.recording->observations.push_back(observation.name);
   MomentumDrift<S> momenta(scene.problem, observed_momenta(request.scene, scene));
   if (!momenta.components().empty()) observers.push_back(&momenta);
   HealthWatch<S> health(scene.problem, method, grid);
@@ -200,6 +207,9 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   result.e_hid = to_text(simulated.e_hid);
   result.iterations_per_step =
       static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
+  for (std::size_t i = 0; i < request.scene.observations.size(); ++i)
+    result.observations.push_back({request.scene.observations[i].name, request.scene.observations[i].value.text(),
+                                   to_text(observed->values()[static_cast<Index>(i)])});
   result.health = health.report(*request.method, method, stepper.halving());
   for (const Redundancy& redundancy : scene.redundant)
     result.health.warnings.push_back(

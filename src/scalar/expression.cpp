@@ -51,7 +51,7 @@ class Parser {
 
   NodePtr parse() {
     constexpr std::size_t longest = 100'000;
-    if (syntax_ == Expression::Syntax::formula && text_.size() > longest) fail("begins a text that is too long");
+    if (is_formula() && text_.size() > longest) fail("begins a text that is too long");
     NodePtr root = sum();
     skip_blanks();
     if (at_ != text_.size()) fail("does not fit here" + product_meant());
@@ -81,9 +81,9 @@ class Parser {
     return std::make_shared<const Node>(Node{kind, std::move(text), std::move(left), std::move(right), at});
   }
 
-  bool is_blank(char c) const {
-    return c == ' ' || c == '\t' || (syntax_ == Expression::Syntax::formula && (c == '\n' || c == '\r'));
-  }
+  /// Of a number that stands alone there is one line, and no name of a body.
+  bool is_formula() const { return syntax_ != Expression::Syntax::number; }
+  bool is_blank(char c) const { return c == ' ' || c == '\t' || (is_formula() && (c == '\n' || c == '\r')); }
   void skip_blanks() {
     while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   }
@@ -202,8 +202,11 @@ class Parser {
   NodePtr name() {
     const std::size_t start = at_;
     skip_word();
-    if (syntax_ == Expression::Syntax::formula && at_ + 1 < text_.size() && text_[at_] == '.' &&
-        is_name_start(text_[at_ + 1])) {
+    const auto has_point = [&] { return at_ + 1 < text_.size() && text_[at_] == '.' && is_name_start(text_[at_ + 1]); };
+    for (int points = syntax_ == Expression::Syntax::observation ? 2
+                      : is_formula()                             ? 1
+                                                                 : 0;
+         points > 0 && has_point(); --points) {
       ++at_;
       skip_word();
     }
@@ -220,8 +223,27 @@ class Parser {
       return make(start, kind, std::move(argument), std::move(second));
     }
     if (word == "pi") return make(start, Kind::pi);
+    if (syntax_ == Expression::Syntax::observation && accept('('))
+      return make(start, Kind::name, nullptr, nullptr, word + arguments());
     if (at_ < text_.size() && text_[at_] == '(' && word.size() > 1) unknown_function(start, word);
     return make(start, Kind::name, nullptr, nullptr, word);
+  }
+
+  /// What stands in the brackets of a quantity, with one blank after each comma: "(a, b)".
+  std::string arguments() {
+    std::string text = "(";
+    int open = 1;
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      open += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+      if (open == 0) break;
+      if (is_blank(c) && (text.back() == '(' || text.back() == ' ')) continue;
+      text += is_blank(c) ? ' ' : c;
+      if (c == ',') text += ' ';
+    }
+    while (text.back() == ' ') text.pop_back();
+    close();
+    return text + ")";
   }
 
   std::string_view text_;

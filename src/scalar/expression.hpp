@@ -40,9 +40,10 @@ class ExpressionError : public InputError {
 /// associates to the right: -2^2 = -4, 2^3^2 = 512.
 ///
 /// Or a formula, which may have line breaks, and names with a dot, a.x, in it: some of its names stand for what varies.
+/// Or an observation, a formula whose names may also have two dots, or be those of quantities: distance(a, b).
 class Expression {
  public:
-  enum class Syntax { number, formula };
+  enum class Syntax { number, formula, observation };
   /// \throws ExpressionError with the column of the first character that does not fit
   static Expression parse(std::string_view text, Syntax syntax = Syntax::number);
 

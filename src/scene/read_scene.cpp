@@ -30,7 +30,7 @@ constexpr Allowed of_constraint{.points = true, .attachments = true},
 const std::set<std::string, std::less<>>& top_keys() {
   static const std::set<std::string, std::less<>> keys{"title",      "source",     "dimension", "observables",
                                                        "constants",  "point",      "body",      "rigid_body",
-                                                       "attachment", "constraint", "effect"};
+                                                       "attachment", "constraint", "effect",    "observe"};
   return keys;
 }
 
@@ -61,6 +61,7 @@ class SceneReader {
         if (std::count(known.begin(), known.end(), name) == 0)
           top.fail(*node, "unknown observable '" + name + "'" + did_you_mean_or_list(name, known));
     }
+    for (const toml::table* table : top.tables("observe")) observe(TomlTable(source_, *table, "observe"));
     if (scene_.bodies.empty() && scene_.rigid_bodies.empty()) top.fail("there is no [[body]]");
   }
 
@@ -157,6 +158,18 @@ class SceneReader {
     table.finish();
     rigid_.insert(b.name);
     scene_.rigid_bodies.push_back(std::move(b));
+  }
+
+  void observe(TomlTable table) {
+    const std::string name = table.string("name"), text = table.string("value");
+    table.finish();
+    for (const SceneObservation& other : scene_.observations)
+      if (other.name == name) table.fail("'" + name + "' is observed already");
+    try {
+      scene_.observations.push_back({name, Expression::parse(text, Expression::Syntax::observation), table.line()});
+    } catch (const ExpressionError& error) {
+      table.fail(std::string("'value': ") + error.what());
+    }
   }
 
   void attachment(TomlTable table) {

@@ -107,6 +107,13 @@ struct SceneEffect {
   std::size_t line = 0;
 };
 
+/// What is looked at along the motion: see Observations.
+struct SceneObservation {
+  std::string name;
+  Expression value;
+  std::size_t line = 0;
+};
+
 struct Scene {
   std::string name;  ///< built-in name or path
   std::string title, source;
@@ -118,8 +125,9 @@ struct Scene {
   std::vector<SceneAttachment> attachments;
   std::vector<SceneConstraint> constraints;
   std::vector<SceneEffect> effects;
-  std::vector<std::string> observables;   ///< among energy, linear_momentum, angular_momentum
-  std::vector<std::string> changes = {};  ///< that were made to what the name stands for: "L=1.2"
+  std::vector<std::string> observables;  ///< among energy, linear_momentum, angular_momentum
+  std::vector<SceneObservation> observations = {};
+  std::vector<std::string> changes = {};  ///< options that make it of what the name stands for: "--set 'L=1.2'"
 
   bool observes(std::string_view what) const {
     return std::find(observables.begin(), observables.end(), what) != observables.end();

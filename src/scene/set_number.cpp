@@ -49,13 +49,13 @@ Scene with_number(const Scene& scene, const std::string& what, const Expression&
   const std::vector<std::string> changes = std::move(changed.changes);
   changed = read_scene(write_scene(changed), scene.name);
   changed.changes = changes;
-  changed.changes.push_back(what + "=" + value.text());
+  changed.changes.push_back("--set '" + what + "=" + value.text() + "'");
   return changed;
 }
 
 std::string settings_in_command(const Scene& scene) {
   std::string text;
-  for (const std::string& change : scene.changes) text += " --set '" + change + "'";
+  for (const std::string& change : scene.changes) text += " " + change;
   return text;
 }
 

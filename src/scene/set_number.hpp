@@ -9,7 +9,7 @@ namespace hbvm::core {
 /// \throws InputError for what there is not, with what there is
 Scene with_number(const Scene& scene, const std::string& what, const Expression& value);
 
-/// What follows the scene's name in a command: " --set 'L=1.2'" for each change.
+/// What follows the scene's name in a command: " --set 'L=1.2'" or " --observe 'x=a.x'" for each change.
 std::string settings_in_command(const Scene& scene);
 
 }  // namespace hbvm::core

@@ -130,6 +130,11 @@ std::string write_scene(const Scene& scene) {
       w.key("between", text(pairs));
     }
   }
+  for (const SceneObservation& o : scene.observations) {
+    w.table("observe");
+    w.key("name", quoted(o.name));
+    w.key("value", quoted(o.value.text()));
+  }
   return w.out;
 }
 

@@ -2,6 +2,8 @@
 
 #include "cli/json.hpp"
 #include "cli/program.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/precision.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -29,6 +31,26 @@ TEST(ReferenceCommand, PrintsJson) {
     EXPECT_GT(route["cpu_seconds"], 0);
   }
   for (const char* key : {"scene_hash", "version", "command"}) EXPECT_TRUE(j[key].is_string()) << key;
+}
+
+/// The bob of length 1: its height is that of its angle, and the tension follows from the energy. The digits are all
+/// those asked for.
+TEST(ReferenceCommand, TellsWhatIsObserved) {
+  const ordered_json j =
+      json_of({"reference", "simple_pendulum", "--until", "3", "--digits", "40", "--observe", "angle=angle(pivot, bob)",
+               "--observe", "T=tension(pivot, bob)", "--observe", "difference=bob.y - sin(angle(pivot, bob))"});
+  const auto& state = j["times"][0];
+  EXPECT_EQ(keys_of(state["observed"]), (std::vector<std::string>{"angle", "T", "difference"}));
+  EXPECT_EQ(state["observed"]["difference"], "0");
+  const PrecisionScope digits(60);
+  const auto number_of = [&](const std::string& what) {
+    return literal<Mpfr>(state["observed"][what].get<std::string>());
+  };
+  const Mpfr y = literal<Mpfr>(state["q"][1].get<std::string>());
+  EXPECT_LE(magnitude(Mpfr(y - sin(number_of("angle")))), literal<Mpfr>("1e-39"));
+  EXPECT_LE(magnitude(Mpfr(number_of("T") - 2 * literal<Mpfr>(state["lambda"][0].get<std::string>()))),
+            literal<Mpfr>("1e-39"));
+  EXPECT_GE(state["observed"]["T"].get<std::string>().size(), 41u);
 }
 
 TEST(ReferenceCommand, GivesTheClosedFormAloneIfThereIsOne) {

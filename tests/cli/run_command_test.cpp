@@ -114,6 +114,19 @@ TEST(RunStates, AreInTheJsonIfAskedFor) {
   ended_with(2, arguments);
 }
 
+TEST(RunObservations, AreToldAndRefusedWhereTheyAreWrong) {
+  Arguments arguments = run_of("simple_pendulum", "hbvm:3,2", "1/4", "1");
+  arguments.insert(arguments.end(), {"--observe", "T=tension(pivot, bob)", "--observe", "speed(bob)"});
+  expect_words(ended_with(0, arguments).out, {"observed at the end\n  T  ", "\n  speed(bob)  "});
+  const ordered_json j = json_of(arguments);
+  EXPECT_EQ(keys_of(j["observed"]), (Texts{"T", "speed(bob)"}));
+  expect_words(j["command"].get<std::string>(), {" --observe 'T=tension(pivot, bob)' --observe 'speed(bob)'"});
+  arguments.insert(arguments.end(), {"--observe", "speed(bub)"});
+  expect_words(ended_with(2, arguments).err, {"simple_pendulum: observe 'speed(bub)'", "did you mean 'bob'"});
+  arguments.back() = "a=1/(";
+  expect_words(ended_with(2, arguments).err, {"--observe a=1/(", "column 4"});
+}
+
 TEST(RunHealth, IsInTheJsonAndTheText) {
   const Arguments lossy = run_of("tethered_satellites", "hbvm:1,1", "0.1", "20");
   const ordered_json health = json_of(lossy)["health"];

@@ -35,6 +35,17 @@ TEST(DoorFacts, CountsAndNamesWhatIsThere) {
   EXPECT_EQ(facts.effects[1].not_on[0].first, "b");
 }
 
+TEST(DoorFacts, HoldWhatIsObservedAtTheStart) {
+  Scene scene = triangle();
+  scene.observe("width", "2*distance(a, b)");
+  const SceneFacts facts = describe(scene, "mpfr:40");
+  ASSERT_EQ(facts.observed.size(), 1u);
+  EXPECT_EQ(facts.observed[0].value, "4");
+  EXPECT_NE(to_text(facts).find("width = 4, 2*distance(a, b)"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(to_json(facts)).at("observed").at("width").at("value"), "4");
+  EXPECT_THROW(describe(triangle().observe("x", "c.x")), InputError);
+}
+
 /// T = (1 + 3)/2, the potential energies are 0 of gravity and 5^4/4 of the trap.
 TEST(DoorFacts, KnowsTheEnergyToTheDigitsAskedFor) {
   const SceneFacts facts = describe(triangle(), "mpfr:40");

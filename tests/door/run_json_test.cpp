@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "hbvm/run.hpp"
@@ -50,6 +51,37 @@ TEST(DoorRunJson, HoldsTheStatesIfAsked) {
     if (what == std::string("output")) end.erase("delta_H");
     EXPECT_EQ(states[2].at(what), end) << what;
   }
+}
+
+/// What the scene observes: at the end, in each state, in a column, and in a panel of its own.
+TEST(DoorRunJson, HoldsWhatIsObserved) {
+  RunRequest request{.scene = load_scene("double_pendulum"), .method = "hbvm:3,2", .step = "1/4", .until = 1};
+  request.scene.observe("T", "tension(pivot, a)").observe("a.x", "2*a.x");
+  EXPECT_THROW(run(request), InputError) << "there is a column a.x";
+  request.scene = load_scene("double_pendulum");
+  request.scene.observe("T", "tension(pivot, a)").observe("twice", "2*a.x");
+  request.picture = true;
+  const hbvm::Run made = run(request);
+  ASSERT_EQ(made.observations.size(), 2u);
+  EXPECT_EQ(made.observations[0].name, "T");
+  EXPECT_EQ(made.observations[0].formula, "tension(pivot, a)");
+  EXPECT_EQ(made.observations[1].value, made.trajectory.text("twice").back());
+  EXPECT_EQ(std::stod(made.observations[1].value), 2 * std::stod(made.q[0]));
+  EXPECT_NEAR(std::stod(made.observations[0].value), 2 * std::stod(made.output_lambda[0]), 1e-13);
+  EXPECT_EQ(made.trajectory.values("T").size(), 5u);
+  const nlohmann::json json = nlohmann::json::parse(to_json(made, true));
+  EXPECT_EQ(json.at("observed").at("twice"), made.observations[1].value);
+  EXPECT_EQ(json.at("states")[4].at("observed"), json.at("observed"));
+  EXPECT_NE(json.at("states")[0].at("observed"), json.at("observed"));
+  EXPECT_EQ(read_scene(json.at("scene_text")).toml(), made.scene_toml);
+  EXPECT_NE(made.command.find(" --observe 'T=tension(pivot, a)' --observe 'twice=2*a.x'"), std::string::npos);
+  ASSERT_TRUE(made.figure);
+  const auto panel = [&](const std::string& title) {
+    return std::any_of(made.figure->panels.begin(), made.figure->panels.end(),
+                       [&](const Panel& p) { return p.title == title && p.curves.size() == 1; });
+  };
+  EXPECT_TRUE(panel("T") && panel("twice"));
+  EXPECT_NE(made.page.find("\"twice\""), std::string::npos);
 }
 
 }  // namespace

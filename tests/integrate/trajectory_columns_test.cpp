@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/observe.hpp"
+
 namespace hbvm::core {
 namespace {
 
@@ -39,6 +41,15 @@ TEST(TrajectoryColumns, StayOnOneLine) {
   const Names names = names_of(trajectory_columns(scene, {}));
   EXPECT_EQ(names[1], "a,  \"b\".x");
   EXPECT_EQ(names.size(), 1u + 2 + 2 + 2 + 3);
+}
+
+TEST(TrajectoryColumns, EndWithWhatIsObserved) {
+  const Scene scene = with_observation(load_scene("kepler"), "r=distance(sun, planet)");
+  const auto columns = trajectory_columns(scene, {});
+  EXPECT_EQ(columns.back().name, "r");
+  EXPECT_NE(columns.back().description.find("distance(sun, planet)"), std::string::npos);
+  for (const char* const taken : {"t", "g", "planet.x", "delta_H"})
+    EXPECT_THROW(trajectory_columns(with_observation(scene, std::string(taken) + "=planet.y"), {}), InputError);
 }
 
 }  // namespace

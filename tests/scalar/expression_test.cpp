@@ -114,6 +114,17 @@ TEST(Expression, TakesTheTwoArgumentsOfAnAngle) {
   EXPECT_THROW(Expression::parse("(1, 2)"), ExpressionError);
 }
 
+TEST(Expression, OfAnObservationHasNamesOfQuantities) {
+  const auto names = [](const char* text) { return Expression::parse(text, Expression::Syntax::observation).names(); };
+  EXPECT_EQ(names("sqrt(a.d1.x^2) + L*angle( a.d1,b )/energy()"),
+            (std::set<std::string>{"a.d1.x", "L", "angle(a.d1, b)", "energy()"}));
+  EXPECT_EQ(names("distance(bar[(1/2), 0],  the pivot )"),
+            (std::set<std::string>{"distance(bar[(1/2), 0], the pivot)"}));
+  for (const char* const text : {"distance(a, b", "angle(a))", "a.b.c.d", "2 distance(a, b)", "f(a)(b)"})
+    EXPECT_THROW(names(text), ExpressionError) << text;
+  EXPECT_THROW(Expression::parse("a.d1.x", Expression::Syntax::formula), ExpressionError);
+}
+
 TEST(Expression, UnknownFunctionsListThoseThereAre) {
   for (const auto& [text, words] :
        {std::pair("1 + atan3(y, x)", "column 5: 'atan3' is no function: did you mean 'atan'? There are sqrt, sin,"),

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "integrate/observer.hpp"
+#include "integrate/seen_quantity.hpp"
+#include "problem/effect/execution.hpp"
+#include "problem/effect/term.hpp"
+#include "problem/redundant_constraints.hpp"
+#include "problem/state_evaluator.hpp"
+
+namespace hbvm::core {
+
+/// The values of a scene's observations along the motion. They are formulas of what SeenQuantities names. An angle of
+/// the plane goes on over full turns: of those it can be, it is the one nearest to where its rates at both ends of the
+/// step lead.
+template <Scalar S>
+class Observations final : public Observer<S> {
+ public:
+  /// Scene and problem must outlive it.
+  /// \throws InputError with file, line and what is wrong
+  Observations(const Scene& scene, const Problem<S>& problem);
+
+  /// \throws InputError for a value that is not finite at the start, and IntegrationError later
+  void observe(const Snapshot<S>& snapshot) override;
+  /// The same for a state by itself: angles are in (-pi, pi].
+  const Vector<S>& see(const S& t, const Vector<S>& q, const Vector<S>& p);
+  /// Those at the state seen last, one for each observation.
+  const Vector<S>& values() const { return values_; }
+  void remember(Archive& archive) override { archive(angles_, rates_, last_t_); }
+
+ private:
+  /// One observation: a program of quantities, or one of them.
+  struct Formula {
+    std::vector<std::size_t> quantities;
+    EffectTerm<S> term;
+    Matrix<S> inputs;
+    std::unique_ptr<Execution<S>> execution;
+  };
+  void add(const SceneObservation& observation, const SeenQuantities<S>& quantities);
+  void take(const S& t, const Vector<S>& q, const Vector<S>& p);
+  void evaluate_all(bool at_start);
+
+  const Scene& scene_;
+  const Problem<S>& problem_;
+  StateEvaluator<S> point_;
+  RedundantConstraints<S> redundant_;
+  std::vector<std::string> names_, names_of_formulas_;  // of the quantities, and of the observations
+  std::vector<SeenQuantity<S>> quantities_;
+  std::vector<std::unique_ptr<Formula>> formulas_;
+  SeenState<S> state_;
+  Vector<S> seen_;            // of the quantities
+  Vector<S> values_;          // of the observations
+  Vector<S> angles_, rates_;  // of the quantities that are angles, at the mesh point before
+  S last_t_ = 0;
+};
+
+}  // namespace hbvm::core

@@ -1,0 +1,147 @@
+#include "integrate/seen_quantity.hpp"
+
+#include "integrate/observations.hpp"
+#include "integrate/output_state.hpp"
+#include "integrate/runs.hpp"
+#include "printing.hpp"
+#include "scene/observe.hpp"
+#include "words.hpp"
+
+namespace hbvm::core {
+namespace {
+
+/// The values of these observations at the start of a scene.
+Vector<Mpfr> at_start(Scene scene, const std::vector<std::string>& observations) {
+  for (const std::string& observation : observations) scene = with_observation(scene, observation);
+  const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
+  Observations<Mpfr> seen(scene, assembled.problem);
+  return seen.see(Mpfr(0), assembled.q0, assembled.p0);
+}
+
+class SeenQuantityTest : public InDigits<50> {
+ protected:
+  static void expect_values(const Scene& scene, const std::vector<std::pair<std::string, std::string>>& expected) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : expected) names.push_back(name);
+    const Vector<Mpfr> found = at_start(scene, names);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const Mpfr value = literal<Mpfr>(expected[i].second);
+      EXPECT_LE(magnitude(Mpfr(found[static_cast<Index>(i)] - value)), 100 * epsilon<Mpfr>() * (1 + magnitude(value)))
+          << names[i] << " is " << to_text(found[static_cast<Index>(i)]);
+    }
+  }
+};
+
+/// T = m (v^2/L + g cos) of a pendulum: with the rod straight down, and at the angle whose cosine is 4/5.
+TEST_F(SeenQuantityTest, TensionIsThatOfAPendulum) {
+  const auto pendulum = [](const std::string& position, const std::string& velocity) {
+    return read_scene(
+        "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\nbody = [{ name = \"bob\", mass = 3, position "
+        "= " +
+            position + ", velocity = " + velocity +
+            " }]\nconstraint = [{ kind = \"rod\", between = [\"o\", \"bob\"], length = 2 }]\n"
+            "effect = [{ kind = \"uniform_gravity\", acceleration = [0, -10] }]\n",
+        "pendulum");
+  };
+  expect_values(pendulum("[0, -2]", "[4, 0]"), {{"tension(o, bob)", "3*(16/2 + 10)"},
+                                                {"tension(bob, o)", "3*(16/2 + 10)"},
+                                                {"force(bob, o, y)", "54"},
+                                                {"force(o, bob, y)", "-54"},
+                                                {"force(bob, o, x)", "0"},
+                                                {"angle(o, bob)", "-pi/2"},
+                                                {"rate(o, bob)", "2"},
+                                                {"distance(o, bob)", "2"},
+                                                {"speed(bob)", "4"},
+                                                {"bob.vx + bob.px + bob.x + o.y + t", "4 + 12"},
+                                                {"x(bob) + vy(bob) + px(bob)", "12"},
+                                                {"kinetic(bob)", "24"},
+                                                {"kinetic()", "24"},
+                                                {"potential()", "-60"},
+                                                {"energy()", "-36"}});
+  expect_values(pendulum("[\"6/5\", \"-8/5\"]", "[0, 0]"),
+                {{"tension(o, bob)", "24"}, {"force(bob, o, x)", "-24*3/5"}, {"force(bob, o, y)", "24*4/5"}});
+}
+
+/// m a = m g + the forces on a body, with a from the momenta of a run of two small steps.
+TEST_F(SeenQuantityTest, ForcesAreWhatABodyIsMovedBy) {
+  const std::string lower = "lower[-2/5, 0]", upper = "upper[1, 0]";
+  Scene scene = load_scene("double_physical_pendulum");
+  for (const char* const axis : {"x", "y"})
+    for (const auto& [a, b] : {std::pair(lower, upper), {upper, lower}})
+      scene = with_observation(scene, "force(" + a + ", " + b + ", " + axis + ")");
+  SceneRun<Mpfr> run(scene, 6, 6, "1e-12", "2e-12");
+  Recorder<Mpfr> recorder;
+  Observations<Mpfr> observations(scene, run.scene.problem);
+  Vector<Mpfr> forces;
+  struct Middle final : Observer<Mpfr> {
+    Observations<Mpfr>& from;
+    Vector<Mpfr>& to;
+    Middle(Observations<Mpfr>& observed, Vector<Mpfr>& values) : from(observed), to(values) {}
+    void observe(const Snapshot<Mpfr>& s) override {
+      if (s.n == 1) to = from.values();
+    }
+  } middle(observations, forces);
+  run({&recorder, &observations, &middle});
+  // The lower bar's reference point is its centre of mass, of mass 1.
+  const auto& seen = recorder.seen;
+  StateEvaluator<Mpfr> point(run.scene.problem);
+  const Index at = 4;
+  for (Index i = 0; i < 2; ++i) {
+    const Mpfr before = point.tangential(seen[0].q, seen[0].p)[at + i];
+    const Mpfr acceleration = (point.tangential(seen[2].q, seen[2].p)[at + i] - before) / (2 * run.grid.step());
+    const Mpfr expected = acceleration + (i == 1 ? 1 : 0);
+    EXPECT_LE(magnitude(Mpfr(forces[2 * i] - expected)), literal<Mpfr>("1e-20")) << i;
+    EXPECT_EQ(forces[2 * i + 1], -forces[2 * i]);
+  }
+}
+
+TEST_F(SeenQuantityTest, BarsOfThePlaneTurn) {
+  expect_values(load_scene("double_physical_pendulum"),
+                {{"angle(upper.d1)", "atan2(-4/5, 3/5)"},
+                 {"rate(upper.d1)", "1/2"},
+                 {"omega(upper)", "1/2"},
+                 {"omega(lower)", "-1"},
+                 {"angle(upper.d1, lower.d1)", "atan2(-5/13, 12/13) - atan2(-4/5, 3/5)"},
+                 {"rate(upper.d1, lower.d1)", "-3/2"},
+                 {"angle(x, lower.d2)", "atan2(12/13, 5/13)"},
+                 {"upper.d1.x + upper.d2.vy", "3/5 + 1/2*4/5"},
+                 {"distance(upper[1, 0], lower[-2/5, 0])", "0"},
+                 {"kinetic(upper) + kinetic(lower) - kinetic()", "0"}});
+}
+
+TEST_F(SeenQuantityTest, BodiesOfSpaceTurn) {
+  expect_values(load_scene("heavy_top"), {{"omega(top, x)", "1"},
+                                          {"omega(top, y)", "3/2"},
+                                          {"omega(top, z)", "3"},
+                                          {"omega(top, top.d3)", "2/7 + 3/2*3/7 + 3*6/7"},
+                                          {"180/pi*angle(top.d3, z)", "180/pi*acos(6/7)"},
+                                          {"angle(top.d1, top.d2)", "pi/2"}});
+  expect_values(load_scene("gyroscope_on_gimbal"),
+                {{"omega(rotor, rotor.d3) - omega(inner, rotor.d3)", "5"}, {"distance(post, rotor)", "1/5"}});
+}
+
+TEST_F(SeenQuantityTest, IsRefusedWithWhatThereIs) {
+  const Scene plane = load_scene("double_physical_pendulum"), space = load_scene("heavy_top");
+  const auto refusal = [](const Scene& scene, const std::string& text) {
+    return message_of<InputError>([&] { at_start(scene, {text}); });
+  };
+  expect_words(refusal(plane, "tension(upper, lower)"), {"observe 'tension(upper, lower)'", "no rod between"});
+  expect_words(refusal(plane, "force(upper, lower, x)"), {"no rod, ball joint or hinge between"});
+  expect_words(refusal(plane, "angel(upper.d1)"), {"did you mean 'angle'"});
+  expect_words(refusal(plane, "angle(uper.d1)"), {"no direction", "directors of rigid bodies"});
+  expect_words(refusal(plane, "omega(upper, x)"), {"'omega' is omega(a)"});
+  expect_words(refusal(plane, "distance(upper)"), {"'distance' is distance(a, b)"});
+  expect_words(refusal(plane, "upper.z"), {"'upper' has no 'z'", "x, y, vx"});
+  expect_words(refusal(plane, "px(upper)"), {"no momentum of its own"});
+  expect_words(refusal(plane, "kinetic(top)"), {"no body 'top'", "upper"});
+  expect_words(refusal(plane, "height"), {"there is no 'height'"});
+  expect_words(refusal(plane, "7 + pi"), {"names nothing of the motion"});
+  expect_words(refusal(space, "angle(top.d3)"), {"between two directions"});
+  expect_words(refusal(space, "rate(top.d3, z)"), {"omega"});
+  expect_words(refusal(space, "omega(top)"), {"along a direction"});
+  expect_words(message_of<IntegrationError>([&] { at_start(space, {"1/(top.d1.vx - top.d1.vx)"}); }),
+               {"has no value at t = 0"});
+}
+
+}  // namespace
+}  // namespace hbvm::core
