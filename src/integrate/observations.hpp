@@ -14,8 +14,7 @@
 namespace hbvm::core {
 
 /// The values of a scene's observations along the motion. They are formulas of what SeenQuantities names. An angle of
-/// the plane goes on over full turns: of those it can be, it is the one nearest to where its rates at both ends of the
-/// step lead.
+/// the plane goes on over full turns. It is the one nearest to where its rates at both ends of the step lead.
 template <Scalar S>
 class Observations final : public Observer<S> {
  public:

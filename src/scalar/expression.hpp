@@ -35,9 +35,9 @@ class ExpressionError : public InputError {
   std::size_t at_ = 0;
 };
 
-/// An exact number as text: decimals, names, + - * / ^ ( ), pi, sqrt sin cos tan exp log sinh cosh tanh asin acos atan
-/// abs, and atan2(y, x), the angle of the point (x, y) in (-pi, pi]. `^` binds tighter than a sign on its left and
-/// associates to the right: -2^2 = -4, 2^3^2 = 512.
+/// An exact number as text: decimals, names, pi, + - * / ^ ( ). There are functions of one argument: sqrt sin cos tan
+/// exp log sinh cosh tanh asin acos atan abs. atan2(y, x) is the angle of the point (x, y), in (-pi, pi]. `^` binds
+/// tighter than a sign on its left and associates to the right: -2^2 = -4, 2^3^2 = 512.
 ///
 /// Or a formula, which may have line breaks, and names with a dot, a.x, in it: some of its names stand for what varies.
 /// Or an observation, a formula whose names may also have two dots, or be those of quantities: distance(a, b).
