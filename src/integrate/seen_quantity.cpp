@@ -197,7 +197,8 @@ class SeenQuantities<S>::Names {
                        " of space and the directors of rigid bodies, as a.d1");
     if (places_.contains(name)) return place(name);
     const Vector<S> unit = Vector<S>::Unit(d_, axis_of(name));
-    return {[unit](const State&) { return unit; }, [unit](const State&) { return Vector<S>::Zero(unit.size()); }};
+    return {[unit](const State&) { return Vector<S>(unit); },
+            [unit](const State&) { return Vector<S>::Zero(unit.size()); }};
   }
 
   /// \param what "x", "vx" or "px"

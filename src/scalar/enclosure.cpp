@@ -157,7 +157,7 @@ class Encloser {
       case Kind::atan:
         return growing(mpfr_atan, a);
       case Kind::atan2:
-        return angle(std::move(a), *right);
+        return angle(a, *right);
       case Kind::abs:
         return magnitude(a);
       default:
@@ -205,7 +205,7 @@ class Encloser {
   }
 
   /// The angle of (x, y). It is monotone in x and in y off the half line y = 0, x <= 0.
-  Interval angle(Interval y, const Interval& x) const {
+  Interval angle(const Interval& y, const Interval& x) const {
     if (holds_zero(y) && mpfr_sgn(raw(x.low)) <= 0) {
       const char* const reason = "angle of a point at 0 or near y = 0, x < 0";
       if (!counts_as_zero(y)) throw Undecided{reason};
