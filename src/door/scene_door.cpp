@@ -225,7 +225,7 @@ Scene& Scene::observe(const std::string& quantity) {
 }
 
 Scene& Scene::observe(const std::string& name, const std::string& formula) {
-  become(core::with_observation(core::scene_of(*this), name == formula ? name : name + "=" + formula));
+  become(core::with_observation(core::scene_of(*this), name, formula));
   return *this;
 }
 

@@ -32,7 +32,10 @@ void Observations<S>::add(const SceneObservation& observation, const SeenQuantit
   auto formula = std::make_unique<Formula>();
   FormulaInput<S> input{observation.value, scene_.constants};
   for (const std::string& name : observation.value.names()) {
-    if (scene_.constants.contains(name)) continue;
+    if (scene_.constants.contains(name)) {
+      if (name == "t") throw InputError("'t' is a constant of the scene, and the time here: rename the constant");
+      continue;
+    }
     auto known = std::find(names_.begin(), names_.end(), name);
     const auto at = static_cast<std::size_t>(known - names_.begin());
     if (known == names_.end()) {
@@ -52,7 +55,6 @@ void Observations<S>::add(const SceneObservation& observation, const SeenQuantit
         std::make_unique<Execution<S>>(formula->term.value, formula->term.value_coefficients, formula->inputs, 1);
   }
   formulas_.push_back(std::move(formula));
-  names_of_formulas_.push_back(observation.name);
 }
 
 template <Scalar S>
@@ -85,7 +87,7 @@ void Observations<S>::evaluate_all(bool at_start) {
     }
     if (is_finite(value)) continue;
     const std::string what =
-        scene_.name + ": observe '" + names_of_formulas_[n] + "' has no value at t = " + to_text(state_.t);
+        scene_.name + ": observe '" + scene_.observations[n].name + "' has no value at t = " + to_text(state_.t);
     if (at_start) throw InputError(what);
     throw IntegrationError(what);
   }

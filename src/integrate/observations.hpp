@@ -46,7 +46,7 @@ class Observations final : public Observer<S> {
   const Problem<S>& problem_;
   StateEvaluator<S> point_;
   RedundantConstraints<S> redundant_;
-  std::vector<std::string> names_, names_of_formulas_;  // of the quantities, and of the observations
+  std::vector<std::string> names_;  // of the quantities
   std::vector<SeenQuantity<S>> quantities_;
   std::vector<std::unique_ptr<Formula>> formulas_;
   SeenState<S> state_;

@@ -214,7 +214,14 @@ std::string scene_hash(const Scene& scene) {
 
 namespace {
 
-/// x to the digits on which the routes agree, or which were asked for.
+/// x with its last digits changed, another way in each component.
+Vector<Mpfr> shaken(Vector<Mpfr> x) {
+  constexpr int least = 64;
+  for (Index i = 0; i < x.size(); ++i) x[i] += x[i] * epsilon<Mpfr>() * static_cast<int>(least + i);
+  return x;
+}
+
+/// The first value to the digits in which no other differs, at most those that were asked for.
 std::string agreed_text(const std::vector<Mpfr>& x, int digits) {
   using std::floor, std::log10;
   Mpfr difference = 0;
@@ -226,7 +233,8 @@ std::string agreed_text(const std::vector<Mpfr>& x, int digits) {
   return rounded_text(to_text(x.front()), static_cast<int>(std::max(1L, agreed)));
 }
 
-/// What the scene observes, at each time by each route.
+/// What the scene observes, at each time by each route. Rounding that a formula magnifies is in all routes alike. A
+/// state with its last digits changed shows it.
 void add_observed(Reference& result, const ReferenceRequest& request, const Problem<Mpfr>& problem,
                   const std::vector<NamedRun>& runs) {
   if (request.scene.observations.empty()) return;
@@ -235,12 +243,14 @@ void add_observed(Reference& result, const ReferenceRequest& request, const Prob
     result.observed_names.push_back(observation.name);
   for (std::size_t n = 0; n < result.times.size(); ++n) {
     std::vector<std::vector<Mpfr>> values(result.observed_names.size());
-    for (const NamedRun& run : runs) {
-      const ExactPoint& at = run.run.points[n];
-      const Vector<Mpfr>& seen =
-          observations.see(evaluate<Mpfr>(request.times[n], request.scene.constants), at.q, at.p);
+    const Mpfr t = evaluate<Mpfr>(request.times[n], request.scene.constants);
+    const auto add = [&](const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
+      const Vector<Mpfr>& seen = observations.see(t, q, p);
       for (std::size_t i = 0; i < values.size(); ++i) values[i].push_back(seen[static_cast<Index>(i)]);
-    }
+    };
+    for (const NamedRun& run : runs) add(run.run.points[n].q, run.run.points[n].p);
+    const ExactPoint& first = runs.front().run.points[n];
+    add(shaken(first.q), shaken(first.p));
     for (const std::vector<Mpfr>& x : values) result.times[n].observed.push_back(agreed_text(x, request.digits));
   }
 }

@@ -4,8 +4,8 @@
 
 namespace hbvm::core {
 
-/// The scene with one more observation, "swing=angle(a, b)" or "angle(a, b)", which is then its own name. The scene
+/// The scene with one more observation. One that is called as its formula reads has no name of its own. The scene
 /// remembers the change as with_number() does. \throws InputError
-Scene with_observation(const Scene& scene, const std::string& text);
+Scene with_observation(const Scene& scene, const std::string& name, const std::string& formula);
 
 }  // namespace hbvm::core

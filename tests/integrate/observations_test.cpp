@@ -74,7 +74,7 @@ TYPED_TEST(ObservationsTest, AreKeptWithTheirRun) {
 TEST(ObservationsErrors, NameTheTimeWhereThereIsNoValue) {
   // log of what becomes negative when the bob has passed its lowest point.
   Scene scene = turning();
-  scene = with_observation(scene, "L=log(1/2 - bob.x)");
+  scene = with_observation(scene, "L", "log(1/2 - bob.x)");
   SceneRun<double> run(scene, 2, 2, "1/16", "1");
   Observations<double> observations(scene, run.scene.problem);
   expect_words(message_of<IntegrationError>([&] { run({&observations}); }), {"observe 'L'", "no value at t = 0."});

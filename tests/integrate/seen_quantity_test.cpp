@@ -12,7 +12,7 @@ namespace {
 
 /// The values of these observations at the start of a scene.
 Vector<Mpfr> at_start(Scene scene, const std::vector<std::string>& observations) {
-  for (const std::string& observation : observations) scene = with_observation(scene, observation);
+  for (const std::string& observation : observations) scene = with_observation(scene, observation, observation);
   const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
   Observations<Mpfr> seen(scene, assembled.problem);
   return seen.see(Mpfr(0), assembled.q0, assembled.p0);
@@ -67,8 +67,10 @@ TEST_F(SeenQuantityTest, ForcesAreWhatABodyIsMovedBy) {
   const std::string lower = "lower[-2/5, 0]", upper = "upper[1, 0]";
   Scene scene = load_scene("double_physical_pendulum");
   for (const char* const axis : {"x", "y"})
-    for (const auto& [a, b] : {std::pair(lower, upper), {upper, lower}})
-      scene = with_observation(scene, "force(" + a + ", " + b + ", " + axis + ")");
+    for (const auto& [a, b] : {std::pair(lower, upper), {upper, lower}}) {
+      const std::string force = "force(" + a + ", " + b + ", " + axis + ")";
+      scene = with_observation(scene, force, force);
+    }
   SceneRun<Mpfr> run(scene, 6, 6, "1e-12", "2e-12");
   Recorder<Mpfr> recorder;
   Observations<Mpfr> observations(scene, run.scene.problem);

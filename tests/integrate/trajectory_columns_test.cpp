@@ -44,12 +44,12 @@ TEST(TrajectoryColumns, StayOnOneLine) {
 }
 
 TEST(TrajectoryColumns, EndWithWhatIsObserved) {
-  const Scene scene = with_observation(load_scene("kepler"), "r=distance(sun, planet)");
+  const Scene scene = with_observation(load_scene("kepler"), "r", "distance(sun, planet)");
   const auto columns = trajectory_columns(scene, {});
   EXPECT_EQ(columns.back().name, "r");
   EXPECT_NE(columns.back().description.find("distance(sun, planet)"), std::string::npos);
   for (const char* const taken : {"t", "g", "planet.x", "delta_H"})
-    EXPECT_THROW(trajectory_columns(with_observation(scene, std::string(taken) + "=planet.y"), {}), InputError);
+    EXPECT_THROW(trajectory_columns(with_observation(scene, taken, "planet.y"), {}), InputError);
 }
 
 }  // namespace

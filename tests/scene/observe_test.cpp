@@ -9,7 +9,8 @@ namespace hbvm::core {
 namespace {
 
 TEST(Observe, AddsAnObservationThatReadsBack) {
-  const Scene scene = with_observation(with_observation(load_scene("kepler"), "r=distance(sun, planet)"), "planet.vx");
+  const Scene scene =
+      with_observation(with_observation(load_scene("kepler"), "r", "distance(sun, planet)"), "planet.vx", "planet.vx");
   ASSERT_EQ(scene.observations.size(), 2u);
   EXPECT_EQ(scene.observations[0].name, "r");
   EXPECT_EQ(scene.observations[0].value.text(), "distance(sun, planet)");
@@ -22,10 +23,11 @@ TEST(Observe, AddsAnObservationThatReadsBack) {
 }
 
 TEST(Observe, IsRefusedWithWhatIsWrong) {
-  const Scene scene = with_observation(load_scene("kepler"), "r=distance(sun, planet)");
-  expect_words(message_of<InputError>([&] { with_observation(scene, "r=planet.x"); }), {"'r' is observed already"});
-  expect_words(message_of<InputError>([&] { with_observation(scene, "=planet.x"); }), {"without a name"});
-  expect_words(message_of<InputError>([&] { with_observation(scene, "a=planet.x +"); }), {"column 11"});
+  const Scene scene = with_observation(load_scene("kepler"), "r", "distance(sun, planet)");
+  expect_words(message_of<InputError>([&] { with_observation(scene, "r", "planet.x"); }), {"'r' is observed already"});
+  expect_words(message_of<InputError>([&] { with_observation(scene, "", "planet.x"); }), {"without a name"});
+  expect_words(message_of<InputError>([&] { with_observation(scene, "a", "planet.x +"); }), {"column 11"});
+  expect_words(message_of<InputError>([&] { with_observation(scene, "a=b", "planet.x"); }), {"no '='", "a=b"});
   const auto read = [](const std::string& table) {
     return message_of<InputError>([&] {
       read_scene(
