@@ -44,7 +44,7 @@ TEST(ReferenceCommand, TellsWhatIsObserved) {
   EXPECT_EQ(state["observed"]["difference"], "0");
   // One route alone has the same rounding, which is no value.
   const ordered_json alone = json_of({"reference", "simple_pendulum", "--until", "3", "--digits", "40", "--route",
-                                      "taylor", "--observe", "difference=bob.y - sin(angle(pivot, bob))"});
+                                      "taylor", "--observe", "difference=speed(bob)^2 - bob.vx^2 - bob.vy^2"});
   EXPECT_EQ(alone["times"][0]["observed"]["difference"], "0");
   const PrecisionScope digits(60);
   const auto number_of = [&](const std::string& what) {
