@@ -165,6 +165,11 @@ struct Run {
 /// \throws InputError, IntegrationError with the time where the run could not go on, Interrupted
 Run run(const RunRequest& request);
 
+/// Lines for people, as `hbvm run` prints them: a verdict, errors, warnings, and the state. The state is that of
+/// output, to the digits that were found right, or to six if none were looked for. \param state the propagated and the
+/// output state instead, with all digits
+std::string to_text(const Run& run, bool state = false);
+
 /// One JSON object, as `hbvm run --json` prints it. Every number of the working precision is decimal text that reads
 /// back exactly. What is about a run, as its time and its digits, is a JSON number.
 /// \param states also the mesh points of the trajectory

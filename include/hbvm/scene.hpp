@@ -83,7 +83,7 @@ struct Effect {
 /// What is built is checked when it is used, or by check().
 class Scene {
  public:
-  /// One without bodies, to be built. \throws InputError unless dimension is 2 or 3
+  /// One without bodies, to be built. \throws InputError unless dimension is 1, 2 or 3
   explicit Scene(int dimension, std::string name = "scene");
 
   /// Each adds something. A name must be new, and names that are used must be there by the end.
@@ -129,15 +129,25 @@ class Scene {
   std::shared_ptr<const core::Scene> read_ = {};  ///< what it says; null of one that is in parts
 };
 
-/// What a scene observes, by its name, and its value at some time.
+/// What a scene observes, by its name, and its value at some time. A run also tells the least and the greatest value at
+/// its mesh points, and when they were first met.
 struct Observation {
   std::string name, formula, value;
+  std::string least = {}, least_t = {}, greatest = {}, greatest_t = {};
 };
 
 /// The scene of a file, or a built-in one by its name. \throws InputError with file, line and what is wrong
 Scene load_scene(const std::string& path_or_name);
 /// A scene from the text of a file. \param name stands in messages and results
 Scene read_scene(const std::string& toml, const std::string& name = "scene");
+/// A scene to begin with: a commented text that runs, and names the parts there are.
+const std::string& scene_template();
+/// The scene with the nearest start that fulfils the constraints, comments and all. A start with more digits than are
+/// exact is one in the digits of the precision. \param hold parts that stay as they are: "a.position", "a.velocity", a
+/// coordinate, as "a.x" or "a.vx", and "crank.angle" and "crank.rate" of a rigid body
+/// \throws InputError if there is none, or none that holds these
+Scene project(const Scene& scene, const std::string& precision = "double", const std::vector<std::string>& hold = {});
+
 /// What a scene is and how it starts. Numbers that are text have all digits of the precision.
 struct SceneFacts {
   std::string name, title, source;

@@ -19,15 +19,10 @@
 #include "progress_bar.hpp"
 #include "read_file.hpp"
 #include "resume.hpp"
-#include "run/error_estimate.hpp"
-#include "run/health.hpp"
 #include "run/run_figure.hpp"
 #include "run/run_page.hpp"
 #include "run/scene_run.hpp"
-#include "run/shadow.hpp"
 #include "run/trajectory_metadata.hpp"
-#include "scalar/text.hpp"
-#include "scene/coordinate_names.hpp"
 #include "scene_argument.hpp"
 #include "signals.hpp"
 #include "step/registry.hpp"
@@ -44,118 +39,12 @@ struct RunArguments {
   std::optional<std::string> out, start, plot;
   long every = 1;
   bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false;
-  bool states = false;
+  bool states = false, state = false;
   std::optional<std::string> checkpoint, resume;
   double every_seconds = 60;
   std::optional<Checkpoint> resumed;
   bool scene_given = true, start_given = true;  ///< now, and not only when the checkpoint was written
 };
-
-/// A vector of the state: its symbol, and what its components are called in tables if they have names there.
-struct Quantity {
-  std::string symbol;
-  std::vector<std::string> names = {};
-};
-
-std::size_t widest(const std::vector<std::string>& texts) {
-  std::size_t width = 0;
-  for (const std::string& text : texts) width = std::max(width, text.size());
-  return width;
-}
-
-/// Lines "q_1  upper.x  0.123  15.2 digits", with the digits of the value where they are known.
-void print_list(const Quantity& quantity, const std::vector<std::string>& values,
-                const std::vector<double>& digits = {}) {
-  const std::size_t of_names = widest(quantity.names), of_values = digits.empty() ? 0 : widest(values);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    fmt::print("  {:<{}}{:<{}}{:<{}}{}\n", fmt::format("{}_{}", quantity.symbol, i + 1), of_names > 0 ? 7 : 15,
-               i < quantity.names.size() ? quantity.names[i] : "",
-               of_names > 0 ? std::max<std::size_t>(of_names + 2, 8) : 0, values[i], of_values,
-               digits.empty() ? "" : fmt::format("  {:.1f} digits", digits[i]));
-}
-
-/// Values with the digits that are right and one more.
-void print_right_digits(const Quantity& quantity, std::vector<std::string> values, const std::vector<double>& digits) {
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = to_right_digits(values[i], digits[i]);
-  print_list(quantity, values, digits);
-}
-
-/// The state at the end, to the digits that are right if they are known.
-void print_state(const Scene& scene, const Run& result) {
-  const Quantity q{"q", coordinate_names(scene)}, p{"p", coordinate_names(scene, "p")}, lambda{"lambda"};
-  fmt::print("state at t = {}\n", result.t);
-  const char* const of_output =
-      "output state: p projected to the tangent space, and the multiplier there; its energy is off by {}\n";
-  if (result.error && result.error->failure.empty()) {
-    const ErrorEstimate& error = *result.error;
-    print_right_digits(q, result.q, error.q_digits);
-    if (!result.lambda.empty()) fmt::print(fmt::runtime(of_output), to_scientific(result.output_delta_H, 3));
-    print_right_digits(p, result.output_p, error.p_digits);
-    print_right_digits(lambda, result.output_lambda, error.lambda_digits);
-    fmt::print("{}", to_text(error));
-    return;
-  }
-  const Shadow shadow = result.shadow.value_or(Shadow{});
-  print_list(q, result.q, shadow.q);
-  print_list(p, result.p, shadow.p);
-  print_list(lambda, result.lambda);
-  if (!result.lambda.empty()) {
-    fmt::print(fmt::runtime(of_output), to_scientific(result.output_delta_H, 3));
-    print_list(p, result.output_p);
-    print_list(lambda, result.output_lambda);
-  }
-  fmt::print("{}", result.error ? to_text(*result.error) : "digits not assessed (--error)\n");
-}
-
-/// What was raised, and to how many.
-std::string nodes_of(const NodesReport::Raise& raise) {
-  return raise.r > 0 ? fmt::format("r = {}", raise.r) : fmt::format("{}", raise.k);
-}
-
-void print(const RunRequest& request, const Run& result, const Account& account) {
-  if (result.nodes) {
-    fmt::print("k = {}{}: {}\n", result.nodes->k, result.nodes->r > 0 ? fmt::format(", r = {}", result.nodes->r) : "",
-               result.nodes->because);
-    const auto& raised = result.nodes->raised;
-    if (!raised.empty())
-      fmt::print("raised to {}, {} times, first to {} in the step from t = {}\n", nodes_of(raised.back()),
-                 raised.size(), nodes_of(raised.front()), raised.front().t);
-    fmt::print("{}\n", result.nodes->verdict);
-  }
-  if (result.halving) {
-    const HalvingReport& halving = *result.halving;
-    if (halving.steps == 0)
-      fmt::print("no step was divided\n");
-    else
-      fmt::print("{} divided, down to h/{}, first at t = {}\n",
-                 halving.steps == 1 ? "1 step was" : fmt::format("{} steps were", halving.steps), 1L << halving.depth,
-                 halving.first_t);
-  }
-  fmt::print("{}: {}\n", result.scene, result.title);
-  fmt::print("{}, {}, solver {}, {} steps of {}\n\n", result.method, result.precision, result.solver, result.steps,
-             result.step);
-  if (!result.start_settled.empty()) fmt::print("the start is {}\n", result.start_settled);
-  print_state(request.scene, result);
-  fmt::print("greatest errors at mesh points\n");
-  const auto error = [](const char* what, const char* symbol, const std::string& value) {
-    fmt::print("  {:<20}{:<8}{}\n", what, symbol, to_scientific(value, 3));
-  };
-  error("energy", "e_H", result.e_H);
-  if (!result.lambda.empty()) {
-    error("constraints", "e_g", result.e_g);
-    error("hidden constraints", "e_hid", result.e_hid);
-  }
-  fmt::print("{}", to_text(result.health));
-  if (result.shadow) fmt::print("{}", to_text(*result.shadow));
-  if (!result.observables.empty()) fmt::print("conserved by the exact motion\n");
-  for (const Observed& o : result.observables)
-    fmt::print("  {:<14} {}, changed by up to {}\n", o.name, o.initial, o.drift);
-  if (!result.observations.empty()) fmt::print("observed at the end\n");
-  for (const Observation& o : result.observations) fmt::print("  {:<20} {}\n", o.name, o.value);
-  fmt::print("cost\n  {:.2f} iterations per step, {:.3f} s of processor time\n", result.iterations_per_step,
-             result.cpu_seconds);
-  if (request.account) fmt::print("\n{}", to_text(account));
-}
 
 std::unique_ptr<CsvFile> open(const std::string& path, const RunArguments& o) {
   try {
@@ -250,6 +139,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
     throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
   if (!(o.every_seconds >= 0)) throw InputError("--every-seconds is negative");
+  if (o.state && o.json) throw InputError("--state does not go with --json, which has the state with all digits");
   if (o.states && !o.json) throw InputError("--states goes with --json; a trajectory in a file is --out FILE.csv");
   if (o.states && (o.out || o.checkpoint || o.resume))
     throw InputError("--states does not go with --out, --checkpoint or --resume: the file of --out holds the states");
@@ -301,7 +191,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
     if (o.json)
       std::cout << to_json(result, o.states) << std::endl;
     else
-      print(request, result, account);
+      fmt::print("{}{}", to_text(result, o.state), request.account ? "\n" + to_text(account) : "");
     constexpr int doubtful = 3;
     if (o.strict && !result.health.warnings.empty()) throw CLI::RuntimeError(doubtful);
   } catch (const Interrupted& end) {
@@ -371,6 +261,8 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--shadow", o->shadow,
                     "Repeat the run with 16 more digits and say how many of each component survived rounding");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
+  command->add_flag("--state", o->state,
+                    "Print the state at the end with all digits, the propagated one and that of output");
   command->add_flag("--states", o->states, "Also put the mesh points into the JSON object, of --every steps one");
   command->footer(
       "Example: hbvm run tethered_satellites --method hbvm:5,1 --step 0.1 --until 100 --out satellites.csv");

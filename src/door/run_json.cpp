@@ -137,7 +137,11 @@ std::string to_json(const Run& run, bool states) {
     j["observables"] = core::OrderedJson::object();
     for (const Observed& o : run.observables) j["observables"][o.name] = {{"initial", o.initial}, {"drift", o.drift}};
   }
-  for (const Observation& o : run.observations) j["observed"][o.name] = o.value;
+  for (const Observation& o : run.observations) {
+    j["observed"][o.name] = o.value;
+    j["observed_range"][o.name] = {
+        {"least", o.least}, {"least_t", o.least_t}, {"greatest", o.greatest}, {"greatest_t", o.greatest_t}};
+  }
   if (!run.account.empty()) {
     j["account"] = core::OrderedJson::array();
     for (const AccountEntry& line : run.account) {

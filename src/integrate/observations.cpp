@@ -25,6 +25,7 @@ Observations<S>::Observations(const Scene& scene, const Problem<S>& problem)
   const auto quantities_count = static_cast<Index>(quantities_.size());
   seen_ = angles_ = rates_ = Vector<S>::Zero(quantities_count);
   values_ = Vector<S>::Zero(static_cast<Index>(formulas_.size()));
+  least_ = greatest_ = {values_, values_};
 }
 
 template <Scalar S>
@@ -111,6 +112,15 @@ void Observations<S>::observe(const Snapshot<S>& s) {
   }
   last_t_ = s.t;
   evaluate_all(s.n == 0);
+  for (Index i = 0; i < values_.size(); ++i) {
+    const auto take_if = [&](Extremes& extremes, bool beyond) {
+      if (s.n > 0 && !beyond) return;
+      extremes.values[i] = values_[i];
+      extremes.times[i] = s.t;
+    };
+    take_if(least_, values_[i] < least_.values[i]);
+    take_if(greatest_, values_[i] > greatest_.values[i]);
+  }
 }
 
 template <Scalar S>

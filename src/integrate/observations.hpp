@@ -28,7 +28,15 @@ class Observations final : public Observer<S> {
   const Vector<S>& see(const S& t, const Vector<S>& q, const Vector<S>& p);
   /// Those at the state seen last, one for each observation.
   const Vector<S>& values() const { return values_; }
-  void remember(Archive& archive) override { archive(angles_, rates_, last_t_); }
+  /// The least and the greatest value of each observation at the mesh points observed, and when it was first met.
+  struct Extremes {
+    Vector<S> values, times;
+  };
+  const Extremes& least() const { return least_; }
+  const Extremes& greatest() const { return greatest_; }
+  void remember(Archive& archive) override {
+    archive(angles_, rates_, last_t_, least_.values, least_.times, greatest_.values, greatest_.times);
+  }
 
  private:
   /// One observation: a program of quantities, or one of them.
@@ -54,6 +62,7 @@ class Observations final : public Observer<S> {
   Vector<S> values_;          // of the observations
   Vector<S> angles_, rates_;  // of the quantities that are angles, at the mesh point before
   S last_t_ = 0;
+  Extremes least_, greatest_;
 };
 
 }  // namespace hbvm::core

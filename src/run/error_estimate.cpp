@@ -204,19 +204,6 @@ ErrorEstimate estimate_error(const RunRequest& request, const Method& method, co
   return estimate;
 }
 
-std::string to_right_digits(const std::string& number, double right) {
-  return rounded_text(number, static_cast<int>(right) + 1);
-}
-
-std::string to_text(const ErrorEstimate& estimate) {
-  const std::string beside = estimate.method + ", " + estimate.precision;
-  if (!estimate.failure.empty()) return fmt::format("error\n  unknown: {} failed: {}\n", beside, estimate.failure);
-  const std::string against =
-      estimate.method.empty() ? "the " + estimate.reference : beside + ", " + estimate.reference;
-  return fmt::format("error, against {}\n  {:<14} {}\n  {:<14} {}\n{}", against, "q", estimate.q, "p", estimate.p,
-                     estimate.lambda.empty() ? "" : fmt::format("  {:<14} {}\n", "lambda", estimate.lambda));
-}
-
 #define HBVM_DEFINE(S)                                                                                       \
   template ErrorEstimate estimate_error<S>(const RunRequest&, const Method&, const std::optional<State<S>>&, \
                                            const Vector<S>&, const Vector<S>&, const Vector<S>&);

@@ -15,10 +15,4 @@ template <Scalar S>
 ErrorEstimate estimate_error(const RunRequest& request, const Method& method, const std::optional<State<S>>& start,
                              const Vector<S>& q, const Vector<S>& output_p, const Vector<S>& output_lambda);
 
-/// A decimal with the digits that are right, and one more; of none right, with that one.
-std::string to_right_digits(const std::string& number, double right);
-
-/// Lines for people: the greatest errors, or the failure.
-std::string to_text(const ErrorEstimate& estimate);
-
 }  // namespace hbvm::core

@@ -249,18 +249,6 @@ Health HealthWatch<S>::report(const Method& asked, const Method& method, const H
   return health;
 }
 
-std::string to_text(const Health& health) {
-  std::string text = "what the run is worth\n";
-  const auto line = [&](const char* what, const std::string& value) {
-    text += fmt::format("  {:<36}{}\n", what, value);
-  };
-  line("energy error, of H's greatest term", health.worst_e_H);
-  line("condition of the Gram matrix", health.condition);
-  line("velocity off the tangent space", health.worst_hidden);
-  for (const Warning& warning : health.warnings) text += fmt::format("  WARNING {}: {}\n", warning.name, warning.text);
-  return text;
-}
-
 #define HBVM_DEFINE(S) template class HealthWatch<S>;
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -102,7 +102,4 @@ class HealthWatch final : public Observer<S> {
   double condition_ = 1;
 };
 
-/// One line each: the figures, then the warnings.
-std::string to_text(const Health& health);
-
 }  // namespace hbvm::core

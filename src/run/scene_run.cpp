@@ -207,9 +207,13 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   result.e_hid = to_text(simulated.e_hid);
   result.iterations_per_step =
       static_cast<double>(simulated.integration.sweeps) / static_cast<double>(simulated.integration.steps);
-  for (std::size_t i = 0; i < request.scene.observations.size(); ++i)
+  for (std::size_t i = 0; i < request.scene.observations.size(); ++i) {
+    const auto at = static_cast<Index>(i);
+    const auto &least = observed->least(), &greatest = observed->greatest();
     result.observations.push_back({request.scene.observations[i].name, request.scene.observations[i].value.text(),
-                                   to_text(observed->values()[static_cast<Index>(i)])});
+                                   to_text(observed->values()[at]), to_text(least.values[at]), to_text(least.times[at]),
+                                   to_text(greatest.values[at]), to_text(greatest.times[at])});
+  }
   result.health = health.report(*request.method, method, stepper.halving());
   for (const Redundancy& redundancy : scene.redundant)
     result.health.warnings.push_back(

@@ -39,8 +39,9 @@ struct Part {
 /// The findings of a study: columns and groups of its table, and what it was held against.
 struct Findings {
   Table table;
-  Table full;            ///< the same with all digits, and empty cells where there is no number
-  StudyOutcome outcome;  ///< the comparison
+  Table full;                             ///< the same with all digits, and empty cells where there is no number
+  StudyOutcome outcome;                   ///< the comparison
+  std::vector<std::string> numbers = {};  ///< columns of its own that hold decimals
 };
 
 /// Files that a part of a study made, and what it could not make.
@@ -48,10 +49,14 @@ struct Drawn {
   std::vector<std::string> files, warnings;
 };
 
+/// Draws NAME.svg into the results; where it cannot be drawn, that is a warning. \throws InputError
+void draw(const Experiment& experiment, const Figure& figure, Drawn& drawn);
+
 /// The kinds of a study. Each takes its own keys of study.toml.
 Part<Findings> halving_study(const Experiment& experiment, TomlTable& top);
 Part<Findings> long_run_study(const Experiment& experiment, TomlTable& top);
 Part<Findings> conservation_study(const Experiment& experiment, TomlTable& top);
+Part<Findings> sweep_study(const Experiment& experiment, TomlTable& top);
 
 /// A [[figure]] of study.toml: its runs, whose results are trajectories as the text of CSV files, and the picture. What
 /// comes out are the files written. These are the trajectories (CSV, and what describes them) and the picture (SVG). It

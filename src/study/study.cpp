@@ -1,5 +1,6 @@
 #include "study/study.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -59,8 +60,12 @@ class Study {
     title_ = top.string("title");
     const std::string kind = top.string("kind");
     const std::map<std::string, Part<Findings> (*)(const Experiment&, TomlTable&)> kinds{
-        {"step_halving", halving_study}, {"long_run", long_run_study}, {"conservation", conservation_study}};
-    if (!kinds.contains(kind)) top.fail("unknown kind '" + kind + "': use step_halving, long_run or conservation");
+        {"step_halving", halving_study},
+        {"long_run", long_run_study},
+        {"conservation", conservation_study},
+        {"sweep", sweep_study}};
+    if (!kinds.contains(kind))
+      top.fail("unknown kind '" + kind + "': use step_halving, long_run, conservation or sweep");
     const bool all_scenes = kind == "conservation";
     Scene& scene = experiment_.scene;
     if (!all_scenes) scene = find_scene(request.folder, top.string("scene"));
@@ -100,7 +105,7 @@ class Study {
       write_file(experiment_.results / name, text);
       outcome.files.push_back((experiment_.results / name).string());
     }
-    write_full(std::move(findings.full), outcome);
+    write_full(std::move(findings.full), findings.numbers, outcome);
     table.provenance.clear();  // comments of the file, for nobody at a terminal
     outcome.table = to_markdown(table);
     for (const auto& figure : figures_) {
@@ -112,16 +117,18 @@ class Study {
   }
 
  private:
-  /// What a column of a table holds, by its name.
-  CsvType type_of(const std::string& column) const {
+  /// What a column of a table holds, by its name. \param numbers are decimals
+  CsvType type_of(const std::string& column, const std::vector<std::string>& numbers) const {
     const bool in_double = experiment_.precision.kind() == Precision::Kind::binary64;
-    if (column.starts_with("e_") || column == "output_delta_H") return in_double ? CsvType::binary64 : CsvType::decimal;
+    if (std::find(numbers.begin(), numbers.end(), column) != numbers.end() || column.starts_with("e_") ||
+        column == "output_delta_H")
+      return in_double ? CsvType::binary64 : CsvType::decimal;
     if (column.starts_with("rate_") || column == "iterations per step" || column == "seconds") return CsvType::binary64;
     return column == "k" || column == "s" || column == "i" ? CsvType::integer : CsvType::text;
   }
 
   /// The table with all digits, and what describes it.
-  void write_full(Table table, StudyOutcome& outcome) const {
+  void write_full(Table table, const std::vector<std::string>& numbers, StudyOutcome& outcome) const {
     const std::string file = (experiment_.results / "table_full.csv").string();
     for (auto& group : table.groups) {
       blank_marks(group.keys);
@@ -130,7 +137,8 @@ class Study {
     CsvMetadata metadata{title_, experiment_.scene.name.empty() ? "" : write_scene(experiment_.scene), {}, {}};
     metadata.properties = {
         {"version", version()}, {"command", experiment_.command}, {"precision", experiment_.precision.name()}};
-    for (const std::string& column : csv_columns(table)) metadata.columns.push_back({column, type_of(column), ""});
+    for (const std::string& column : csv_columns(table))
+      metadata.columns.push_back({column, type_of(column, numbers), ""});
     write_csv(file, table, metadata);
     outcome.files.push_back(file);
     outcome.files.push_back(csvw_file(file));

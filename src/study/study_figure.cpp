@@ -158,6 +158,19 @@ FigureRun read_run(const Experiment& experiment, TomlTable reader, const std::st
 
 }  // namespace
 
+void draw(const Experiment& experiment, const Figure& figure, Drawn& drawn) {
+  const std::string picture = (experiment.results / (figure.name + ".svg")).string();
+  try {
+    if (!experiment.draw) throw Error("nothing was given that draws");
+    experiment.draw(figure, picture);
+    drawn.files.push_back(picture);
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error& error) {  // without gnuplot there are tables all the same
+    drawn.warnings.push_back("'" + picture + "' is not drawn: " + error.what());
+  }
+}
+
 Part<Drawn> study_figure(const Experiment& experiment, TomlTable reader) {
   Figure figure;
   figure.name = reader.string("name");
@@ -194,16 +207,7 @@ Part<Drawn> study_figure(const Experiment& experiment, TomlTable reader) {
     drawn.footnote = experiment.provenance[0] + ", " + experiment.provenance[1];
     for (const toml::table* table : panels)
       drawn.panels.push_back(panel(TomlTable(source, *table, "panel" + of_figure), experiment.scene, runs));
-    const std::string picture = (experiment.results / (figure.name + ".svg")).string();
-    try {
-      if (!experiment.draw) throw Error("nothing was given that draws");
-      experiment.draw(drawn, picture);
-      made.files.push_back(picture);
-    } catch (const InputError&) {
-      throw;
-    } catch (const Error& error) {  // without gnuplot there are tables all the same
-      made.warnings.push_back("'" + picture + "' is not drawn: " + error.what());
-    }
+    draw(experiment, drawn, made);
     return made;
   };
   return part;

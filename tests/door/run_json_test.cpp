@@ -71,6 +71,8 @@ TEST(DoorRunJson, HoldsWhatIsObserved) {
   EXPECT_EQ(made.trajectory.values("T").size(), 5u);
   const nlohmann::json json = nlohmann::json::parse(to_json(made, true));
   EXPECT_EQ(json.at("observed").at("twice"), made.observations[1].value);
+  EXPECT_EQ(json.at("observed_range").at("twice").at("least"), made.observations[1].least);
+  EXPECT_EQ(json.at("observed_range").at("twice").at("greatest_t"), made.observations[1].greatest_t);
   EXPECT_EQ(json.at("states")[4].at("observed"), json.at("observed"));
   EXPECT_NE(json.at("states")[0].at("observed"), json.at("observed"));
   EXPECT_EQ(read_scene(json.at("scene_text")).toml(), made.scene_toml);

@@ -69,6 +69,29 @@ TYPED_TEST(ObservationsTest, AreKeptWithTheirRun) {
   second.remember(read);
   for (std::size_t n = half; n < seen.size(); ++n) second.observe(seen[n]);
   EXPECT_EQ(second.values()[0], end);
+  // The least was met in the first half, the greatest in the second.
+  EXPECT_EQ(second.least().values[0], first.least().values[0]);
+  EXPECT_EQ(second.greatest().values[0], end);
+  EXPECT_EQ(second.greatest().times[0], seen.back().t);
+}
+
+/// Of the height of the pendulum, which is lowest at the start and highest in every turn.
+TYPED_TEST(ObservationsTest, TellTheirRange) {
+  using S = TypeParam;
+  Scene scene = turning();
+  scene.observations.clear();
+  scene = with_observation(scene, "height", "bob.y");
+  SceneRun<S> run(scene, 8, 8, "1/16", "9", SolverKind::newton);
+  Observations<S> observations(scene, run.scene.problem);
+  Recorder<S> recorder;
+  run({&observations, &recorder});
+  const auto lower = [](const Snapshot<S>& a, const Snapshot<S>& b) { return a.q[1] < b.q[1]; };
+  const auto [lowest, highest] = std::minmax_element(recorder.seen.begin(), recorder.seen.end(), lower);
+  EXPECT_EQ(observations.least().values[0], lowest->q[1]);
+  EXPECT_EQ(observations.least().times[0], lowest->t);
+  EXPECT_EQ(observations.greatest().values[0], highest->q[1]);
+  EXPECT_EQ(observations.greatest().times[0], highest->t);
+  EXPECT_GT(highest->q[1], 0);
 }
 
 TEST(ObservationsErrors, NameTheTimeWhereThereIsNoValue) {

@@ -80,7 +80,6 @@ TEST(ErrorEstimate, TakesTheStoredReferenceIfThereIsOne) {
       const ErrorEstimate stored = *run(request, {}).error;
       EXPECT_EQ(stored.reference, "stored reference, 50 digits");
       EXPECT_EQ(stored.method + stored.precision, "");
-      expect_words(to_text(stored), {"against the stored reference, 50 digits"});
       // The same motion by another text of the scene.
       request.scene.constants.emplace("unused", Expression::parse("1"));
       const ErrorEstimate computed = *run(request, {}).error;
@@ -112,20 +111,6 @@ TEST(ErrorEstimate, LeavesAStoredReferenceThatDoesNotTell) {
   EXPECT_EQ(against("hbvm:24,24", "1/16", "20", "mpfr:70"), "stored reference, 100 digits");
   EXPECT_EQ(against("hbvm:4,4", "1/16", "10", "double", Direction::backward), "computed now");
   EXPECT_EQ(against("hbvm:4,4", "1/16", "161/16", "double"), "computed now");
-}
-
-TEST(ErrorEstimate, SaysWhyThereIsNone) {
-  ErrorEstimate estimate;
-  estimate.method = "hbvm:5,5";
-  estimate.precision = "mpfr:32";
-  estimate.failure = "no step";
-  EXPECT_EQ(to_text(estimate), "error\n  unknown: hbvm:5,5, mpfr:32 failed: no step\n");
-}
-
-TEST(ErrorEstimate, LeavesTheRightDigitsAndOneMore) {
-  EXPECT_EQ(to_right_digits("0.123456789", 4.9), "0.12346");
-  EXPECT_EQ(to_right_digits("-98.7654321", 0), "-1e+02");
-  EXPECT_EQ(to_right_digits("0", 12), "0");
 }
 
 }  // namespace

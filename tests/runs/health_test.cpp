@@ -269,7 +269,7 @@ TEST(Health, OfMechanismsWithPartsAtRestIsNoAlarm) {
     for (const char* step : {"1/500", "1/50"})
       for (const char* method : {"hbvm:3,3", "hbvm:auto,3", "rattle"}) {
         const Health health = result_of(read_scene(text, "mechanism"), method, step, "2").health;
-        EXPECT_EQ(warnings(health), "") << step << method << to_text(health) << text;
+        EXPECT_EQ(warnings(health), "") << step << method << text;
       }
 }
 
@@ -304,14 +304,6 @@ TEST(Health, OfARunThatFailsSaysWhatWasLostBefore) {
   expect_words(singular, {"near_singular_constraints", "H had changed by more than 1/20", "from t = 1.55",
                           "rod 'a'-'b' had drifted by more than 1/100 from t = 1.06"});
   EXPECT_EQ(singular.find("more digits"), std::string::npos) << singular;
-}
-
-TEST(HealthText, HasALineForEach) {
-  const std::string text = to_text(Health{"2", "3e-16", "1e-4", {{"energy_lost", "a"}, {"step_too_large", "b"}}});
-  EXPECT_EQ(text,
-            "what the run is worth\n  energy error, of H's greatest term  3e-16\n"
-            "  condition of the Gram matrix        2\n  velocity off the tangent space      1e-4\n"
-            "  WARNING energy_lost: a\n  WARNING step_too_large: b\n");
 }
 
 }  // namespace
