@@ -9,9 +9,6 @@
 #include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "run/run_figure.hpp"
-#include "scalar/with_scalar.hpp"
-#include "scene/project.hpp"
-#include "scene/with_start.hpp"
 #include "scene_argument.hpp"
 
 namespace hbvm::core {
@@ -42,16 +39,11 @@ struct ProjectArguments {
   SceneArgument scene;
   std::string precision = "double";
   std::optional<std::string> out;
+  std::vector<std::string> held;
 };
 
 void project_command(const ProjectArguments& o) {
-  const std::string given = o.scene.text();
-  const Scene scene = read_scene(given, o.scene.name);
-  const std::string text = with_scalar(Precision::parse(o.precision), [&]<Scalar S>() {
-    std::string projected = with_start(given, project<S>(scene));
-    assemble<S>(read_scene(projected, o.scene.name));  // what is written must be accepted
-    return projected;
-  });
+  const std::string text = hbvm::project(o.scene.load(), o.precision, o.held).toml();
   if (!o.out || *o.out == "-") {
     std::cout << text;
     return;
@@ -69,6 +61,11 @@ void add_project(CLI::App& scene) {
       "project", "Write the nearest scene whose initial state fulfils the constraints, comments and all");
   o->scene.add_to(*command);
   command->add_option("--precision", o->precision, precision_usage)->capture_default_str();
+  command
+      ->add_option("--hold", o->held,
+                   "Parts of the start that stay as they are: crank.angle,crank.rate of a rigid body; a.position, "
+                   "a.velocity, or a coordinate, as a.x or a.vx")
+      ->delimiter(',');
   command->add_option("--out", o->out, "Write to this file instead of standard output");
   command->footer("Example: hbvm scene project mine.toml --precision mpfr:60 --out consistent.toml");
   command->callback([o] { project_command(*o); });
@@ -81,12 +78,20 @@ struct ShowArguments {
 
 void show_command(const ShowArguments& o) {
   const Scene scene = scene_of(o.scene.load());
-  const Vector<double> q = assemble<double>(scene).q0;
+  // A start that is not consistent is shown, too: that is how one sees what is wrong.
+  const Vector<double> q = assemble<double>(scene, Consistency::unchecked).q0;
+  std::string flaw;
+  try {
+    assemble<double>(scene);
+  } catch (const InputError& error) {
+    flaw = error.what();
+  }
   Figure figure = scene_figure(sketch(scene), {q.begin(), q.end()});
-  figure.caption = plain(scene.title);
+  figure.caption = plain(scene.title) + (flaw.empty() ? "" : " (the start is not consistent)");
   const std::string file = o.plot.empty() ? std::filesystem::path(scene.name).stem().string() + ".svg" : o.plot;
   draw(figure, file);
   say_written(file);
+  if (!flaw.empty()) std::cerr << "hbvm: " << flaw << std::endl;
 }
 
 void add_show(CLI::App& scene) {
@@ -98,12 +103,20 @@ void add_show(CLI::App& scene) {
   command->callback([o] { show_command(*o); });
 }
 
+void add_new(CLI::App& scene) {
+  CLI::App* const command =
+      scene.add_subcommand("new", "Print a scene to begin with, whose comments say what is there");
+  command->footer("Example: hbvm scene new > mine.toml");
+  command->callback([] { std::cout << scene_template() << std::flush; });
+}
+
 }  // namespace
 
 void add_scene_command(CLI::App& app) {
-  CLI::App* const scene = app.add_subcommand("scene", "Explain or draw a scene, or make its start consistent");
+  CLI::App* const scene = app.add_subcommand("scene", "Begin, explain or draw a scene, or make its start consistent");
   scene->require_subcommand(1);
   scene->footer("Example: hbvm scene check tethered_satellites");
+  add_new(*scene);
   add_check(*scene);
   add_project(*scene);
   add_show(*scene);

@@ -125,7 +125,7 @@ Figure methods_figure(const RunRequest& request, const std::vector<RecordedMetho
   figure.caption = plain(request.scene.title);
   figure.footnote = std::string("hbvm ") + version() + ": " + command;
   figure.panels.push_back(
-      motions_panel(drawn, runs, shown, {0, 1}, drawn.dimension == 2 ? "Motion" : "Motion, seen along z"));
+      motions_panel(drawn, runs, shown, {0, 1}, drawn.dimension == 3 ? "Motion, seen along z" : "Motion"));
   if (drawn.dimension == 3) figure.panels.push_back(motions_panel(drawn, runs, shown, {0, 2}, "Motion, seen along y"));
   for (const ErrorCurve& error : error_curves(shown.front())) {
     Panel& panel = figure.panels.emplace_back();

@@ -3,10 +3,14 @@
 #include "door/door.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/scene.hpp"
+#include "scalar/with_scalar.hpp"
 #include "scene/assemble.hpp"
+#include "scene/hold.hpp"
 #include "scene/observe.hpp"
+#include "scene/project.hpp"
 #include "scene/scene.hpp"
 #include "scene/set_number.hpp"
+#include "scene/with_start.hpp"
 
 namespace hbvm {
 namespace {
@@ -90,8 +94,8 @@ std::string constant_line(const std::string& name, const Number& value) { return
 }  // namespace
 
 Scene::Scene(int dimension, std::string name) : name_(std::move(name)) {
-  if (dimension != 2 && dimension != 3)
-    throw InputError(fmt::format("a scene has dimension 2 or 3, not {}", dimension));
+  if (dimension < 1 || dimension > 3)
+    throw InputError(fmt::format("a scene has dimension 1, 2 or 3, not {}", dimension));
   head_ = fmt::format("dimension = {}\n", dimension);
 }
 
@@ -258,6 +262,18 @@ Scene read_scene(const std::string& toml, const std::string& name) {
 Scene load_scene(const std::string& path_or_name) {
   // The text as it is, so that messages name its lines.
   return read_scene(core::scene_text(path_or_name), path_or_name);
+}
+
+const std::string& scene_template() { return core::new_scene(); }
+
+Scene project(const Scene& scene, const std::string& precision, const std::vector<std::string>& hold) {
+  const core::Scene from = core::scene_of(scene);
+  const std::vector<core::HeldPart> held = core::held_parts(from, hold);
+  return core::with_scalar(core::Precision::parse(precision), [&]<core::Scalar S>() {
+    Scene projected = read_scene(core::with_start(scene.toml(), core::project<S>(from, held)), scene.name());
+    core::assemble<S>(core::scene_of(projected));  // what is written must be accepted
+    return projected;
+  });
 }
 
 namespace core {

@@ -122,6 +122,8 @@ class SeenQuantities<S>::Names {
       expect(1, 1, "speed(a)");
       return {[u = place(of[0])](const State& state) { return length(u.rate(state)); }};
     }
+    if (d_ == 1 && (f == "angle" || f == "rate" || f == "omega"))
+      throw InputError("'" + f + "' is of a plane or of space, and the scene has dimension = 1");
     if (f == "angle") {
       expect(1, 2, "angle(a.d1), angle(a, b) or angle(a.d1, b.d1)");
       return angle(of);
@@ -193,7 +195,10 @@ class SeenQuantities<S>::Names {
   }
   Along direction(const std::string& name) const {
     if (!is_direction(name))
-      throw InputError("'" + name + "' is no direction; there are " + (d_ == 2 ? "x, y" : "x, y, z") +
+      throw InputError("'" + name + "' is no direction; there are " +
+                       (d_ == 1   ? "x"
+                        : d_ == 2 ? "x, y"
+                                  : "x, y, z") +
                        " of space and the directors of rigid bodies, as a.d1");
     if (places_.contains(name)) return place(name);
     const Vector<S> unit = Vector<S>::Unit(d_, axis_of(name));
@@ -208,7 +213,9 @@ class SeenQuantities<S>::Names {
     const std::string of = what.substr(0, what.size() - 1);
     if (axis < 0 || (!of.empty() && of != "v" && of != "p"))
       throw InputError("'" + owner + "' has no '" + what + "'; it has " +
-                       (d_ == 2 ? "x, y, vx, vy, px, py" : "x, y, z, vx, vy, vz, px, py, pz"));
+                       (d_ == 1   ? "x, vx, px"
+                        : d_ == 2 ? "x, y, vx, vy, px, py"
+                                  : "x, y, z, vx, vy, vz, px, py, pz"));
     if (of != "p") {
       const Along u = place(owner);
       return {[u, axis, velocity = of == "v"](const State& state) {

@@ -79,7 +79,7 @@ std::string MomentumComponent<S>::name() const {
 
 template <Scalar S>
 std::vector<MomentumComponent<S>> coordinate_momenta(const Problem<S>& problem) {
-  const Index d = problem.dimension, rotations = d == 2 ? 1 : 3;
+  const Index d = problem.dimension, rotations = rotations_in(d);
   const bool translates = std::any_of(problem.blocks.begin(), problem.blocks.end(),
                                       [](const SpaceBlock& block) { return block.translates; });
   std::vector<MomentumComponent<S>> components;

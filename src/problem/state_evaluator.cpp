@@ -76,9 +76,15 @@ void StateEvaluator<S>::solve_gram(Vector<S>& x) {
 
 template <Scalar S>
 const Vector<S>& StateEvaluator<S>::tangential(const Vector<S>& q, const Vector<S>& p) {
+  return with_rates(q, p, Vector<S>::Zero(problem_.nu()));
+}
+
+template <Scalar S>
+const Vector<S>& StateEvaluator<S>::with_rates(const Vector<S>& q, const Vector<S>& p, const Vector<S>& rates) {
   tangential_ = p;
   if (problem_.nu() == 0) return tangential_;
   hidden_constraints(q, p);
+  hidden_ -= rates;
   solve_gram(hidden_);
   for (Index a = 0; a < problem_.nu(); ++a) row_(0, a) = -hidden_[a];
   gradient_.add_times(row_, lanes(tangential_));

@@ -26,6 +26,8 @@ class StateEvaluator {
   /// hidden constraints.
   /// \throws IntegrationError if the Gram matrix grad g^T M^-1 grad g is singular at q
   const Vector<S>& tangential(const Vector<S>& q, const Vector<S>& p);
+  /// The nearest momentum with grad g^T M^-1 p = rates instead of 0. \throws IntegrationError likewise
+  const Vector<S>& with_rates(const Vector<S>& q, const Vector<S>& p, const Vector<S>& rates);
 
   /// The multiplier of Theorem 1 for an exact state,
   /// (grad g^T M^-1 grad g)^-1 (nabla^2 g (M^-1 p, M^-1 p) + grad g^T M^-1 grad U).

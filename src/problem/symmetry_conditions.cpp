@@ -24,7 +24,10 @@ template <Scalar S>
 class Conditions {
  public:
   Conditions(const Problem<S>& problem, const Mpfr& unit)
-      : problem_(problem), unit_(unit), d_(static_cast<std::size_t>(problem.dimension)), rotations_(d_ == 2 ? 1 : 3) {}
+      : problem_(problem),
+        unit_(unit),
+        d_(static_cast<std::size_t>(problem.dimension)),
+        rotations_(static_cast<std::size_t>(rotations_in(problem.dimension))) {}
 
   std::vector<UncertainRow> rows() {
     for (const auto& block : problem_.mass.blocks())

@@ -69,10 +69,21 @@ Panel errors_panel(const Recording& recording) {
   return panel;
 }
 
-/// In the plane, or along two axes.
+/// On a line: where each body is at each time.
+Panel world_lines(const Sketch& sketch, const Recording& recording) {
+  Panel panel = against_time("Motion", {"x"});
+  for (std::size_t i = 0; i < sketch.places.size(); ++i)
+    if (sketch.places[i].has_mass)
+      panel.curves.push_back(curve_of(plain(sketch.places[i].name), recording,
+                                      [&sketch, i](const auto& sample) { return sketch.position(i, sample.q)[0]; }));
+  return panel;
+}
+
+/// On a line, in the plane, or along two axes.
 std::vector<Panel> motion_panels(const Sketch& sketch, const Recording& recording, const std::string& title) {
   std::vector<Panel> panels;
-  if (sketch.dimension == 2) {
+  if (sketch.dimension == 1 && recording.samples.size() > 1) return {world_lines(sketch, recording)};
+  if (sketch.dimension < 3) {
     panels.push_back(motion_panel(sketch, recording, {0, 1}));
     panels.back().title = title;
     return panels;

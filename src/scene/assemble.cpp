@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -22,6 +21,7 @@
 #include "scene/nearest_position.hpp"
 #include "scene/own_precision.hpp"
 #include "scene/second_moment.hpp"
+#include "scene/turning.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -238,14 +238,6 @@ class Assembler {
     place.rigid_body = body.name;
     places_.emplace(body.name, std::move(place));
     rigid_bodies_.emplace(body.name, std::move(rigid));
-  }
-
-  /// omega x v; in the plane omega is one number.
-  static Vector<S> turned(const Vector<S>& omega, const Vector<S>& v) {
-    if (v.size() == 3) return omega.template head<3>().cross(v.template head<3>());
-    Vector<S> result(2);
-    result << -omega[0] * v[1], omega[0] * v[0];
-    return result;
   }
 
   /// The point with these components in the frame of a rigid body.

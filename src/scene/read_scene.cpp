@@ -44,7 +44,7 @@ class SceneReader {
     scene_.title = top.optional_string("title");
     scene_.source = top.optional_string("source");
     const long dimension = top.integer("dimension");
-    if (dimension != 2 && dimension != 3) top.fail(top.require("dimension"), "'dimension' must be 2 or 3");
+    if (dimension < 1 || dimension > 3) top.fail(top.require("dimension"), "'dimension' must be 1, 2 or 3");
     scene_.dimension = static_cast<int>(dimension);
     d_ = static_cast<std::size_t>(dimension);
     if (const toml::node* const node = top.take("constants")) constants(*node, top);
@@ -134,6 +134,7 @@ class SceneReader {
   }
 
   void rigid_body(TomlTable table) {
+    if (d_ == 1) table.fail("a rigid body turns: it needs dimension = 2 or 3");
     const std::string name = new_name(table, "rigid_body");
     const bool fixed = table.has("fixed_at");
     if (!fixed) table.take("fixed_at");

@@ -117,7 +117,7 @@ struct SceneObservation {
 struct Scene {
   std::string name;  ///< built-in name or path
   std::string title, source;
-  int dimension = 0;  ///< 2 or 3
+  int dimension = 0;  ///< 1, 2 or 3
   Constants constants;
   std::vector<ScenePoint> points;
   std::vector<SceneBody> bodies;
@@ -149,6 +149,9 @@ std::string scene_text(const std::string& path_or_name);
 /// The scene of a file, or a built-in one by its name.
 /// \throws InputError
 Scene load_scene(const std::string& path_or_name);
+
+/// The text of a scene to begin with, whose comments say what there is.
+const std::string& new_scene();
 
 /// Name and text of each scene compiled in.
 const std::vector<std::pair<std::string, std::string>>& built_in_scenes();

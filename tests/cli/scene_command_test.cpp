@@ -159,6 +159,43 @@ TEST(SceneProject, LeavesTheFileAloneIfItFails) {
   EXPECT_EQ(text_of(precious), "precious");
 }
 
+TEST(SceneProject, HoldsWhatItIsAskedTo) {
+  const Folder folder;
+  const std::string from = folder.write("from.toml", inconsistent_pendulum());
+  const std::string printed = ended_with(0, {"scene", "project", from, "--hold", "bob.x,bob.vx"}).out;
+  const std::string free = ended_with(0, {"scene", "project", from}).out;
+  EXPECT_NE(printed, free);
+  expect_refused({"scene", "project", from, "--hold", "bob.z"},
+                 {"'bob.z' is nothing that can be held", "did you mean"});
+}
+
+/// What it prints runs as it stands.
+TEST(SceneNew, IsASceneThatRuns) {
+  const Folder folder;
+  const std::string text = ended_with(0, {"scene", "new"}).out, file = folder.write("mine.toml", text);
+  expect_words(text, {"# A scene says what there is", "[[rigid_body]]"});
+  expect_words(ended_with(0, {"run", file, "--until", "1"}).out, {"A pendulum", "tension", "no warning"});
+  // The tables that are remarks are right, too.
+  std::string all, line;
+  bool in_table = false;
+  for (std::istringstream lines(text); std::getline(lines, line);) {
+    in_table = line.starts_with("# [[") || (in_table && line.starts_with("# "));
+    all += (in_table ? line.substr(2) : line) + "\n";
+  }
+  EXPECT_EQ(read_scene(all, "all").rigid_bodies.size(), 1u);
+  EXPECT_EQ(read_scene(all, "all").constraints.size(), 2u);
+}
+
+/// So that one sees what is wrong.
+TEST(SceneShow, DrawsAStartThatIsNotConsistent) {
+  const Folder folder;
+  const std::string file = folder / "off.svg";
+  const Outcome outcome =
+      ended_with(0, {"scene", "show", folder.write("off.toml", inconsistent_pendulum()), "--plot", file});
+  expect_words(outcome.err, {"off.svg", "off.toml", "not consistent", "hbvm scene project"});
+  expect_words(text_of(file), {"(the start is not consistent)"});
+}
+
 TEST(SceneShow, DrawsAScene) {
   const Folder folder;
   for (const char* const name : {"four_bar_linkage", "heavy_top", "charged_tetrahedron"}) {

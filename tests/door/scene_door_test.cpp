@@ -118,6 +118,18 @@ TEST(DoorScene, BuildsRigidBodiesByInertiaAndOrientation) {
   }
 }
 
+TEST(DoorScene, IsMadeConsistent) {
+  Scene scene(2);
+  scene.point("o", {0, 0}).body({.name = "a", .position = {"0.6", "0.7"}, .velocity = {2, 0}}).rod("o", "a", 1);
+  EXPECT_THROW(scene.check(), InputError);
+  EXPECT_NO_THROW(project(scene, "mpfr:60").check());
+  const std::string held = project(scene, "double", {"a.x", "a.vx"}).toml();
+  EXPECT_NE(held.find("[\"0.6\", \"0.8"), std::string::npos) << held;
+  EXPECT_THROW(project(scene, "double", {"b.x"}), InputError);
+}
+
+TEST(DoorScene, BeginsWithATemplate) { EXPECT_NO_THROW(read_scene(scene_template()).check()); }
+
 /// Of a scene that was read and of one that is built; the command makes the same again.
 TEST(DoorScene, TakesOtherNumbers) {
   Scene scene = load_scene("double_pendulum");

@@ -55,8 +55,8 @@ TEST(MalformedScenes, OfWrongKeys) {
 
 TEST(MalformedScenes, OfWrongValues) {
   expect_refusals(refusal, every_key,
-                  {{"dimension = 3", "dimension = 1", {"'dimension'"}},
-                   {"dimension = 3", "dimension = 4", {"'dimension'", "2 or 3"}},
+                  {{"dimension = 3", "dimension = 0", {"'dimension'"}},
+                   {"dimension = 3", "dimension = 4", {"'dimension'", "1, 2 or 3"}},
                    {"dimension = 3", "dimension = 3.0", {"'dimension'"}},
                    {"dimension = 3", "dimension = 2", {"'position'", "3"}, "position = [0, 0, 0]"},
                    {"velocity = [2, -1, 0]", "velocity = [2, -1]", {"'c'", "'velocity'"}},

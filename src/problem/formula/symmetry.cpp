@@ -27,7 +27,7 @@ class Spread {
 class Sampling {
  public:
   Sampling(const EffectTerm<Mpfr>& term, const std::vector<SpaceBlock>& blocks, Index dimension)
-      : term_(term), blocks_(blocks), d_(dimension), rotations_(dimension == 2 ? 1 : 3) {}
+      : term_(term), blocks_(blocks), d_(dimension), rotations_(rotations_in(dimension)) {}
 
   std::size_t rotations() const { return static_cast<std::size_t>(rotations_); }
   std::size_t columns() const { return static_cast<std::size_t>(rotations_ + d_); }

@@ -23,6 +23,9 @@ struct Displacement {
   Vector<S> shift;  ///< d entries, or none for 0
 };
 
+/// How many axes there are to turn about in space of dimension d: 0, 1 or 3.
+inline Index rotations_in(Index d) { return d * (d - 1) / 2; }
+
 /// Whether it leads from one position to another: one block less another.
 template <Scalar S>
 bool is_pair(const Displacement<S>& x) {

@@ -170,7 +170,7 @@ bool is_inverse_distance(const EffectTerm<Mpfr>& term) {
 std::unique_ptr<ClosedForm> kepler_of(const Recognition& content) {
   const Problem<Mpfr>& problem = content.scene.problem;
   const Index d = content.dimension;
-  if (problem.nu() > 0 || (problem.m() != d && problem.m() != 2 * d)) return nullptr;
+  if (d == 1 || problem.nu() > 0 || (problem.m() != d && problem.m() != 2 * d)) return nullptr;
   const bool two = problem.m() == 2 * d;
   const std::optional<Mpfr> first_mass = content.mass_at(0), second_mass = two ? content.mass_at(d) : Mpfr(0);
   if (!first_mass || !second_mass) return nullptr;

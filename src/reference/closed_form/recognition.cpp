@@ -75,7 +75,7 @@ Vector<Mpfr> Recognition::constant_force() const {
 
 std::optional<OnSphere> Recognition::on_sphere() const {
   const Problem<Mpfr>& problem = scene.problem;
-  if (problem.m() != dimension || problem.nu() != 1 || !is_constant_force()) return std::nullopt;
+  if (dimension == 1 || problem.m() != dimension || problem.nu() != 1 || !is_constant_force()) return std::nullopt;
   const std::optional<Mpfr> mass = mass_at(0);
   if (!mass) return std::nullopt;
   const ConstraintForms<Mpfr>& form = problem.constraints.front().form;

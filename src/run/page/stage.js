@@ -13,7 +13,7 @@ class Stage {
     this.resize();
   }
 
-  get planar() { return this.motion.dimension === 2; }
+  get planar() { return this.motion.dimension < 3; }
 
   /** Which colour each place has: what has mass its own, points of a rigid body that of the body. */
   coloursOfBodies() {
