@@ -152,6 +152,7 @@ class Assembler {
   void add(const ScenePoint& point) {
     Place place;
     place.x.shift = vector(point.position);
+    place.frame.start = Matrix<S>::Identity(d_, d_);
     place.charge = number(point.charge);
     places_.emplace(point.name, std::move(place));
   }
@@ -203,6 +204,7 @@ class Assembler {
     const Matrix<S> directors = matrix(body.directors);
     const Vector<S> omega = vector(body.angular_velocity);
     RigidBody rigid{{}, {Frame<S>::Of::rigid_body}};
+    rigid.frame.start = directors;
     if (body.fixed) {
       rigid.reference.shift = reference;
     } else {

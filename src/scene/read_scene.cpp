@@ -294,7 +294,7 @@ class SceneReader {
     }
     const bool known = with_constraint_kind<double>(c.kind, [&]<class Kind>() {
       if constexpr (requires { Kind::in_space_only; })
-        if (d_ != 3) table.fail("it needs dimension = 3; in the plane bodies turn about a 'ball_joint'");
+        if (d_ != 3) table.fail("it needs dimension = 3; " + std::string(Kind::in_space_only));
       for (const ConstraintKey& key : Kind::keys) value(table, key, c);
     });
     if (!known)

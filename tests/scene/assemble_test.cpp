@@ -2,6 +2,7 @@
 
 #include "scene/assembled.hpp"
 #include "scene/joined_bodies.hpp"
+#include "scene/mechanism.hpp"
 #include "scene/wrong_change.hpp"
 
 namespace hbvm::core {
@@ -721,6 +722,128 @@ TEST(Assemble, SetsAsideThreeOfALoopOfParallelHinges) {
   EXPECT_EQ(scene.problem.m(), 36);
   EXPECT_EQ(scene.problem.nu(), 35);
   EXPECT_EQ(scene.problem.redundant.size(), 3u);
+}
+
+/// Six g for a weld, five for a slider, four for the others: eleven degrees of freedom, which keep all momenta.
+TEST(Mechanism, LeavesWhatItsJointsLeave) {
+  const auto scene = assembled<Quad>(mechanism);
+  EXPECT_EQ(scene.problem.m(), 60);
+  EXPECT_EQ(scene.problem.nu(), 30 + 19);
+  EXPECT_TRUE(scene.problem.redundant.empty());
+  EXPECT_EQ(conserved(scene.problem), "P_x, P_y, P_z, L_x, L_y, L_z");
+  std::vector<std::string> names;
+  for (const char* const part : {"across, 1", "across, 2", "turn, 1", "turn, 2", "turn, 3"})
+    names.push_back("prismatic 'base[0, 0, 0]'-'slider[0, 0, 0]' (" + std::string(part) + ")");
+  for (const char* const part : {"point, x", "point, y", "point, z", "turn, 1", "turn, 2", "turn, 3"})
+    names.push_back("weld 'corner'-'plate[0, 0, 0]' (" + std::string(part) + ")");
+  for (const char* const part : {"point, x", "point, y", "point, z", "axes"})
+    names.push_back("universal 'plate[0, 0, 1]'-'fork[0, 0, 0]' (" + std::string(part) + ")");
+  for (const char* const part : {"across, 1", "across, 2", "axis, 1", "axis, 2"})
+    names.push_back("cylindrical 'fork[0, 0, 1]'-'shaft[0, 0, 0]' (" + std::string(part) + ")");
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(scene.problem.constraints[30 + i].name, names[i]);
+}
+
+/// The directors that are parallel at the start are so to the last digit: no weight is what rounding left.
+TEST(Mechanism, HasNoWeightsOfRoundOff) {
+  const auto scene = assembled<double>(mechanism);
+  for (const auto& constraint : scene.problem.constraints) {
+    const auto* const product = std::get_if<DisplacementProduct<double>>(&constraint.form);
+    if (!product) continue;
+    for (const auto* const x : {&product->x, &product->y})
+      for (const auto& block : x->blocks) EXPECT_GE(magnitude(block.weight), 1 / double{1'000}) << constraint.name;
+  }
+}
+
+/// A second weld of two bodies, and one that closes a loop, say nothing new; each is named once.
+TEST(Mechanism, SetsAsideWhatASecondWeldSays) {
+  const std::string again =
+      "[[constraint]]\nkind = \"weld\"\nbetween = [{ of = \"plate\", at = [0, 0, 1] }, { of = \"fork\", at = [0, 0, 0] "
+      "}]\n"
+      "[[constraint]]\nkind = \"weld\"\nbetween = [{ of = \"fork\", at = [0, 0, -1] }, \"corner\"]\n";
+  const PrecisionScope digits(50);
+  const auto scene = assembled<Mpfr>(mechanism + again);
+  EXPECT_EQ(scene.problem.m() - scene.problem.nu(), 9);
+  EXPECT_EQ(scene.problem.redundant.size(), 10u);
+  std::size_t welds = 0;
+  for (const Redundancy& redundancy : scene.redundant)
+    welds += redundancy.name.find("(weld 'fork[0, 0, -1]'-'corner')") != std::string::npos;
+  EXPECT_EQ(welds, 1u);
+  EXPECT_LE(scene.redundant.size(), 4u);
+}
+
+TEST(Mechanism, OfJointsThatHoldNothingIsRefused) {
+  const auto wrong = [](const std::string& from, const std::string& to) {
+    return inconsistency<double>(changed(mechanism, from, to));
+  };
+  const auto line = [](const std::string& kind) {
+    return "test.toml:" + std::to_string(line_of(mechanism, "kind = \"" + kind + "\"") - 1) + ": ";
+  };
+  expect_words(wrong("axis = [3, 0, 0]", "axis = [0, 0, 0]"), {line("prismatic"), "'axis' is 0"});
+  expect_words(wrong("second_axis = [0, 0, -2]", "second_axis = [0, 0, 0]"),
+               {line("cylindrical"), "'second_axis' is 0"});
+  expect_words(wrong("axis = [0, 0, 1]\nsecond_axis = [0, 0, -2]", "axis = [0, 1, 1]\nsecond_axis = [0, 0, -2]"),
+               {line("cylindrical"), "position", "(axis, "});
+  expect_words(wrong("second_axis = [0, 1, 0]", "second_axis = [-1, 0, 0]"),
+               {line("universal"), "parallel at the start"});
+  expect_words(wrong("second_axis = [0, 1, 0]", "second_axis = [-1, 3, 0]"), {line("universal"), "position", "(axes)"});
+  expect_words(wrong("position = [2, 1, 4]", "position = [2, 2, 4]"), {line("cylindrical"), "position", "(across, "});
+  // The bodies must move together at the start.
+  expect_words(wrong("velocity = [1, 0, \"1/2\"]", "velocity = [1, 1, \"1/2\"]"), {line("cylindrical"), "velocity"});
+  expect_words(wrong("angular_velocity = [0, 0, 3]", "angular_velocity = [1, 0, 3]"),
+               {line("cylindrical"), "velocity"});
+  // Both points fixed in space.
+  const auto fixed = [&](const std::string& kind, const std::string& keys) {
+    return inconsistency<double>(
+        changed(mechanism, "position = [0, 0, 0]\nvelocity = [0, 0, 0]", "fixed_at = [0, 0, 0]") +
+        "[[constraint]]\nkind = \"" + kind + "\"\nbetween = [\"post\", { of = \"base\", at = [0, 0, 0] }]\n" + keys);
+  };
+  EXPECT_EQ(fixed("weld", ""), "");
+  expect_words(fixed("prismatic", "axis = [1, 0, 0]\n"), {"prismatic", "fixed in space, where nothing slides"});
+  expect_words(fixed("cylindrical", "axis = [1, 0, 0]\n"), {"cylindrical", "fixed in space, where nothing slides"});
+  const std::string bead = "[[body]]\nname = \"bead\"\nmass = 1\nposition = [0, 0, 0]\nvelocity = [0, 0, 0]\n";
+  for (const char* const kind : {"weld", "prismatic"})
+    expect_words(inconsistency<double>(mechanism + bead + "[[constraint]]\nkind = \"" + kind +
+                                       "\"\nbetween = [{ of = \"base\", at = [0, 0, 0] }, \"bead\"]\n" +
+                                       (kind == std::string("weld") ? "" : "axis = [1, 0, 0]\n")),
+                 {kind, "no directions"});
+}
+
+/// Two wheels of the plane, with a gear.
+std::string geared(const std::string& keys) {
+  std::string text = "dimension = 2\n[[point]]\nname = \"o\"\nposition = [0, 0]\n";
+  for (const char* const name : {"one", "two"})
+    text += std::string("[[rigid_body]]\nname = \"") + name +
+            "\"\nfixed_at = [0, 0]\nmass = 1\ncenter = [0, 0]\ninertia = 1\norientation = 1\nangular_velocity = " +
+            (name == std::string("one") ? "3" : "-2") + "\n";
+  return text +
+         "[[constraint]]\nkind = \"gear\"\nbetween = [{ of = \"one\", at = [1, 0] }, { of = \"two\", at = [0, 0] }]\n" +
+         keys;
+}
+
+TEST(Gear, OfWrongTeethIsRefused) {
+  const auto refusal = [](const std::string& first, const std::string& second, const std::string& more = "") {
+    return inconsistency<double>(geared("first_teeth = " + first + "\nsecond_teeth = " + second + "\n" + more));
+  };
+  EXPECT_EQ(refusal("20", "30"), "");
+  EXPECT_EQ(refusal("\"2*10\"", "30"), "");
+  EXPECT_EQ(refusal("-20", "-30"), "");
+  expect_words(refusal("20", "-30"), {"test.toml:21: ", "velocity", "gear 'one[1, 0]'-'two[0, 0]'"});
+  expect_words(refusal("20", "31"), {"velocity"});
+  expect_words(refusal("0", "30"), {"test.toml:21: ", "(gear)", "'first_teeth' must be a whole number"});
+  expect_words(refusal("20", "2.5"), {"'second_teeth' must be a whole number"});
+  expect_words(refusal("\"1e300\"", "2"), {"'first_teeth' must be a whole number"});
+  expect_words(refusal("61", "47"), {"61 and 47", "beyond 100", "simpler ratio"});
+  expect_words(refusal("20", "30", "axis = [1, 0]\n"), {"in the plane wheels need no axis"});
+  expect_words(inconsistency<double>(
+                   changed(geared("first_teeth = 2\nsecond_teeth = 3\n"), "{ of = \"two\", at = [0, 0] }", "\"o\"")),
+               {"a gear is of points of two rigid bodies"});
+}
+
+/// Turning space turns both wheels, and changes what the teeth compare.
+TEST(Gear, KeepsNoAngularMomentum) {
+  const std::string text = geared("first_teeth = 2\nsecond_teeth = 3\n");
+  EXPECT_EQ(conserved(assembled<double>(text.substr(0, text.find("[[constraint]]"))).problem), "L_z");
+  EXPECT_EQ(conserved(assembled<double>(text).problem), "");
 }
 
 }  // namespace

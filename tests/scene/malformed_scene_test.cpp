@@ -2,6 +2,7 @@
 
 #include "scene/assembled.hpp"
 #include "scene/joined_bodies.hpp"
+#include "scene/mechanism.hpp"
 #include "scene/wrong_change.hpp"
 
 namespace hbvm::core {
@@ -178,9 +179,10 @@ TEST(MalformedScenes, UnknownKindsListThoseThereAre) {
   expect_message(refusal(changed(every_key, "kind = \"coulomb\"", "kind = \"friction\"")), "test.toml:",
                  {"unknown kind of effect", "there are uniform_gravity, central_gravity", "formula",
                   "friction, damping, motors and magnetic fields are beyond"});
-  expect_message(refusal(changed(every_key, "kind = \"plane\"", "kind = \"rolling\"")), "test.toml:",
-                 {"unknown kind of constraint", "there are rod, quadric, plane", "hinge, formula",
-                  "rolling, contact and slack ropes are beyond"});
+  expect_message(
+      refusal(changed(every_key, "kind = \"plane\"", "kind = \"rolling\"")), "test.toml:",
+      {"unknown kind of constraint", "there are rod, quadric, plane",
+       "hinge, weld, prismatic, cylindrical, universal, gear, formula", "rolling, contact and slack ropes are beyond"});
   expect_message(refusal(changed(every_key, "charge = -1", "colour = -1")),
                  "test.toml:", {"point 'charge'", "unknown key 'colour'; those there are: charge, name, position"});
 }
@@ -201,10 +203,24 @@ TEST(MalformedScenes, KeysOfTheFileInsideATable) {
   EXPECT_EQ(refusal("dimension = 2\n" + body + "[constants]\nbody = 1\n"), "") << "a number may be called so";
 }
 
-TEST(MalformedScenes, HingeInThePlane) {
-  std::string text = write_scene(load_scene("double_physical_pendulum"));
-  text = changed(text, "kind = \"ball_joint\"", "kind = \"hinge\"\naxis = [0, 0, 1]");
-  expect_message(refusal(text), "test.toml:", {"hinge", "dimension = 3", "'ball_joint'"});
+TEST(MalformedScenes, JointsOfSpaceInThePlane) {
+  const std::string text = write_scene(load_scene("double_physical_pendulum")), pin = "kind = \"ball_joint\"";
+  const std::string line = "test.toml:" + std::to_string(line_of(text, pin) - 1) + ": ";
+  for (const auto& [kind, instead] : {std::pair("hinge", "'ball_joint'"),
+                                      {"cylindrical", "a pin in a slot is an 'angle' of value 0"},
+                                      {"universal", "all axes are parallel"}})
+    expect_message(refusal(changed(text, pin, std::string("kind = \"") + kind + "\"\naxis = [0, 0, 1]")), line,
+                   {kind, "dimension = 3", instead});
+}
+
+TEST(MalformedScenes, OfWrongMechanisms) {
+  expect_refusals(refusal, mechanism,
+                  {{"axis = [3, 0, 0]\n", "", {"constraint 1 (prismatic)", "'axis'", "missing"}, its_table},
+                   {"axis = [3, 0, 0]", "axis = [3, 0]", {"(prismatic)", "'axis'", "2 entries instead of 3"}},
+                   {"axis = [3, 0, 0]\n", "axis = [3, 0, 0]\nsecond_axis = [1, 0, 0]\n", {"'second_axis'"}},
+                   {"second_axis = [0, 1, 0]\n", "", {"constraint 3 (universal)", "'second_axis'"}, its_table},
+                   {"\"corner\", {", "\"plate\", {", {"(weld)", "'plate' is a rigid body", "name a point"}, its_table},
+                   {"kind = \"weld\"", "kind = \"welded\"", {"did you mean 'weld'"}, its_table}});
 }
 
 TEST(MalformedScenes, BodyAsSingleTable) {

@@ -2,6 +2,7 @@
 
 #include "scene/assembled.hpp"
 #include "scene/joined_bodies.hpp"
+#include "scene/mechanism.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -207,6 +208,22 @@ TYPED_TEST(Project, RefusesWhatCannotBeMadeConsistent) {
     const std::string message = refused([&] { this->projected(text); });
     EXPECT_TRUE(message.starts_with("test.toml: no consistent position")) << text << message;
   }
+}
+
+/// Joints that hold what is at the start, as a weld its angle, hold it after a projection. A second one changes
+/// nothing.
+TYPED_TEST(Project, OfAMechanismIsOne) {
+  using S = TypeParam;
+  std::string text = changed(mechanism, "position = [2, 1, 4]", "position = [2.01, 1.003, 4]");
+  text = changed(text, "angular_velocity = [0, 0, 3]", "angular_velocity = [0.01, 0, 3]");
+  text = changed(text, "[[0, 1, 0], [-1, 0, 0], [0, 0, 1]]", "[[0, 1, 0.002], [-1, 0, 0], [0.001, 0, 1]]");
+  EXPECT_NE(inconsistency<S>(text), "");
+  const Scene scene = this->projected(text);
+  const Assembled<S> start = assemble<S>(scene);
+  EXPECT_EQ(start.problem.m() - start.problem.nu(), 11);
+  const Assembled<S> again = assemble<S>(project<S>(scene));
+  EXPECT_LE(distance(start.q0, again.q0), 64 * epsilon<S>());
+  EXPECT_LE(distance(start.p0, again.p0), 256 * epsilon<S>());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "scene/assembled.hpp"
 #include "scene/joined_bodies.hpp"
+#include "scene/mechanism.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -44,6 +45,8 @@ void expect_round_trip(const Scene& scene) {
   expect_same(assemble<Mpfr>(scene), assemble<Mpfr>(read));
   EXPECT_EQ(write_scene(read), write_scene(scene));
 }
+
+TEST(WriteScene, OfAMechanismReadsBack) { expect_round_trip(read_scene(mechanism, "mechanism.toml")); }
 
 TEST(WriteScene, OfEverySceneThatIsShippedReadsBack) {
   for (const auto& [name, text] : built_in_scenes()) expect_round_trip(read_scene(text, name));

@@ -31,6 +31,7 @@ struct Frame {
   enum class Of { space, rigid_body, nothing };
   Of of = Of::space;
   std::vector<Index> directors = {};  ///< of a rigid body: where each begins
+  Matrix<S> start = {};               ///< how it stands at the start: a row for each of its axes
 
   /// The vector with these components in the frame.
   /// \throws InputError if there is none

@@ -6,13 +6,18 @@
 #include <vector>
 
 #include "problem/constraint/common_point.hpp"
+#include "problem/constraint/cylindrical.hpp"
 #include "problem/constraint/displacement_product.hpp"
 #include "problem/constraint/form.hpp"
 #include "problem/constraint/formula_constraint.hpp"
+#include "problem/constraint/gear.hpp"
 #include "problem/constraint/hinge.hpp"
 #include "problem/constraint/plane.hpp"
+#include "problem/constraint/prismatic.hpp"
 #include "problem/constraint/quadric.hpp"
 #include "problem/constraint/rod.hpp"
+#include "problem/constraint/universal.hpp"
+#include "problem/constraint/weld.hpp"
 
 namespace hbvm::core {
 
@@ -27,7 +32,7 @@ using ConstraintForms = std::variant<Rod<S>,      //
 /// What a scene can name besides: a kind and keys that stand for several g of those forms. A new one is its file, and
 /// its name here.
 template <Scalar S>
-using ConstraintGroups = std::tuple<Hinge<S>>;
+using ConstraintGroups = std::tuple<Hinge<S>, Weld<S>, Prismatic<S>, Cylindrical<S>, Universal<S>, Gear<S>>;
 
 /// What an evaluator of the gradient of one of them holds.
 template <class Forms>

@@ -107,7 +107,7 @@ TEST(ConstraintKinds, AreFoundByTheirNames) {
     }));
     EXPECT_EQ(calls, 1) << kind;
   }
-  EXPECT_FALSE(with_constraint_kind<double>("weld", [&]<class Kind>() { ADD_FAILURE() << Kind::kind; }));
+  EXPECT_FALSE(with_constraint_kind<double>("rope", [&]<class Kind>() { ADD_FAILURE() << Kind::kind; }));
 }
 
 }  // namespace
