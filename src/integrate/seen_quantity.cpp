@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "integrate/support_force.hpp"
 #include "linear/product.hpp"
 #include "nearest.hpp"
 #include "problem/redundant_constraints.hpp"
@@ -72,7 +73,11 @@ class SeenQuantities<S>::Names {
   using Along = SeenVector<S>;
 
   Names(const Scene& scene, const Problem<S>& problem)
-      : d_(scene.dimension), places_(places_of<S>(scene)), constraints_(names_of_constraints(problem)) {
+      : scene_(scene),
+        problem_(problem),
+        d_(scene.dimension),
+        places_(places_of<S>(scene)),
+        constraints_(all_constraints(problem)) {
     for (const auto& [name, unused] : places_) bodies_.push_back(name);
     for (const SceneRigidBody& body : scene.rigid_bodies)
       for (std::size_t i = 1; i <= body.directors.size(); ++i) {
@@ -102,9 +107,9 @@ class SeenQuantities<S>::Names {
     return list;
   }
   static const std::vector<std::string>& functions() {
-    static const std::vector<std::string> names{"distance",  "speed",   "angle", "rate", "omega", "kinetic", "energy",
-                                                "potential", "tension", "force", "x",    "y",     "z",       "vx",
-                                                "vy",        "vz",      "px",    "py",   "pz"};
+    static const std::vector<std::string> names{"distance",  "speed",   "angle", "rate",  "omega", "kinetic", "energy",
+                                                "potential", "tension", "force", "slide", "x",     "y",       "z",
+                                                "vx",        "vy",      "vz",    "px",    "py",    "pz"};
     return names;
   }
 
@@ -155,8 +160,13 @@ class SeenQuantities<S>::Names {
       return tension(of[0], of[1]);
     }
     if (f == "force") {
-      expect(3, 3, "force(a, b, x): on a, along a direction");
-      return force(of[0], of[1], direction(of[2]));
+      expect(2, 3,
+             "force(a, b, x): on a, along a direction; or force(a, x) of what holds a rigid body where it is fixed");
+      return of.size() == 2 ? support(of[0], direction(of[1])) : force(of[0], of[1], direction(of[2]));
+    }
+    if (f == "slide") {
+      expect(2, 2, "slide(a, b): how far b is from a along their joint");
+      return slide(of[0], of[1]);
     }
     if (std::find(functions().begin(), functions().end(), f) == functions().end())
       throw InputError("there is no quantity '" + f + "'" + did_you_mean_or_list(f, functions()));
@@ -293,15 +303,21 @@ class SeenQuantities<S>::Names {
     }};
   }
 
-  /// Constraints between two places, by their numbers: rods, and components of common points. Of these it is said
-  /// whether the first place is that of the joint.
+  /// Constraints between two places, by their numbers: rods, components of common points, and x.e = 0 across an axis of
+  /// one of them. Of the latter two it is said whether the first place is that of the joint.
   struct Between {
     struct Component {
       Index constraint, axis;
       bool forward;
     };
+    struct Across {
+      Index constraint;
+      Displacement<S> e;
+      bool forward;
+    };
     std::vector<Index> rods;
     std::vector<Component> points;
+    std::vector<Across> across;
   };
   Between between(const std::string& a, const std::string& b, bool rods_alone) const {
     for (const std::string& name : {a, b}) displacement(name);
@@ -309,16 +325,20 @@ class SeenQuantities<S>::Names {
     for (std::size_t i = 0; i < constraints_.size(); ++i)
       for (const bool forward : {true, false}) {
         const std::string pair = forward ? " '" + a + "'-'" + b + "'" : " '" + b + "'-'" + a + "'";
-        const std::string& name = constraints_[i];
-        if (name == "rod" + pair) found.rods.push_back(static_cast<Index>(i));
-        for (Index axis = 0; axis < d_ && !rods_alone; ++axis)
-          for (const char* const joint : {"ball_joint", "hinge"})
-            if (name == joint + pair + " (point, " + "xyz"[axis] + ")")
-              found.points.push_back({static_cast<Index>(i), axis, forward});
+        const std::string& name = constraints_[i].name;
+        const std::size_t at = name.find(pair);
+        if (at == std::string::npos || name.find(' ') != at) continue;
+        const std::string part = name.substr(at + pair.size());
+        const auto number = static_cast<Index>(i);
+        if (name == "rod" + pair) found.rods.push_back(number);
+        if (rods_alone) continue;
+        for (Index axis = 0; axis < d_; ++axis)
+          if (part == std::string(" (point, ") + "xyz"[axis] + ")") found.points.push_back({number, axis, forward});
+        if (part.starts_with(" (across"))
+          found.across.push_back({number, std::get<DisplacementProduct<S>>(constraints_[i].form).y, forward});
       }
-    if (found.rods.empty() && found.points.empty())
-      throw InputError(
-          fmt::format("there is no {} between '{}' and '{}'", rods_alone ? "rod" : "rod, ball joint or hinge", a, b));
+    if (found.rods.empty() && found.points.empty() && found.across.empty())
+      throw InputError(fmt::format("there is no {} between '{}' and '{}'", rods_alone ? "rod" : "rod or joint", a, b));
     return found;
   }
 
@@ -340,15 +360,43 @@ class SeenQuantities<S>::Names {
         const S part = state.lambda[point.constraint] * unit[point.axis];
         sum = point.forward ? S(sum - part) : S(sum + part);
       }
+      for (const auto& line : found.across) {
+        const S part = state.lambda[line.constraint] * dot(displaced(line.e, unit.size(), state.q), unit);
+        sum = line.forward ? S(sum - part) : S(sum + part);
+      }
       return sum;
     }};
   }
 
+  /// Along n = e x f, and in the plane along e turned to the right.
+  Quantity slide(const std::string& a, const std::string& b) const {
+    const std::vector<typename Between::Across> across = between(a, b, false).across;
+    if (across.empty()) throw InputError(fmt::format("nothing slides between '{}' and '{}'", a, b));
+    return {[across, u = way(a, b), d = d_](const State& state) {
+      const Vector<S> e = displaced(across.front().e, d, state.q);
+      const Vector<S> n = d == 2 ? Vector<S>{{e[1], S(-e[0])}} : cross(e, displaced(across.back().e, d, state.q));
+      return S(dot(n, u.now(state)));
+    }};
+  }
+
+  Quantity support(const std::string& body, const Along& along) const {
+    directors(body);
+    const auto held = std::find_if(scene_.rigid_bodies.begin(), scene_.rigid_bodies.end(),
+                                   [&](const SceneRigidBody& one) { return one.name == body; });
+    if (!held->fixed) throw InputError("'" + body + "' is not 'fixed_at' a point, where a support would hold it");
+    std::shared_ptr<SupportForce<S>>& force = supports_[body];
+    if (!force) force = std::make_shared<SupportForce<S>>(scene_, problem_, *held);
+    return {[force, along](const State& state) { return S(dot((*force)(state), along.now(state))); }};
+  }
+
+  const Scene& scene_;
+  const Problem<S>& problem_;
   Index d_;
   std::map<std::string, Displacement<S>, std::less<>> places_;
-  std::vector<std::string> constraints_;
+  std::vector<Constraint<S>> constraints_;
   std::vector<std::string> bodies_, movers_;  ///< what has a place, and what has a mass
   std::map<std::string, Arguments, std::less<>> directors_;
+  mutable std::map<std::string, std::shared_ptr<SupportForce<S>>> supports_;  ///< made where they are asked for
 };
 
 template <Scalar S>

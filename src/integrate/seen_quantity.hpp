@@ -36,15 +36,19 @@ struct SeenQuantity {
 ///     | angle(a.d1), angle(a, b)       | in the plane, against the x axis: of a director, of the way from a to b     |
 ///     | angle(a.d1, b.d1)              | from the first direction to the second; in space in [0, pi]                 |
 ///     | rate(...)                      | how fast such an angle of the plane grows                                   |
-///     | omega(a), omega(a, a.d3)       | angular velocity, in the plane and in space: its component along a direction
-///     | | kinetic(a), kinetic()          | energy of a body, of all | | potential(), energy()          | -U, and H |
+///     | omega(a), omega(a, a.d3)       | angular velocity; in space its component along a direction                  |
+///     | kinetic(a), kinetic()          | energy of a body, of all                                                    |
+///     | potential(), energy()          | -U, and H                                                                   |
 ///     | tension(a, b)                  | of the rods between two places; positive if they pull                       |
-///     | force(a, b, x)                 | of rods, ball joints and hinges between them, on a, along a direction       |
+///     | force(a, b, x)                 | of rods and joints between them, on a, along a direction                    |
+///     | slide(a, b)                    | how far b is from a along the prismatic or cylindrical joint between them   |
+///     | force(a, x)                    | on a rigid body, of what holds it where it is fixed                         |
 ///
 /// A direction is x, y or z of space, or a director.
 template <Scalar S>
 class SeenQuantities {
  public:
+  /// Scene and problem must outlive it, the problem also the quantities.
   SeenQuantities(const Scene& scene, const Problem<S>& problem);
   ~SeenQuantities();
   SeenQuantities(const SeenQuantities&) = delete;

@@ -24,14 +24,8 @@ RedundantConstraints<S>::RedundantConstraints(const Problem<S>& problem) {
   if (problem.redundant.empty()) return;
   all_ = problem;
   all_.redundant.clear();
-  all_.constraints.clear();
-  auto kept = problem.constraints.begin();
-  for (const auto& [place, constraint] : problem.redundant) {
-    while (static_cast<Index>(all_.constraints.size()) < place) all_.constraints.push_back(*kept++);
-    all_.constraints.push_back(constraint);
-    places_.push_back(place);
-  }
-  all_.constraints.insert(all_.constraints.end(), kept, problem.constraints.end());
+  all_.constraints = all_constraints(problem);
+  for (const RedundantConstraint<S>& redundant : problem.redundant) places_.push_back(redundant.place);
   for (Index a = 0, r = 0; a < all_.nu(); ++a) {
     if (r < static_cast<Index>(places_.size()) && places_[static_cast<std::size_t>(r)] == a)
       ++r;
@@ -97,16 +91,23 @@ Vector<S> RedundantConstraints<S>::multipliers(const Vector<S>& q, const Vector<
 }
 
 template <Scalar S>
+std::vector<Constraint<S>> all_constraints(const Problem<S>& problem) {
+  std::vector<Constraint<S>> all = problem.constraints;
+  for (const RedundantConstraint<S>& redundant : problem.redundant)
+    all.insert(all.begin() + redundant.place, redundant.constraint);
+  return all;
+}
+
+template <Scalar S>
 std::vector<std::string> names_of_constraints(const Problem<S>& problem) {
   std::vector<std::string> names;
-  for (const Constraint<S>& constraint : problem.constraints) names.push_back(constraint.name);
-  for (const RedundantConstraint<S>& redundant : problem.redundant)
-    names.insert(names.begin() + redundant.place, redundant.constraint.name);
+  for (const Constraint<S>& constraint : all_constraints(problem)) names.push_back(constraint.name);
   return names;
 }
 
-#define HBVM_DEFINE(S)                    \
-  template class RedundantConstraints<S>; \
+#define HBVM_DEFINE(S)                                                       \
+  template class RedundantConstraints<S>;                                    \
+  template std::vector<Constraint<S>> all_constraints<S>(const Problem<S>&); \
   template std::vector<std::string> names_of_constraints<S>(const Problem<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

@@ -39,7 +39,11 @@ class RedundantConstraints {
   Vector<S> values_, sizes_, hidden_, v_;
 };
 
-/// The names of all constraints, redundant ones included, in order.
+/// All constraints, redundant ones included, in order.
+template <Scalar S>
+std::vector<Constraint<S>> all_constraints(const Problem<S>& problem);
+
+/// Their names.
 template <Scalar S>
 std::vector<std::string> names_of_constraints(const Problem<S>& problem);
 

@@ -4,6 +4,8 @@
 #include "integrate/output_state.hpp"
 #include "integrate/runs.hpp"
 #include "printing.hpp"
+#include "scalar/literal.hpp"
+#include "scene/mechanism.hpp"
 #include "scene/observe.hpp"
 #include "words.hpp"
 
@@ -97,6 +99,70 @@ TEST_F(SeenQuantityTest, ForcesAreWhatABodyIsMovedBy) {
   }
 }
 
+/// m a of each body of a mechanism is its weight and the forces of its joints.
+TEST_F(SeenQuantityTest, ForcesOfJointsMoveBodies) {
+  const Scene scene = read_scene(
+      mechanism +
+          "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [3, -10, 1]\n"
+          "[[effect]]\nkind = \"spring\"\nstiffness = 2\nbetween = [\"post\", { of = \"shaft\", at = [0, 0, 0] "
+          "}]\n",
+      "mechanism.toml");
+  const auto between = [](const std::string& a, const std::string& b, char along) {
+    return "force(" + a + ", " + b + ", " + along + ")";
+  };
+  // Each body with the joint to the one before it, on both sides.
+  const std::vector<std::array<std::string, 2>> joints{{"base[0, 0, 0]", "slider[0, 0, 0]"},
+                                                       {"corner", "plate[0, 0, 0]"},
+                                                       {"plate[0, 0, 1]", "fork[0, 0, 0]"},
+                                                       {"fork[0, 0, 1]", "shaft[0, 0, 0]"}};
+  std::vector<std::string> sums;
+  for (std::size_t body = 0; body < 5; ++body)
+    for (const char along : {'x', 'y', 'z'}) {
+      std::string sum;
+      if (body > 0) sum = between(joints[body - 1][1], joints[body - 1][0], along);
+      if (body < 4) sum += (sum.empty() ? "" : " + ") + between(joints[body][0], joints[body][1], along);
+      if (body == 4) sum += std::string(" + 2*(post.") + along + " - shaft." + along + ")";
+      sums.push_back(sum);
+    }
+  const Vector<Mpfr> found = at_start(scene, sums);
+  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
+  StateEvaluator<Mpfr> point(start.problem);
+  const auto forces = point.forces(start.q0, start.p0);
+  const Vector<Mpfr> rate = forces.applied + forces.constraint;
+  Vector<Mpfr> acceleration(60);
+  start.problem.mass.velocity(lanes(rate), lanes(acceleration));
+  const std::vector<std::array<const char*, 4>> bodies{{"2", "0", "0", "1/10"},
+                                                       {"1", "0", "0", "0"},
+                                                       {"1", "1/4", "0", "0"},
+                                                       {"1", "0", "0", "1/2"},
+                                                       {"1", "0", "0", "0"}};
+  for (Index body = 0; body < 5; ++body) {
+    const auto& [mass, x, y, z] = bodies[static_cast<std::size_t>(body)];
+    Vector<Mpfr> moved = acceleration.segment(12 * body, 3);
+    moved += literal<Mpfr>(x) * acceleration.segment(12 * body + 3, 3) +
+             literal<Mpfr>(y) * acceleration.segment(12 * body + 6, 3) +
+             literal<Mpfr>(z) * acceleration.segment(12 * body + 9, 3);
+    const Vector<Mpfr> expected = (moved - Vector<Mpfr>{{Mpfr(3), Mpfr(-10), Mpfr(1)}}) * literal<Mpfr>(mass);
+    EXPECT_LE(distance<Mpfr>(found.segment(3 * body, 3), expected), 10'000 * epsilon<Mpfr>()) << body;
+    EXPECT_GE(max_norm(expected), Mpfr(1) / 100) << body;
+  }
+}
+
+/// A sleeve is told along the axis of the second body, which here is down.
+TEST_F(SeenQuantityTest, SlidersAreSomewhereOnTheirRails) {
+  expect_values(read_scene(mechanism, "mechanism.toml"), {{"slide(base[0, 0, 0], slider[0, 0, 0])", "2"},
+                                                          {"slide(slider[0, 0, 0], base[0, 0, 0])", "-2"},
+                                                          {"slide(fork[0, 0, 1], shaft[0, 0, 0])", "-2"}});
+  expect_values(
+      read_scene("dimension = 2\nrigid_body = [{ name = \"block\", position = [4, 3], velocity = [0, 0], mass "
+                 "= 1, inertia = 1, orientation = 1, angular_velocity = 0 }]\n"
+                 "point = [{ name = \"o\", position = [0, 0] }]\n"
+                 "constraint = [{ kind = \"prismatic\", between = [\"o\", { of = \"block\", at = [0, 0] }], "
+                 "axis = [-8, -6] }]\n",
+                 "block"),
+      {{"slide(o, block[0, 0])", "-5"}});
+}
+
 TEST_F(SeenQuantityTest, BarsOfThePlaneTurn) {
   expect_values(load_scene("double_physical_pendulum"),
                 {{"angle(upper.d1)", "atan2(-4/5, 3/5)"},
@@ -128,7 +194,8 @@ TEST_F(SeenQuantityTest, IsRefusedWithWhatThereIs) {
     return message_of<InputError>([&] { at_start(scene, {text}); });
   };
   expect_words(refusal(plane, "tension(upper, lower)"), {"observe 'tension(upper, lower)'", "no rod between"});
-  expect_words(refusal(plane, "force(upper, lower, x)"), {"no rod, ball joint or hinge between"});
+  expect_words(refusal(plane, "force(upper, lower, x)"), {"no rod or joint between"});
+  expect_words(refusal(plane, "slide(lower[-2/5, 0], upper[1, 0])"), {"nothing slides between"});
   expect_words(refusal(plane, "angel(upper.d1)"), {"did you mean 'angle'"});
   expect_words(refusal(plane, "angle(uper.d1)"), {"no direction", "directors of rigid bodies"});
   expect_words(refusal(plane, "omega(upper, x)"), {"'omega' is omega(a)"});
