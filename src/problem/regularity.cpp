@@ -323,6 +323,26 @@ std::vector<Entries> exact_gram(const Problem<S>& problem, const ConstraintGradi
   return rows;
 }
 
+/// What the round-off of velocities is proportional to. In a block of M they are sums M^-1 p of terms M v, which may
+/// cancel.
+template <Scalar S>
+Vector<S> sizes_of_velocities(const MassMatrix<S>& mass, const Vector<S>& v) {
+  Vector<S> sizes(v.size());
+  for (Index i = 0; i < v.size(); ++i) sizes[i] = magnitude(v[i]);
+  for (const auto& block : mass.blocks()) {
+    if (!block.full) continue;
+    Vector<S> p = Vector<S>::Zero(block.size);
+    for (Index j = 0; j < block.size; ++j)
+      for (Index l = 0; l < block.size; ++l) p[j] += magnitude(S(block.M(j, l) * v[block.offset + l]));
+    for (Index j = 0; j < block.size; ++j) {
+      S sum = 0;
+      for (Index l = 0; l < block.size; ++l) sum += magnitude(block.W(j, l)) * p[l];
+      raise_to(sizes[block.offset + j], sum);
+    }
+  }
+  return sizes;
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -335,10 +355,11 @@ Independence<S> find_independent(const Problem<S>& problem, const Vector<S>& q, 
   // A gradient's direction is known to a few roundings of its entries.
   const S resolution = S(static_cast<long>(64 * m)) * rounding;
   Matrix<S> bending(nu, 2);  // with the sizes of its terms
+  const Vector<S> sizes = sizes_of_velocities(problem.mass, v);
   for (Index a = 0; a < nu; ++a) {
     const auto& constraint = problem.constraints[static_cast<std::size_t>(a)];
     bending(a, 0) = curvature(constraint, problem.dimension, q, v);
-    bending(a, 1) = curvature_size(constraint, problem.dimension, q, v);
+    bending(a, 1) = curvature_size(constraint, problem.dimension, q, sizes);
   }
 
   std::vector<std::array<BigFloat, 2>> bendings;  // of the redundant ones, with bounds of their round-off

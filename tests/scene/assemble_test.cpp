@@ -609,6 +609,35 @@ TEST(Hinge, OfABodyWithAFixedPointIsItsAxis) {
   EXPECT_EQ(above.problem.redundant.size(), 3u);
 }
 
+/// A door that turns, whose hinge follows from its fixed point in part. The axis stands still but for rounding, which
+/// is that of the velocities of the whole door.
+TEST(Hinge, OfADoorThatTurnsIsNoContradiction) {
+  const PrecisionScope digits(50);
+  for (const char* const spin : {"2", "\"1/3\"", "1000000"}) {
+    const std::string text = std::string(R"(dimension = 3
+[[point]]
+name = "upper"
+position = [0, 0, 2]
+[[rigid_body]]
+name = "door"
+fixed_at = [0, 0, 0]
+mass = 3
+center = ["1/2", 0, 1]
+inertia = ["1/2", "1/2", "1/4"]
+orientation = { axis = [0, 0, 1], angle = "1/3" }
+angular_velocity = [0, 0, )") +
+                             spin + R"(]
+[[constraint]]
+kind = "hinge"
+between = ["upper", { of = "door", at = [0, 0, 2] }]
+axis = [0, 0, 1]
+)";
+    EXPECT_EQ(inconsistency<double>(text), "");
+    EXPECT_EQ(inconsistency<Quad>(text), "");
+    EXPECT_EQ(assembled<Mpfr>(text).problem.redundant.size(), 3u);
+  }
+}
+
 /// Planes and quadrics of points of rigid bodies, by name and in place, against the same as formulas.
 TEST(PointsOfRigidBodies, LieOnPlanesAndQuadrics) {
   const PrecisionScope digits(50);
