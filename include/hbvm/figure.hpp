@@ -37,11 +37,13 @@ struct Curve {
   bool marked = false;  ///< a mark at every point
 };
 
-/// A line that is part of the scene: a rod, a triangle that shows a slope, or the front of a cloud of points.
+/// A line that is part of the scene: a rod, the outline of a body, the axis of a joint, a mesh behind the others, a
+/// triangle that shows a slope, or the front of a cloud of points. Where a coordinate is not finite it is interrupted.
 struct Polyline {
-  enum class Look { solid, faint, dashed, front };
+  enum class Look { solid, bar, faint, dashed, front, axis, mesh };
   std::vector<PlotPoint> points;
   Look look = Look::solid;
+  std::optional<std::size_t> colour = {};  ///< that of the curve of this number, else a grey
 };
 
 /// A part of a bar that stands on the axis of x, in the colour of the curve of this number.
@@ -54,7 +56,7 @@ inline constexpr double bar_width = 0.7;
 
 /// A place of the scene.
 struct Mark {
-  enum class Look { body, start, fixed, positive, negative };
+  enum class Look { body, start, fixed, positive, negative, centre, joint };
   PlotPoint at;
   Look look = Look::body;
   std::string label;

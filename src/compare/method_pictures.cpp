@@ -51,6 +51,15 @@ std::vector<Recording> until_they_leave(const Sketch& sketch, const std::vector<
   return shown;
 }
 
+/// The scene as all motions go through it, and what is shown of them.
+std::pair<Sketch, std::vector<Recording>> sketched(const Scene& scene, const std::vector<RecordedMethod>& runs) {
+  std::vector<Recording> shown = until_they_leave(sketch(scene), runs);
+  std::vector<std::vector<double>> states;
+  for (const Recording& recording : shown)
+    for (std::vector<double>& q : recording.states()) states.push_back(std::move(q));
+  return {sketch(scene, states), std::move(shown)};
+}
+
 /// An error of a run, as panels and charts show it.
 struct ErrorCurve {
   const char* title;
@@ -89,8 +98,13 @@ Panel motions_panel(const Sketch& sketch, const std::vector<RecordedMethod>& run
     if (i == 0) {
       all = std::move(one);
       all.curves.clear();
-      std::erase_if(all.lines, [](const Polyline& line) { return line.look == Polyline::Look::solid; });
-      std::erase_if(all.marks, [](const Mark& mark) { return mark.look == Mark::Look::body; });
+      std::erase_if(all.lines, [](const Polyline& line) {
+        return line.look == Polyline::Look::solid || line.look == Polyline::Look::bar ||
+               line.look == Polyline::Look::axis;
+      });
+      std::erase_if(all.marks, [](const Mark& mark) {
+        return mark.look == Mark::Look::body || mark.look == Mark::Look::centre || mark.look == Mark::Look::joint;
+      });
     }
     all.curves.push_back(paths);
   }
@@ -111,16 +125,22 @@ void add_motion(MovingPage& page, const Sketch& sketch, const std::string& metho
     const bool moves = !added.at.blocks.empty();
     if (moves) added.name = is_alone ? method : place.name + " (" + method + ")";
     if (!moves && colour > 0) added.labelled = false;
+    if (added.of) *added.of += first;
     page.colours.push_back(moves ? colour : -1);
   }
   for (const Sketch::Link& link : sketch.links) page.sketch.links.push_back({first + link.a, first + link.b, link.as});
+  for (const Sketch::Body& body : sketch.bodies) {
+    Sketch::Body& added = page.sketch.bodies.emplace_back(body);
+    added.place += first;
+    for (auto& block : added.reference.blocks) block.offset += static_cast<Index>(coordinates) * colour;
+    for (Index& director : added.directors) director += static_cast<Index>(coordinates) * colour;
+  }
 }
 
 }  // namespace
 
 Figure methods_figure(const RunRequest& request, const std::vector<RecordedMethod>& runs, const std::string& command) {
-  const Sketch drawn = sketch(request.scene);
-  const std::vector<Recording> shown = until_they_leave(drawn, runs);
+  const auto [drawn, shown] = sketched(request.scene, runs);
   Figure figure;
   figure.caption = plain(request.scene.title);
   figure.footnote = std::string("hbvm ") + version() + ": " + command;
@@ -144,10 +164,10 @@ Figure methods_figure(const RunRequest& request, const std::vector<RecordedMetho
 std::string methods_page(const RunRequest& request, const std::vector<RecordedMethod>& runs,
                          const std::string& command) {
   MovingPage page = page_about(request, command);
-  const Sketch drawn = sketch(request.scene);
-  const std::vector<Recording> shown = until_they_leave(drawn, runs);
+  const auto [drawn, shown] = sketched(request.scene, runs);
   page.method.clear();
   page.sketch.dimension = drawn.dimension;
+  page.sketch.held_on = drawn.held_on;
   const Recording* longest = &shown.front();
   for (const Recording& recording : shown)
     if (recording.samples.size() > longest->samples.size()) longest = &recording;

@@ -57,7 +57,7 @@ std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request)
 }
 
 Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command) {
-  Figure figure = run_figure(sketch(request.scene), recording);
+  Figure figure = run_figure(sketch(request.scene, recording.states()), recording);
   figure.caption = plain(request.scene.title);
   figure.footnote = std::string("hbvm ") + version() + ": " + command;
   if (recording.every > 1)

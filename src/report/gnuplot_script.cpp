@@ -6,6 +6,7 @@
 #include "figure_layout.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/figure.hpp"
+#include "label_places.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -155,11 +156,16 @@ class PanelScript {
 
   void add(const Polyline& line) {
     if (!any(line.points)) return;
-    const char* const style = line.look == Polyline::Look::solid   ? "with lines lw 1.6 lc rgb '#333333'"
-                              : line.look == Polyline::Look::faint ? "with lines lw 0.8 lc rgb '#999999'"
-                              : line.look == Polyline::Look::front ? "with lines lw 6 lc rgb '#d9d9d9'"
-                                                                   : "with lines lw 1 dt 2 lc rgb '#777777'";
-    parts_.push_back(data(line.points) + style + " notitle");
+    using Look = Polyline::Look;
+    const auto [style, grey] = line.look == Look::solid   ? std::pair("lw 1.6", "#333333")
+                               : line.look == Look::bar   ? std::pair("lw 3", "#333333")
+                               : line.look == Look::faint ? std::pair("lw 0.8", "#999999")
+                               : line.look == Look::front ? std::pair("lw 6", "#d9d9d9")
+                               : line.look == Look::axis  ? std::pair("lw 1.2 dt 4", "#333333")
+                               : line.look == Look::mesh  ? std::pair("lw 0.4", "#c4c4c4")
+                                                          : std::pair("lw 1 dt 2", "#777777");
+    parts_.push_back(data(line.points) + "with lines " + style + " lc rgb " +
+                     quoted(line.colour ? colour_of(*line.colour) : grey) + " notitle");
   }
 
   void add(const Bar& bar) {
@@ -177,9 +183,13 @@ class PanelScript {
     const char* const style = mark.look == Mark::Look::body       ? "pt 7 ps 0.9 lc rgb 'black'"
                               : mark.look == Mark::Look::start    ? "pt 6 ps 0.8 lc rgb '#666666'"
                               : mark.look == Mark::Look::fixed    ? "pt 9 ps 1.3 lc rgb 'black'"
+                              : mark.look == Mark::Look::centre   ? "pt 7 ps 0.45 lc rgb 'black'"
+                              : mark.look == Mark::Look::joint    ? "pt 6 ps 0.6 lw 1.5 lc rgb 'black'"
                               : mark.look == Mark::Look::positive ? "pt 1 ps 1.4 lw 1.5 lc rgb '#D55E00'"
                                                                   : "pt 2 ps 1.2 lw 1.5 lc rgb '#0072B2'";
-    parts_.push_back(data({mark.at}) + "with points " + style + " notitle");
+    const std::string at = data({mark.at});
+    if (mark.look == Mark::Look::joint) parts_.push_back(at + "with points pt 7 ps 0.6 lc rgb 'white' notitle");
+    parts_.push_back(at + "with points " + style + " notitle");
   }
 
   void write(const PlotPoint& at, const std::string& text, const std::string& colour, double lines_up,
@@ -188,23 +198,39 @@ class PanelScript {
                            at[1], letters_right, lines_up, quoted(colour));
   }
 
-  /// Marks that hide each other have their names in one line.
+  /// Marks that hide each other have their names in one line, at a side where nothing else is.
   void label_marks() {
     constexpr double hidden = 8;  // pixels
-    std::vector<std::pair<PlotPoint, std::string>> labels;
+    std::vector<LabelledMark> named;
+    std::vector<std::string> texts;
     for (const Mark& mark : panel_.marks) {
-      if (mark.label.empty() || !any({mark.at})) continue;
-      const auto near = [&](const std::pair<PlotPoint, std::string>& label) {
-        return std::abs(label.first[0] - mark.at[0]) * box_width < hidden * x_.length() &&
-               std::abs(label.first[1] - mark.at[1]) * box_height < hidden * y_.length();
-      };
-      const auto found = std::find_if(labels.begin(), labels.end(), near);
-      if (found == labels.end())
-        labels.emplace_back(mark.at, plain(mark.label));
-      else
-        found->second += ", " + plain(mark.label);
+      if (!any({mark.at})) continue;
+      const PlotPoint at{(mark.at[0] - x_.from) / x_.length() * box_width,
+                         (mark.at[1] - y_.from) / y_.length() * box_height};
+      const auto near = std::find_if(named.begin(), named.end(), [&](const LabelledMark& other) {
+        return std::abs(other.at[0] - at[0]) < hidden && std::abs(other.at[1] - at[1]) < hidden;
+      });
+      const auto n = static_cast<std::size_t>(near - named.begin());
+      if (near == named.end()) {
+        named.push_back({at, 0, line_height});
+        texts.emplace_back();
+      }
+      if (!mark.label.empty()) texts[n] += (texts[n].empty() ? "" : ", ") + mark.label;
+      named[n].width = letter_width * static_cast<double>(letters(texts[n]));
     }
-    for (const auto& [at, text] : labels) write(at, text, "black", 0);
+    const std::vector<std::optional<Rectangle>> places = label_places(named, {0, 0, box_width, box_height});
+    for (std::size_t n = 0; n < named.size(); ++n) {
+      if (!places[n]) continue;
+      const Rectangle& place = *places[n];
+      const double at = named[n].at[0];
+      const bool right = place.left > at, left = place.left + place.width < at;
+      const double x = right ? place.left : left ? place.left + place.width : at;
+      script_ += fmt::format("set label {} at graph {:.5f},{:.5f} {} tc rgb 'black' front\n", quoted(plain(texts[n])),
+                             x / box_width, (place.bottom + place.height / 2) / box_height,
+                             right  ? "left"
+                             : left ? "right"
+                                    : "center");
+    }
   }
 
   /// Where each curve ends: at the right of the box, moved apart, or below a point within it.

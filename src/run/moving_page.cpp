@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 
@@ -30,24 +31,80 @@ OrderedJson numbers_of(const std::vector<double>& values) {
   return list;
 }
 
+/// No more digits than are seen.
+double as_drawn(double x) { return std::strtod(fmt::format("{:.5g}", x).c_str(), nullptr); }
+
+OrderedJson json_of(const std::vector<std::array<double, 3>>& points) {
+  OrderedJson list = OrderedJson::array();
+  for (const std::array<double, 3>& point : points)
+    list.push_back({as_drawn(point[0]), as_drawn(point[1]), as_drawn(point[2])});
+  return list;
+}
+
+/// Edges as two corners, the faces at their sides, and 1 for a sharp one.
+OrderedJson json_of(const Solid& solid) {
+  OrderedJson edges = OrderedJson::array();
+  for (const Solid::Edge& edge : solid.edges)
+    edges.push_back({edge.ends[0], edge.ends[1], edge.faces[0], edge.faces[1], edge.sharp ? 1 : 0});
+  return {{"corners", json_of(solid.corners)}, {"faces", solid.faces}, {"edges", edges}, {"closed", solid.closed}};
+}
+
+OrderedJson json_of(const Displacement<double>& x) {
+  OrderedJson blocks = OrderedJson::array();
+  for (const auto& block : x.blocks) blocks.push_back({block.offset, any_number(block.weight)});
+  return {{"blocks", blocks}, {"shift", numbers_of({x.shift.begin(), x.shift.end()})}};
+}
+
+OrderedJson json_of(const Sketch::Place& place) {
+  OrderedJson json = json_of(place.at);
+  json["name"] = place.name;
+  json["has_mass"] = place.has_mass;
+  json["charge"] = any_number(place.charge);
+  json["labelled"] = place.labelled;
+  using Mark = Sketch::Place::Mark;
+  json["mark"] = place.mark == Mark::joint ? "joint" : place.mark == Mark::none ? "none" : "dot";
+  if (place.of) json["of"] = *place.of;
+  return json;
+}
+
+/// Rigid bodies, and their solids: each that differs is there once.
+void add_bodies(OrderedJson& json, const Sketch& sketch) {
+  OrderedJson bodies = OrderedJson::array(), solids = OrderedJson::array();
+  for (const Sketch::Body& body : sketch.bodies) {
+    const OrderedJson solid = json_of(body.solid);
+    const auto known = std::find(solids.begin(), solids.end(), solid);
+    OrderedJson added = json_of(body.reference);
+    added["place"] = body.place;
+    added["directors"] = body.directors;
+    added["solid"] = known - solids.begin();
+    bodies.push_back(added);
+    if (known == solids.end()) solids.push_back(solid);
+  }
+  json["bodies"] = bodies;
+  json["solids"] = solids;
+}
+
 OrderedJson json_of(const Sketch& sketch, const std::vector<int>& colours) {
-  OrderedJson places = OrderedJson::array(), links = OrderedJson::array();
+  OrderedJson places = OrderedJson::array(), links = OrderedJson::array(), meshes = OrderedJson::array(),
+              curves = OrderedJson::array();
   for (const Sketch::Place& place : sketch.places) {
-    OrderedJson blocks = OrderedJson::array();
-    for (const auto& block : place.at.blocks) blocks.push_back({block.offset, any_number(block.weight)});
-    places.push_back({{"name", place.name},
-                      {"blocks", blocks},
-                      {"shift", numbers_of({place.at.shift.begin(), place.at.shift.end()})},
-                      {"has_mass", place.has_mass},
-                      {"charge", any_number(place.charge)},
-                      {"labelled", place.labelled}});
+    places.push_back(json_of(place));
     if (!colours.empty()) places.back()["colour"] = colours[places.size() - 1];
   }
   for (const Sketch::Link& link : sketch.links) {
-    const char* const as = link.as == Sketch::Joins::rod ? "rod" : link.as == Sketch::Joins::spring ? "spring" : "body";
+    using Joins = Sketch::Joins;
+    const char* const as = link.as == Joins::rod      ? "rod"
+                           : link.as == Joins::spring ? "spring"
+                           : link.as == Joins::axis   ? "axis"
+                                                      : "body";
     links.push_back({link.a, link.b, as});
   }
-  return {{"dimension", sketch.dimension}, {"places", places}, {"links", links}};
+  for (const PointLine& line : sketch.held_on.meshes) meshes.push_back(json_of(line));
+  for (const PointLine& line : sketch.held_on.curves) curves.push_back(json_of(line));
+  OrderedJson json{
+      {"dimension", sketch.dimension}, {"places", places}, {"links", links}, {"meshes", meshes}, {"curves", curves}};
+  add_bodies(json, sketch);
+  return json;
 }
 
 /// What is no number exceeds all numbers: it must be seen.
@@ -97,6 +154,7 @@ OrderedJson json_of(const PageChart& chart, std::size_t first_column) {
     all.insert(all.end(), curve.values.begin(), curve.values.end());
     curves.push_back({{"name", curve.name}, {"column", first_column++}});
     if (curve.number > 0) curves.back()["number"] = curve.number;
+    if (!curve.label.empty()) curves.back()["label"] = curve.label;
   }
   const AxisRange range = widened(range_of(all), room);
   OrderedJson json = json_of(range, tics_of(range, chart.scale, most_tics));

@@ -17,6 +17,7 @@ struct PageCurve {
   std::vector<double> values;
   std::size_t number = 0;  ///< of the constraint whose multiplier it is, from 1
   bool is_error = false;   ///< the greatest error since the time before, of which none may be left out
+  std::string label = {};  ///< what it is called in the chart, if that is not its whole name
 };
 
 struct PageChart {

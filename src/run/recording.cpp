@@ -22,6 +22,12 @@ double log10_of(const S& x) {
 
 }  // namespace
 
+std::vector<std::vector<double>> Recording::states() const {
+  std::vector<std::vector<double>> result;
+  for (const Sample& sample : samples) result.push_back(sample.q);
+  return result;
+}
+
 std::vector<std::size_t> shown_multipliers(const Recording& recording) {
   std::vector<std::size_t> all, joints;
   for (const std::string& constraint : recording.constraints) {

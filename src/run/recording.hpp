@@ -37,6 +37,9 @@ struct Recording {
   std::vector<std::string> constraints;   ///< whose multipliers these are
   std::vector<std::string> observations;  ///< names of what was observed
   std::vector<Sample> samples;
+
+  /// q of all samples.
+  std::vector<std::vector<double>> states() const;
 };
 
 /// Whose multipliers a picture shows: constraints that keep rigid bodies rigid are many, and say little beside others.

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
+#include <map>
+
+#include "run/multiplier_names.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -12,15 +16,69 @@ PlotPoint project(const std::array<double, 3>& x, const Projection& projection) 
   return {x[static_cast<std::size_t>(projection.across)], x[static_cast<std::size_t>(projection.up)]};
 }
 
-/// The lines of the scene at one state.
+/// What is seen of a body's edges, with gaps between them.
+Polyline outline_of(const Sketch& sketch, const Sketch::Body& body, const std::vector<double>& q,
+                    const Projection& projection) {
+  const Solid& solid = body.solid;
+  std::vector<PlotPoint> corners;
+  for (const std::array<double, 3>& corner : sketch.corners(body, q)) corners.push_back(project(corner, projection));
+  std::vector<bool> towards;
+  for (const std::vector<std::size_t>& face : solid.faces) {
+    double area = 0;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const PlotPoint &a = corners[face[i]], &b = corners[face[(i + 1) % face.size()]];
+      area += a[0] * b[1] - a[1] * b[0];
+    }
+    towards.push_back(area > 0);
+  }
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  Polyline outline;
+  for (const Solid::Edge& edge : solid.edges)
+    if (solid.shows(edge, towards))
+      outline.points.insert(outline.points.end(), {corners[edge.ends[0]], corners[edge.ends[1]], {nothing, nothing}});
+  return outline;
+}
+
+/// The colour of what moves with each place: that of the path of its body.
+std::map<std::size_t, std::size_t> colours_of_paths(const Sketch& sketch) {
+  std::map<std::size_t, std::size_t> colours;
+  for (std::size_t i = 0; i < sketch.places.size(); ++i)
+    if (sketch.places[i].has_mass) colours.emplace(i, colours.size());
+  return colours;
+}
+
+/// The lines of the scene at one state, and the outlines of its rigid bodies.
 void add_links(Panel& panel, const Sketch& sketch, const std::vector<double>& q, const Projection& projection,
                Polyline::Look look) {
+  const bool whole = look == Polyline::Look::solid;
+  const std::map<std::size_t, std::size_t> colours = colours_of_paths(sketch);
   for (const Sketch::Link& link : sketch.links) {
-    const Polyline::Look drawn =
-        look == Polyline::Look::solid && link.as == Sketch::Joins::spring ? Polyline::Look::faint : look;
-    panel.lines.push_back(
-        {{project(sketch.position(link.a, q), projection), project(sketch.position(link.b, q), projection)}, drawn});
+    if (link.as == Sketch::Joins::axis && !whole) continue;
+    const Polyline::Look drawn = !whole                             ? look
+                                 : link.as == Sketch::Joins::spring ? Polyline::Look::faint
+                                 : link.as == Sketch::Joins::axis   ? Polyline::Look::axis
+                                 : link.as == Sketch::Joins::body   ? Polyline::Look::bar
+                                                                    : look;
+    Polyline& line = panel.lines.emplace_back(Polyline{
+        {project(sketch.position(link.a, q), projection), project(sketch.position(link.b, q), projection)}, drawn});
+    if (whole && link.as == Sketch::Joins::body) line.colour = colours.at(*sketch.places[link.a].of);
   }
+  for (const Sketch::Body& body : sketch.bodies) {
+    Polyline& outline = panel.lines.emplace_back(outline_of(sketch, body, q, projection));
+    outline.look = whole ? look : Polyline::Look::faint;
+    if (whole) outline.colour = colours.at(body.place);
+  }
+}
+
+/// Lines behind all else, with gaps between them.
+void add_lines(Panel& panel, const std::vector<PointLine>& lines, const Projection& projection, Polyline::Look look) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  Polyline all{{}, look};
+  for (const PointLine& line : lines) {
+    for (const std::array<double, 3>& point : line) all.points.push_back(project(point, projection));
+    all.points.push_back({nothing, nothing});
+  }
+  if (!all.points.empty()) panel.lines.push_back(std::move(all));
 }
 
 Panel against_time(const std::string& title, const Axis& y) {
@@ -38,18 +96,19 @@ Curve curve_of(const std::string& label, const Recording& recording,
   return curve;
 }
 
-/// Its name, or by its number if that is too long to stand beside a panel.
-std::string label_of(const Recording& recording, std::size_t constraint) {
-  constexpr std::size_t longest = 20;
-  const std::string& name = recording.constraints[constraint];
+/// A name, or a number if it is too long to stand beside a panel.
+std::string beside(const std::string& name, std::size_t constraint) {
+  constexpr std::size_t longest = 36;
   return name.size() <= longest ? plain(name) : "λ_{" + std::to_string(constraint + 1) + "}";
 }
 
 Panel multipliers_panel(const Recording& recording) {
   Panel panel = against_time("Lagrange multipliers", {"λ"});
-  for (const std::size_t i : shown_multipliers(recording))
-    panel.curves.push_back(
-        curve_of(label_of(recording, i), recording, [i](const Recording::Sample& sample) { return sample.lambda[i]; }));
+  const std::vector<std::size_t> shown = shown_multipliers(recording);
+  const std::vector<std::string> names = multiplier_names(recording);
+  for (std::size_t n = 0; n < shown.size(); ++n)
+    panel.curves.push_back(curve_of(beside(names[n], shown[n]), recording,
+                                    [i = shown[n]](const Recording::Sample& sample) { return sample.lambda[i]; }));
   return panel;
 }
 
@@ -102,6 +161,8 @@ Panel motion_panel(const Sketch& sketch, const Recording& recording, const Proje
   panel.equal_axes = true;
   panel.x.label = axes[projection.across];
   panel.y.label = axes[projection.up];
+  add_lines(panel, sketch.held_on.meshes, projection, Polyline::Look::mesh);
+  add_lines(panel, sketch.held_on.curves, projection, Polyline::Look::faint);
   const std::vector<double>&first = recording.samples.front().q, &last = recording.samples.back().q;
   constexpr std::size_t most_labels = 12;
   std::size_t moving = 0;
@@ -116,9 +177,11 @@ Panel motion_panel(const Sketch& sketch, const Recording& recording, const Proje
         path.points.push_back(project(sketch.position(i, sample.q), projection));
       panel.curves.push_back(std::move(path));
       panel.marks.push_back({project(sketch.position(i, first), projection), Mark::Look::start, ""});
-      panel.marks.push_back({at, Mark::Look::body, label});
-    } else if (place.at.blocks.empty()) {
+      panel.marks.push_back({at, place.of ? Mark::Look::centre : Mark::Look::body, label});
+    } else if (place.mark == Sketch::Place::Mark::dot && place.at.blocks.empty()) {
       panel.marks.push_back({at, Mark::Look::fixed, label});
+    } else if (place.mark == Sketch::Place::Mark::joint) {
+      panel.marks.push_back({at, Mark::Look::joint, ""});
     }
     if (place.charge != 0)
       panel.marks.push_back({at, place.charge > 0 ? Mark::Look::positive : Mark::Look::negative, ""});

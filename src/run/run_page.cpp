@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "run/multiplier_names.hpp"
 #include "scene/sketch.hpp"
 
 namespace hbvm::core {
@@ -20,8 +21,10 @@ PageCurve curve_of(const std::string& name, const Recording& recording, double R
 
 PageChart multipliers_of(const Recording& recording) {
   PageChart chart{"Lagrange multipliers", "λ", AxisScale::linear, {}};
+  const std::vector<std::string> names = multiplier_names(recording);
   for (const std::size_t i : shown_multipliers(recording)) {
     PageCurve& curve = chart.curves.emplace_back(PageCurve{recording.constraints[i], {}, i + 1});
+    curve.label = names[chart.curves.size() - 1];
     for (const Recording::Sample& sample : recording.samples) curve.values.push_back(sample.lambda[i]);
   }
   return chart;
@@ -68,11 +71,9 @@ MovingPage page_about(const RunRequest& request, const std::string& command) {
 
 std::string run_page(const RunRequest& request, const Recording& recording, const std::string& command) {
   MovingPage page = page_about(request, command);
-  page.sketch = sketch(request.scene);
-  for (const Recording::Sample& sample : recording.samples) {
-    page.t.push_back(sample.t);
-    page.q.push_back(sample.q);
-  }
+  page.sketch = sketch(request.scene, recording.states());
+  for (const Recording::Sample& sample : recording.samples) page.t.push_back(sample.t);
+  page.q = recording.states();
   for (std::size_t i = 0; i < recording.observations.size(); ++i) page.charts.push_back(chart_of(recording, i));
   if (!shown_multipliers(recording).empty()) page.charts.push_back(multipliers_of(recording));
   page.charts.push_back(errors_of(recording));

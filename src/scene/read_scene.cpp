@@ -13,6 +13,7 @@
 #include "scene/inertia.hpp"
 #include "scene/orientation.hpp"
 #include "scene/scene.hpp"
+#include "scene/shape.hpp"
 #include "toml/toml_table.hpp"
 
 namespace hbvm::core {
@@ -156,6 +157,7 @@ class SceneReader {
         by_orientation ? read_orientation(table, d_, scene_.constants) : table.matrix("directors", d_),
         d_ == 2 ? SceneVector{table.number("angular_velocity")} : table.vector("angular_velocity", 3),
         table.line()};
+    if (table.take("shape")) b.shape = read_shape(table, d_, scene_.constants);
     table.finish();
     rigid_.insert(b.name);
     scene_.rigid_bodies.push_back(std::move(b));

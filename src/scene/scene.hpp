@@ -38,6 +38,14 @@ struct SceneBody {
   std::size_t line = 0;
 };
 
+/// What a rigid body looks like; it moves nothing.
+struct SceneShape {
+  std::string kind = {};   ///< box, cylinder, disc, ring or sphere
+  SceneVector sizes = {};  ///< the edges of a box, radius and length of a cylinder, the radius of others
+  SceneVector axis = {};   ///< of a cylinder, disc or ring in space; the third director if empty
+  SceneVector at = {};     ///< its middle in the body frame; the centre of mass if empty
+};
+
 /// A rigid body in natural coordinates: reference point (unless fixed) and d directors. Vectors and matrices have d
 /// entries a row; in the plane the angular velocity is one number.
 struct SceneRigidBody {
@@ -51,6 +59,7 @@ struct SceneRigidBody {
   SceneMatrix directors;      ///< row i is director i in space
   SceneVector angular_velocity;
   std::size_t line = 0;
+  std::optional<SceneShape> shape = {};
 };
 
 /// A point fixed in the frame of a rigid body, which constraints and effects name like a body.

@@ -34,6 +34,14 @@ std::string text(const List& items) {
   return result.empty() ? "[]" : result + "]";
 }
 
+std::string text(const SceneShape& shape) {
+  const bool one = shape.sizes.size() == 1;
+  std::string result = "{ " + shape.kind + " = " + (one ? text(shape.sizes.front()) : text(shape.sizes));
+  if (!shape.axis.empty()) result += ", axis = " + text(shape.axis);
+  if (!shape.at.empty()) result += ", at = " + text(shape.at);
+  return result + " }";
+}
+
 class Writer {
  public:
   /// Of a constraint also what it holds for, which an effect says itself.
@@ -91,6 +99,7 @@ std::string write_scene(const Scene& scene) {
     w.key("second_moment", text(b.second_moment));
     w.key("directors", text(b.directors));
     w.key("angular_velocity", scene.dimension == 2 ? text(b.angular_velocity.front()) : text(b.angular_velocity));
+    if (b.shape) w.key("shape", text(*b.shape));
   }
   for (const SceneAttachment& a : scene.attachments) {
     w.table("attachment");

@@ -115,7 +115,8 @@ Panel motion(TomlTable& reader, const Scene& scene, const std::vector<Columns>& 
   const long rods = reader.has("rods") ? reader.integer("rods") : 0;
   if (rods < 0) reader.fail("'rods' is a number of times");
   const std::size_t m = coordinate_names(scene).size();
-  return motion_panel(sketch(scene), stated_run(reader, runs).recording(m),
+  const Recording recording = stated_run(reader, runs).recording(m);
+  return motion_panel(sketch(scene, recording.states()), recording,
                       {static_cast<int>(across), static_cast<int>(up), rods});
 }
 

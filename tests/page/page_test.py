@@ -12,6 +12,7 @@ import os
 import subprocess
 import sys
 import time
+import tomllib
 
 import browser
 from browser import Failure, check
@@ -171,12 +172,12 @@ def it_can_be_turned(chromium):
 
 
 def names_are_not_cut(chromium):
-    """Numbers of constraints, which are short, beside the longest values that there are."""
+    """Of constraints, beside the longest values that there are."""
     chromium.evaluate("player.choose(Math.round(player.last / 2))")
     cut = chromium.evaluate("""player.charts.flatMap((chart) => chart.entries.flatMap(({ value }, i) => {
       const name = value.previousSibling, shown = value.textContent;
       value.textContent = '−8.8888·10⁻¹²³';
-      const missing = name.textContent.startsWith('λ') && name.scrollWidth > name.clientWidth + 1;
+      const missing = name.scrollWidth > name.clientWidth + 1;
       value.textContent = shown;
       return missing ? [name.textContent] : [];
     }))""")
@@ -218,7 +219,7 @@ def pages(program, chromium, folder, pictures):
             it_moves(chromium)
             cursor_values_are_those_of(chromium, names, rows)
             for part in (curves_go_to_a_time, curves_are_drawn_in_order, bodies_are_drawn_where_they_are,
-                         it_can_be_turned, views_show_two_axes, names_are_not_cut):
+                         it_can_be_turned, views_show_two_axes, names_are_not_cut, labels_are_apart):
                 part(chromium)
         except Failure as failure:
             raise Failure(f"{scene}: {failure}") from None
@@ -231,6 +232,64 @@ def pages(program, chromium, folder, pictures):
                 chromium.screenshot(os.path.join(pictures, f"{scene}_{width}.png"))
             chromium.resize(1366, 768)
         print(f"{scene}: {os.path.getsize(path)} bytes, {chromium.evaluate('player.motion.count')} states")
+
+
+def labels_are_apart(chromium):
+    """On one another stand no two names, at any of some times; the names of few bodies are all there."""
+    for share in (0, 0.3, 0.6, 1):
+        chromium.evaluate(f"player.choose(Math.round({share} * player.last))")
+        labels = chromium.evaluate("player.stage.labels")
+        for i, (name, left, top, right, bottom) in enumerate(labels):
+            for other, l, t, r, b in labels[:i]:
+                check(right <= l or r <= left or bottom <= t or b <= top, f"{name} stands on {other}")
+        bodies = chromium.evaluate("player.motion.masses.length")
+        if bodies <= 3:
+            shown = ", ".join(label[0] for label in labels)
+            for name in chromium.evaluate("player.motion.masses.map((i) => player.motion.places[i].name)"):
+                check(name in shown, f"the name {name} is not among {shown}")
+
+
+def no_body_is_missing(chromium):
+    """Each body of the scene's file is drawn, and each rigid one is a solid or a bar: the picture differs without it."""
+    scene = tomllib.loads(chromium.evaluate("document.getElementById('scene').textContent"))
+    names = [body["name"] for body in scene.get("body", [])]
+    rigid = [body["name"] for body in scene.get("rigid_body", [])]
+    shown = chromium.evaluate("player.motion.masses.map((i) => player.motion.places[i].name)")
+    check(sorted(shown) == sorted(names + rigid), f"{shown} are shown instead of {names + rigid}")
+    chromium.evaluate("player.choose(0)")
+    for name in rigid:
+        same = chromium.evaluate(f"""(() => {{
+          const {{ stage, motion }} = player, {{ bodies, links }} = motion, picture = () => stage.canvas.toDataURL();
+          const place = motion.places.findIndex((one) => one.name === {json.dumps(name)}), before = picture();
+          motion.bodies = bodies.filter((body) => body.place !== place);
+          motion.links = links.filter(([a, , as]) => as !== 'body' || motion.places[a].of !== place);
+          stage.draw();
+          const after = picture();
+          [motion.bodies, motion.links] = [bodies, links];
+          stage.draw();
+          return before === after || picture() !== before;
+        }})()""")
+        check(not same, f"the rigid body {name} is not drawn")
+    held = [c for c in scene.get("constraint", []) if c["kind"] in ("plane", "quadric") or (c["kind"] == "formula" and "on" in c)]
+    lines = chromium.evaluate("player.motion.meshes.length + player.motion.curves.length")
+    check((lines > 0) == any(c.get("on", c.get("body")) in names for c in held), f"{lines} lines are shown of what bodies are held on")
+
+
+def all_scenes(program, chromium, folder, pictures):
+    answer = subprocess.run([program, "scenes", "--json"], check=True, capture_output=True, text=True)
+    for scene in [one["name"] for one in json.loads(answer.stdout)]:
+        path = os.path.join(folder, scene + "_short.html")
+        subprocess.run([program, "run", scene, "--step", "1/64", "--until", "1/4", "--plot", path], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        chromium.open(path)
+        try:
+            for part in (no_body_is_missing, bodies_are_drawn_where_they_are, labels_are_apart):
+                part(chromium)
+        except Failure as failure:
+            raise Failure(f"{scene}: {failure}") from None
+        chromium.check_quiet(scene)
+        if pictures:
+            chromium.screenshot(os.path.join(pictures, f"{scene}_short.png"))
 
 
 def with_data(path, change):
@@ -250,7 +309,7 @@ def with_data(path, change):
 
 def no_bodies(data):
     dimension = data["sketch"]["dimension"]
-    data["sketch"] = {"dimension": dimension, "places": [], "links": []}
+    data["sketch"] = {"dimension": dimension, "places": [], "links": [], "bodies": [], "solids": [], "meshes": [], "curves": []}
 
 
 def no_numbers(data):
@@ -297,6 +356,7 @@ def odd_data(program, chromium, folder):
 def tests(program, page, folder, pictures):
     page.prefer(reduced_motion="reduce")
     pages(program, page, folder, pictures)
+    all_scenes(program, page, folder, pictures)
     odd_data(program, page, folder)
 
 

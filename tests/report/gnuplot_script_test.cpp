@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -121,7 +122,28 @@ TEST(GnuplotScript, LeavesNamesOfScenesAsTheyAre) {
 TEST(GnuplotScript, NamesMarksThatHideEachOtherInOneLine) {
   Panel panel;
   panel.marks = {{{0, 0}, Mark::Look::body, "a"}, {{0, 1e-3}, Mark::Look::body, "b"}, {{1, 1}, Mark::Look::body, "c"}};
-  expect_words(script(panel), {"set label 'a, b' at 0,0 ", "set label 'c' at 1,1 "});
+  expect_words(script(panel), {"set label 'a, b' at graph 0.02727,", "set label 'c' at graph 0.97273,"});
+}
+
+/// Beside its own mark, at the side where the other is not.
+TEST(GnuplotScript, WritesNoNameOnAMark) {
+  Panel panel;
+  panel.marks = {{{0, 0}, Mark::Look::start, ""},
+                 {{1, 1}, Mark::Look::start, ""},
+                 {{0.5, 0.5}, Mark::Look::body, "left"},
+                 {{0.55, 0.5}, Mark::Look::body, "right"}};
+  const double beside = 9 / 330.0;
+  expect_words(script(panel), {fmt::format("set label 'left' at graph {:.5f},0.50000 right ", 0.5 - beside),
+                               fmt::format("set label 'right' at graph {:.5f},0.50000 left ", 0.55 + beside)});
+}
+
+/// Else in the grey of its look; a joint covers what it joins.
+TEST(GnuplotScript, DrawsLinesInTheColourOfACurve) {
+  Panel panel;
+  panel.lines = {{{{0, 0}, {1, 1}}, Polyline::Look::solid, 1}, {{{0, 0}, {1, 0}}, Polyline::Look::mesh}};
+  panel.marks = {{{0, 0}, Mark::Look::joint, ""}};
+  expect_words(script(panel), {"with lines lw 1.6 lc rgb '#D55E00'", "with lines lw 0.4 lc rgb '#c4c4c4'",
+                               "pt 7 ps 0.6 lc rgb 'white'", "pt 6 ps 0.6"});
 }
 
 TEST(GnuplotScript, QuotesItsTexts) {

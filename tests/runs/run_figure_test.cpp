@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "runs/request_of.hpp"
 
@@ -53,6 +55,79 @@ TEST(RunFigure, ShowsMultipliersOfJointsBeforeThoseOfRigidity) {
     for (const Panel& panel : figure.panels)
       for (const Mark& mark : panel.marks) EXPECT_EQ(mark.label.find('.'), std::string::npos) << mark.label;
   }
+}
+
+TEST(RunFigure, CallsMultipliersByName) {
+  for (const auto& [name, first] : {std::pair("four_bar_linkage_of_bars", "ball joint crank-coupler, x"),
+                                    std::pair("gyroscope_on_gimbal", "hinge post-outer, across e")}) {
+    const Figure figure = shown(name).second;
+    EXPECT_EQ(figure.panels[figure.panels.size() - 2].curves.front().label, first);
+  }
+}
+
+std::vector<Polyline> lines_of(const Panel& panel, Polyline::Look look) {
+  std::vector<Polyline> lines;
+  for (const Polyline& line : panel.lines)
+    if (line.look == look) lines.push_back(line);
+  return lines;
+}
+
+/// Each in the colour of its path: a box has nine edges in front, of two points and a gap each.
+TEST(RunFigure, DrawsRigidBodiesAsTheyAreAtTheEnd) {
+  const auto [recording, figure] = shown("free_rigid_body");
+  const Sketch drawn = sketch(load_scene("free_rigid_body"));
+  const std::vector<std::array<double, 3>> corners = drawn.corners(drawn.bodies[0], recording.samples.back().q);
+  for (const std::size_t panel : {0, 1}) {
+    const std::vector<Polyline> solid = lines_of(figure.panels[panel], Polyline::Look::solid);
+    ASSERT_EQ(solid.size(), 1u);
+    EXPECT_EQ(solid[0].points.size(), 27u);
+    EXPECT_EQ(solid[0].colour, 0u);
+    for (const PlotPoint& point : solid[0].points)
+      EXPECT_TRUE(!std::isfinite(point[0]) || std::any_of(corners.begin(), corners.end(), [&](const auto& corner) {
+        return corner[0] == point[0] && corner[1 + panel] == point[1];
+      }));
+    EXPECT_EQ(lines_of(figure.panels[panel], Polyline::Look::faint).size(), 1u) << "as it was at the start";
+  }
+}
+
+/// What is nearest to who looks is among what is seen: along z from above, along y from below.
+TEST(RunFigure, HidesTheFarSideOfABody) {
+  const auto [recording, figure] = shown("free_rigid_body");
+  const Sketch drawn = sketch(load_scene("free_rigid_body"));
+  const std::vector<std::array<double, 3>> corners = drawn.corners(drawn.bodies[0], recording.samples.back().q);
+  for (const auto& [panel, across, side] : {std::tuple(0u, 2u, 1.0), std::tuple(1u, 1u, -1.0)}) {
+    const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
+      return side * a[across] < side * b[across];
+    });
+    const auto shows = [&](const std::array<double, 3>& corner) {
+      const std::vector<PlotPoint> points = lines_of(figure.panels[panel], Polyline::Look::solid)[0].points;
+      return std::count(points.begin(), points.end(), PlotPoint{corner[0], corner[1 + panel]}) > 0;
+    };
+    EXPECT_TRUE(shows(*high));
+    EXPECT_FALSE(shows(*low));
+  }
+}
+
+TEST(RunFigure, MarksJointsAndTheirAxes) {
+  const auto [recording, figure] = shown("gyroscope_on_gimbal");
+  const Panel& panel = figure.panels.front();
+  EXPECT_EQ(lines_of(panel, Polyline::Look::axis).size(), 3u);
+  const auto marked = [&](Mark::Look look) {
+    return std::count_if(panel.marks.begin(), panel.marks.end(), [&](const Mark& mark) { return mark.look == look; });
+  };
+  EXPECT_EQ(marked(Mark::Look::joint), 4) << "of three hinges, two at one point of the outer ring";
+  EXPECT_EQ(marked(Mark::Look::centre), 3);
+  EXPECT_EQ(marked(Mark::Look::body), 0);
+}
+
+/// Behind all else, and once; other scenes have none.
+TEST(RunFigure, ShowsWhatABodyIsHeldOn) {
+  const Scene scene = load_scene("bead_on_torus");
+  const Recording recording = recorded<double>(scene, "1/16", "1").first;
+  const Figure figure = run_figure(sketch(scene, recording.states()), recording);
+  EXPECT_EQ(lines_of(figure.panels[0], Polyline::Look::mesh).size(), 1u);
+  EXPECT_EQ(figure.panels[0].lines.front().look, Polyline::Look::mesh);
+  EXPECT_TRUE(lines_of(shown("tethered_satellites").second.panels[0], Polyline::Look::mesh).empty());
 }
 
 TEST(RunFigure, ShowsErrorsByTheirLogarithms) {

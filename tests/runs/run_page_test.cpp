@@ -167,6 +167,34 @@ TEST(RunPage, NumbersMultipliersByTheirConstraints) {
   ASSERT_EQ(curves.size(), 2u);
   for (const Json& curve : curves)
     EXPECT_EQ(curve["name"], recording.constraints.at(curve["number"].get<std::size_t>() - 1));
+  EXPECT_EQ(curves[0]["label"], "ball joint upper-lower, x");
+}
+
+/// Bodies that look alike share what they look like; a surface is there if a body is held on one.
+TEST(RunPage, HoldsSolidsAndSurfaces) {
+  const auto sketch_of = [](const std::string& name) {
+    const Scene scene = load_scene(name);
+    return data_of(run_page(request_for(scene), recording_of(scene), "hbvm run"))["sketch"];
+  };
+  const Json gimbal = sketch_of("gyroscope_on_gimbal");
+  ASSERT_EQ(gimbal["bodies"].size(), 3u);
+  for (const Json& body : gimbal["bodies"]) {
+    EXPECT_EQ(body["directors"].size(), 3u);
+    EXPECT_TRUE(gimbal["places"][body["place"].get<std::size_t>()]["has_mass"]);
+    const Json& solid = gimbal["solids"][body["solid"].get<std::size_t>()];
+    EXPECT_EQ(solid["corners"].size(), 72u);
+    EXPECT_GE(solid["faces"].size(), 36u);
+    EXPECT_GE(solid["edges"].size(), 108u);
+  }
+  EXPECT_TRUE(gimbal["meshes"].empty() && gimbal["curves"].empty());
+  EXPECT_GT(sketch_of("bead_on_torus")["meshes"].size(), 10u);
+  EXPECT_EQ(sketch_of("bead_on_helix")["curves"].size(), 1u);
+  Scene twins = load_scene("free_rigid_body");
+  twins.rigid_bodies.push_back(twins.rigid_bodies.front());
+  twins.rigid_bodies.back().name = "twin";
+  const Json two = data_of(run_page(request_for(twins), recording_of(twins), "hbvm run"))["sketch"];
+  EXPECT_EQ(two["bodies"].size(), 2u);
+  EXPECT_EQ(two["solids"].size(), 1u);
 }
 
 TEST(RunPage, CountsOneStep) {

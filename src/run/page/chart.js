@@ -22,7 +22,7 @@ class Chart {
     this.names = chart.curves.map((curve) => Chart.nameOf(curve));
     this.entries = chart.curves.map((curve, i) => this.entry(curve, i));
     // Columns that numbers of another length do not move, and in which the shortest names are never cut
-    const longest = Math.max(...this.names.map((name) => name.length)), width = Math.max(12, 0.48 * longest + 8.1);
+    const longest = Math.max(...this.names.map((name) => name.length)), width = Math.max(12, 0.52 * longest + 9.2);
     this.values.style.gridTemplateColumns = `repeat(auto-fill, minmax(${width}em, 1fr))`;
     const rows = motion.rows.map((row) => [row[0], ...chart.curves.map(({ column }) => this.drawn(row[column]))]);
     this.backward = motion.direction < 0;
@@ -53,11 +53,10 @@ class Chart {
     theme.onChange(() => this.recolour());
   }
 
-  /** A constraint by its number where its name is long, as a hinge's with its points. */
-  static nameOf(curve) {
-    const longest = 20;
-    if (curve.number === undefined || curve.name.length <= longest) return curve.name;
-    return Numbers.lowered('λ' + curve.number);
+  /** A constraint by its number where its name is long. */
+  static nameOf({ label, name, number }) {
+    const longest = 36, text = label ?? name;
+    return number === undefined || text.length <= longest ? text : Numbers.lowered('λ' + number);
   }
 
   /** A tic at the very end would be taken for one beyond it. */

@@ -6,6 +6,9 @@ class Motion {
     this.dimension = data.sketch.dimension;
     this.places = data.sketch.places;
     this.links = data.sketch.links;
+    this.bodies = data.sketch.bodies.map((body) => ({ ...body, solid: data.sketch.solids[body.solid] }));
+    this.meshes = data.sketch.meshes;
+    this.curves = data.sketch.curves;
     this.every = data.every;
     this.steps = data.steps;
     this.lastStep = data.last_step;
@@ -28,6 +31,13 @@ class Motion {
       for (const [offset, weight] of place.blocks) x[j] += weight * row[1 + offset + j];
     }
     return x;
+  }
+
+  /** A rigid body's corners, or other points of its frame, in state i. */
+  corners(body, i, points = body.solid.corners) {
+    const row = this.rows[i], reference = this.at(body, row);
+    return points.map((corner) => reference.map((x, j) =>
+      j < this.dimension ? body.directors.reduce((sum, at, a) => sum + corner[a] * row[1 + at + j], x) : 0));
   }
 
   position(place, i) { return this.positions[place][i]; }

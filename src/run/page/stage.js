@@ -21,9 +21,7 @@ class Stage {
     this.motion.places.forEach(({ colour }, i) => colour >= 0 && colours.set(i, colour));
     if (colours.size > 0) return colours;
     this.motion.masses.forEach((place, i) => colours.set(place, i));
-    const joined = this.motion.links.filter(([, , as]) => as === 'body');
-    for (const [a, b] of joined) if (this.motion.places[b].has_mass) colours.set(a, colours.get(b));
-    for (const [a, b] of joined) if (!colours.has(b)) colours.set(b, colours.get(a));
+    this.motion.places.forEach(({ of }, i) => of !== undefined && colours.set(i, colours.get(of)));
     return colours;
   }
 
@@ -38,26 +36,43 @@ class Stage {
     const seen = centre === 'all' ? motion.places.map((_, i) => i) : motion.masses;
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     this.middle = [0, 0, 0];
-    for (const place of seen)
-      for (let i = 0; i < motion.count; ++i)
-        this.relative(place, i).forEach((x, j) => {
-          if (!Number.isFinite(x)) return;
-          low[j] = Math.min(low[j], x);
-          high[j] = Math.max(high[j], x);
-        });
+    this.forEachSeen(seen, (point) => point.forEach((x, j) => {
+      if (!Number.isFinite(x)) return;
+      low[j] = Math.min(low[j], x);
+      high[j] = Math.max(high[j], x);
+    }));
     const bounded = low.every(Number.isFinite);
     this.low = bounded ? low : [-1, -1, -1];
     this.high = bounded ? high : [1, 1, 1];
     this.middle = centre === 'all' ? this.low.map((x, j) => (x + this.high[j]) / 2) : [0, 0, 0];
     this.radius = 0;
-    for (const place of seen)
-      for (let i = 0; i < motion.count; ++i) {
-        const r = Math.hypot(...this.relative(place, i));
-        if (Number.isFinite(r)) this.radius = Math.max(this.radius, r);
-      }
+    this.forEachSeen(seen, (point) => {
+      const r = Math.hypot(...point);
+      if (Number.isFinite(r)) this.radius = Math.max(this.radius, r);
+    });
     if (!(this.radius > 0)) this.radius = 1;
     this.resetView();
   }
+
+  /** Every place, and the corners of boxes about rigid bodies, at all times; what bodies are held on, if it rests. */
+  forEachSeen(places, call) {
+    const { motion } = this;
+    const boxes = motion.bodies.map((body) => [body, Stage.boxAbout(body.solid.corners)]);
+    for (let i = 0; i < motion.count; ++i) {
+      for (const place of places) call(this.relative(place, i));
+      const from = this.origin(i);
+      for (const [body, box] of boxes) for (const x of motion.corners(body, i, box)) call(Stage.less(x, from));
+    }
+    if (this.centre === 'all') for (const line of [...motion.meshes, ...motion.curves]) for (const x of line) call(Stage.less(x, this.middle));
+  }
+
+  /** The corners of the smallest box about points. */
+  static boxAbout(points) {
+    const ends = [0, 1, 2].map((j) => points.map((x) => x[j])).map((x) => [Math.min(...x), Math.max(...x)]);
+    return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => ends.map((end, j) => end[(i >> j) & 1]));
+  }
+
+  static less(a, b) { return a.map((x, j) => x - b[j]); }
 
   resetView(side = 'oblique') {
     const degree = Math.PI / 180;
@@ -68,12 +83,14 @@ class Stage {
     this.turned();
   }
 
-  /** A position from the centre of what is seen. */
-  relative(place, i) {
+  /** The centre of what is seen. */
+  origin(i) {
     const { motion, centre } = this;
-    const from = centre === 'all' ? this.middle : centre === 'mean' ? motion.mean(i) : motion.position(centre, i);
-    return motion.position(place, i).map((x, j) => x - from[j]);
+    return centre === 'all' ? this.middle : centre === 'mean' ? motion.mean(i) : motion.position(centre, i);
   }
+
+  /** A position from there. */
+  relative(place, i) { return Stage.less(this.motion.position(place, i), this.origin(i)); }
 
   /** To pixels, right and down, and towards who looks. */
   project([x, y, z]) {
@@ -160,6 +177,7 @@ class Stage {
     this.pen.clearRect(0, 0, this.width, this.height);
     this.pen.lineCap = this.pen.lineJoin = 'round';
     if (!this.planar && this.centre === 'all') this.drawBox();
+    this.drawHeldOn();
     this.drawPaths();
     this.drawScene();
     this.drawLabels();
@@ -193,6 +211,14 @@ class Stage {
     pen.fill();
   }
 
+  /** The surfaces and curves that bodies are held on. */
+  drawHeldOn() {
+    const { motion } = this, from = this.origin(this.index), soft = this.theme.get('soft');
+    const draw = (line, width, alpha) => this.stroke(line.map((x) => this.project(Stage.less(x, from))), soft, width, { alpha });
+    for (const line of motion.meshes) draw(line, 0.7, 0.4);
+    for (const line of motion.curves) draw(line, 1.5, 0.5);
+  }
+
   /** What the motion stays in. */
   drawBox() {
     const { low, high, middle } = this;
@@ -212,16 +238,63 @@ class Stage {
     });
   }
 
-  /** Links, points before them, and bodies before these; of each kind the farther ones first. */
+  /** Faces and links, points before them, and bodies before these; of each kind the farther ones first. */
   drawScene() {
     const { motion, letter } = this;
     const at = motion.places.map((_, i) => this.drawnAt(i));
-    const links = motion.links.map(([a, b, as]) => ({ near: at[a][2] + at[b][2], draw: () => this.drawLink(at[a], at[b], as, this.colourOfLink(a, b, as)) }));
+    const faces = motion.bodies.flatMap((body) => this.facesOf(body));
+    const links = motion.links.map(([a, b, as]) => ({ near: (at[a][2] + at[b][2]) / 2, draw: () => this.drawLink(at[a], at[b], as, this.colourOfLink(a, b, as)) }));
     const places = (kind) => motion.places.flatMap((place, i) =>
       place.has_mass === kind && at[i].every(Number.isFinite)
         ? [{ near: at[i][2], draw: () => this.drawPlace(place, i, at[i], letter) }] : []);
-    for (const parts of [links, places(false), places(true)])
+    for (const parts of [[...faces, ...links], places(false), places(true)])
       parts.sort((a, b) => a.near - b.near).forEach((part) => part.draw());
+  }
+
+  /** The faces of a rigid body that are seen, lit from above and before, each with its edges. */
+  facesOf(body) {
+    const { solid } = body, colour = this.colour(body.place), from = this.origin(this.index);
+    const at = this.motion.corners(body, this.index).map((x) => this.project(Stage.less(x, from)));
+    if (!at.every((x) => x.every(Number.isFinite))) return [];
+    // Twice the area in each plane, down being positive on a canvas, and so the normal.
+    const normals = solid.faces.map((face) => {
+      const sum = [0, 0, 0];
+      face.forEach((corner, k) => {
+        const a = at[corner], b = at[face[(k + 1) % face.length]], scale = this.scale;
+        for (let j = 0; j < 3; ++j) {
+          const [l, m] = [(j + 1) % 3, (j + 2) % 3], in3 = (x, n) => (n === 2 ? x[2] * scale : n === 1 ? -x[1] : x[0]);
+          sum[j] += in3(a, l) * in3(b, m) - in3(a, m) * in3(b, l);
+        }
+      });
+      const size = Math.hypot(...sum);
+      return size > 0 ? sum.map((x) => x / size) : [0, 0, 0];
+    });
+    const towards = normals.map((normal) => normal[2] > 0);
+    return solid.faces.flatMap((face, f) => {
+      if (solid.closed && !towards[f]) return [];
+      const side = towards[f] ? 1 : -1, [x, y, z] = normals[f].map((part) => side * part);
+      const light = Math.max(0, -0.35 * x + 0.55 * y + 0.75 * z);
+      const edges = solid.edges.filter(([, , one, other, sharp]) =>
+        (one === f || other === f) && (sharp || towards[one] !== towards[other]));
+      const near = face.reduce((sum, corner) => sum + at[corner][2] / face.length, 0);
+      return [{ near, draw: () => {
+        this.fill(face.map((corner) => at[corner]), this.theme.mixed(colour, 0.45 - 0.33 * light));
+        for (const [a, b] of edges) this.stroke([at[a], at[b]], colour, 1.5);
+      } }];
+    });
+  }
+
+  /** A face, and over its rim, so that no gap is left to the next. */
+  fill(points, colour) {
+    const { pen } = this;
+    pen.beginPath();
+    points.forEach(([x, y], k) => (k === 0 ? pen.moveTo(x, y) : pen.lineTo(x, y)));
+    pen.closePath();
+    pen.setLineDash([]);
+    pen.lineWidth = 0.8;
+    pen.fillStyle = pen.strokeStyle = colour;
+    pen.fill();
+    pen.stroke();
   }
 
   /** A body's own; of rods and springs that of their motion, where several are shown. */
@@ -232,6 +305,7 @@ class Stage {
 
   drawLink(a, b, as, colour) {
     if (as === 'spring') this.stroke(this.coil(a, b), colour, 0.09 * this.letter);
+    else if (as === 'axis') this.stroke([a, b], this.theme.get('text'), 1.3, { dash: [9, 3, 2, 3] });
     else this.stroke([a, b], colour, (as === 'rod' ? 0.17 : 0.3) * this.letter);
   }
 
@@ -254,10 +328,17 @@ class Stage {
   drawPlace(place, i, at, letter) {
     const fixed = place.blocks.length === 0;
     const charge = Number(place.charge);
-    if (place.has_mass) this.disc(at, (charge !== 0 ? 0.62 : 0.48) * letter, this.colour(i));
+    if (place.mark === 'none') return;
+    if (place.has_mass) this.disc(at, (charge !== 0 ? 0.62 : place.of === undefined ? 0.48 : 0.26) * letter, this.colour(i));
+    else if (place.mark === 'joint') this.joint(at, letter);
     else if (fixed) this.pivot(at, letter);
     else this.disc(at, 0.22 * letter, this.bodies.has(i) ? this.colour(i) : this.theme.get('rod'));
     if (charge !== 0) this.sign(at, charge, letter, place.has_mass);
+  }
+
+  joint(at, letter) {
+    this.disc(at, 0.34 * letter, this.theme.get('text'));
+    this.disc(at, 0.2 * letter, this.theme.get('back'));
   }
 
   /** A point fixed in space: a triangle that hangs from it. */
@@ -279,32 +360,58 @@ class Stage {
     if (charge > 0) this.stroke([[left, y - size], [left, y + size]], colour, 0.18 * letter);
   }
 
-  /** Names, of places that hide each other in one line; none where there are too many. */
+  /** Names, of places that hide each other in one line, beside them where nothing else stands; else left out. */
   drawLabels() {
     const most = 12, { motion, pen, letter } = this;
+    this.labels = [];
     if (motion.masses.length > most) return;
-    const labels = [];
+    const marks = [];
     motion.places.forEach((place, i) => {
-      if (!place.labelled || !(place.has_mass || place.blocks.length === 0)) return;
-      const at = this.drawnAt(i);
+      if (place.mark === 'none' || !(place.has_mass || place.blocks.length === 0 || place.mark === 'joint')) return;
+      const at = this.drawnAt(i), name = place.labelled && place.mark !== 'joint' ? place.name : '';
       if (!at.every(Number.isFinite)) return;
-      const near = labels.find((label) => Math.abs(label.at[0] - at[0]) < 1.3 * letter && Math.abs(label.at[1] - at[1]) < letter);
-      if (near) near.text += ', ' + place.name;
-      else labels.push({ at, text: place.name });
+      const near = marks.find((mark) => Math.abs(mark.at[0] - at[0]) < letter && Math.abs(mark.at[1] - at[1]) < letter);
+      if (near && name) near.text += (near.text ? ', ' : '') + name;
+      else if (!near) marks.push({ at, text: name });
     });
     pen.font = `${letter}px system-ui, "Liberation Sans", Arial, sans-serif`;
     pen.textBaseline = 'middle';
+    pen.textAlign = 'left';
     pen.lineWidth = 0.25 * letter;
     pen.strokeStyle = this.theme.get('back');
     pen.fillStyle = this.theme.get('text');
     pen.setLineDash([]);
-    for (const { at, text } of labels) {
-      const right = at[0] + 0.9 * letter + pen.measureText(text).width < this.width;
-      pen.textAlign = right ? 'left' : 'right';
-      const x = at[0] + (right ? 0.9 : -0.9) * letter, y = at[1] - 0.6 * letter;
+    const half = 0.45 * letter, taken = marks.map(({ at: [x, y] }) => [x - half, y - half, x + half, y + half]);
+    const free = (a) => a[0] >= 0 && a[1] >= 0 && a[2] <= this.width && a[3] <= this.height &&
+      !taken.some((b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]);
+    this.sides ??= new Map();
+    for (const { at, text } of marks) {
+      if (!text) continue;
+      const width = pen.measureText(text).width, sides = Stage.sides(at, width, letter);
+      // As it stood before, if there is room still: names that jump cannot be read.
+      const order = [this.sides.get(text), ...sides.keys()].filter((side) => side !== undefined);
+      const side = order.find((n) => free(sides[n]));
+      if (side === undefined) continue;
+      this.sides.set(text, side);
+      taken.push(sides[side]);
+      this.labels.push([text, ...sides[side]]);
+      const x = sides[side][0], y = (sides[side][1] + sides[side][3]) / 2;
       pen.strokeText(text, x, y);
       pen.fillText(text, x, y);
     }
+  }
+
+  /** Where a name may stand, the best first: left, top, right and bottom. */
+  static sides([x, y], width, letter) {
+    const gap = 0.6 * letter, height = 1.15 * letter;
+    const left = { '1': x + gap, '-1': x - gap - width, '0': x - width / 2 };
+    const top = { '1': y - gap - height, '-1': y + gap, '0': y - height / 2 };
+    return [[1, 1], [-1, 1], [1, -1], [-1, -1], [1, 0], [-1, 0], [0, 1], [0, -1]].map(([across, up]) => {
+      // At a corner it is nearer to the mark.
+      const near = across !== 0 && up !== 0 ? 0.3 * letter : 0;
+      const l = left[across] - across * near / 2, t = top[up] + up * near;
+      return [l, t, l + width, t + height];
+    });
   }
 
   /** The directions of the axes, below on the left. */

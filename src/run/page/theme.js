@@ -18,6 +18,13 @@ class Theme {
     return `rgb(${part(1)}, ${part(3)}, ${part(5)})`;
   }
 
+  /** So much of a colour on the ground. */
+  mixed(colour, share) {
+    const parts = (text) => (text.startsWith('#') ? [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16)) : text.match(/\d+/g).map(Number));
+    const ground = parts(this.get('back'));
+    return `rgb(${parts(colour).map((x, i) => Math.round(share * x + (1 - share) * ground[i])).join(', ')})`;
+  }
+
   /** Curves of one colour differ in their dashes. */
   dash(i) { return [null, [8, 4], [2, 4], [12, 4, 2, 4]][Math.floor(i / this.given.length) % 4]; }
 }
