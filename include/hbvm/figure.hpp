@@ -76,8 +76,10 @@ struct Panel {
   std::vector<Mark> marks{};
   std::vector<Label> labels{};
   std::vector<Bar> bars{};
-  bool equal_axes = false;     ///< a unit of x is as long as one of y
-  bool labels_beside = false;  ///< names of curves, with their marks, stand beside the panel wherever these end
+  std::vector<PlotPoint> room_for{};  ///< points that the axes reach, drawn or not
+  bool equal_axes = false;            ///< a unit of x is as long as one of y
+  bool labels_beside = false;         ///< names of curves, with their marks, stand beside the panel wherever these end
+  std::optional<double> round_off = {};  ///< on the axis of y: what is below is shaded, and the axis ends there
 };
 
 /// Panels of equal size, two in a row.
@@ -95,5 +97,9 @@ std::string plain(const std::string& text);
 /// the data end; curves differ in colour (which all eyes can tell apart), in their marks and dashes.
 /// \throws InputError for another ending
 std::string gnuplot_script(const Figure& figure, const std::string& file);
+
+/// The program that draws figures of one size one after another, so many a second, into a GIF that repeats.
+/// \throws InputError if the file does not end in .gif
+std::string gnuplot_script(const std::vector<Figure>& frames, int a_second, const std::string& file);
 
 }  // namespace hbvm

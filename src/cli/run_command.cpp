@@ -37,9 +37,10 @@ struct RunArguments {
   std::optional<std::string> step;
   std::string precision = "double", solver = "auto", on_failure = "stop";
   std::optional<std::string> out, start, plot;
+  std::vector<std::string> portraits;
   long every = 1;
   bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false;
-  bool states = false, state = false;
+  bool states = false, state = false, linear_energy = false;
   std::optional<std::string> checkpoint, resume;
   double every_seconds = 60;
   std::optional<Checkpoint> resumed;
@@ -81,7 +82,19 @@ RunIdentity identity_of(const RunArguments& o, const CLI::App& command) {
   return identity;
 }
 
+/// "a.x,a.px", at the comma that is in no parentheses.
+std::pair<std::string, std::string> portrait_of(const std::string& pair) {
+  int open = 0;
+  for (std::size_t i = 0; i < pair.size(); ++i) {
+    open += pair[i] == '(' ? 1 : pair[i] == ')' ? -1 : 0;
+    if (pair[i] == ',' && open == 0) return {pair.substr(0, i), pair.substr(i + 1)};
+  }
+  throw InputError("--plot-xy " + pair + ": use two quantities, as a.x,a.px");
+}
+
 hbvm::RunRequest asked_of(const RunArguments& o, const RunIdentity& identity) {
+  std::vector<std::pair<std::string, std::string>> portraits;
+  for (const std::string& pair : o.portraits) portraits.push_back(portrait_of(pair));
   return {.scene = o.resumed ? hbvm::read_scene(identity.scene, identity.scene_name) : o.scene.load(),
           .method = o.method,
           .step = o.step,
@@ -93,7 +106,9 @@ hbvm::RunRequest asked_of(const RunArguments& o, const RunIdentity& identity) {
           .account = o.account,
           .shadow = o.shadow,
           .error = o.error,
-          .start = identity.start};
+          .start = identity.start,
+          .portraits = portraits,
+          .linear_energy = o.linear_energy};
 }
 
 /// The file that keeps the run: the one it goes on from, unless it is to be another.
@@ -127,7 +142,7 @@ class Plot {
   void draw(const RunRequest& request, const std::string& command) const {
     if (recording_.samples.size() < 2) return;
     file_.write([&] { return figure_of(request, recording_, command); },
-                [&] { return run_page(request, recording_, command); });
+                [&] { return run_page(request, recording_, command); }, [&] { return frames_of(request, recording_); });
   }
 
  private:
@@ -229,7 +244,15 @@ void add_run_command(CLI::App& app) {
                       "Write the trajectory to this CSV file, and what describes it to FILE-metadata.json");
   command->add_option(
       "--plot", o->plot,
-      "Draw motion, multipliers and errors into this file: .svg, .pdf or .png; as .html the motion moves");
+      "Draw motion, multipliers and errors into this file: .svg, .pdf or .png; as .html or .gif the motion moves");
+  command
+      ->add_option(
+          "--plot-xy", o->portraits,
+          "Two quantities, as a.x,a.px: in the picture of --plot draw the second against the first; repeatable")
+      ->allow_extra_args(false)
+      ->needs("--plot");
+  command->add_flag("--plot-linear", o->linear_energy, "In the picture of --plot also draw H - H_0 on a linear axis")
+      ->needs("--plot");
   command->add_option("--every", o->every, "Steps between two lines of the CSV file, or two states")
       ->check(CLI::Number)
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "hbvm/version.hpp"
 #include "run/run_figure.hpp"
@@ -76,6 +77,12 @@ std::vector<ErrorCurve> error_curves(const Recording& recording) {
   curves.push_back({"Error of constraints, |g|", "|g|", AxisScale::decimal, &Recording::Sample::constraints});
   curves.push_back({"Error of hidden constraints", "hidden", AxisScale::decimal, &Recording::Sample::hidden});
   return curves;
+}
+
+/// Where its axis ends, if it is one of powers.
+std::optional<double> round_off_of(const ErrorCurve& error, const Recording& recording) {
+  if (error.scale != AxisScale::decimal || !std::isfinite(recording.round_off)) return std::nullopt;
+  return recording.round_off;
 }
 
 /// The paths of one motion as a curve with gaps between them.
@@ -152,6 +159,7 @@ Figure methods_figure(const RunRequest& request, const std::vector<RecordedMetho
     panel.title = error.title;
     panel.x.label = "t";
     panel.y = {error.symbol, error.scale};
+    panel.round_off = round_off_of(error, shown.front());
     panel.labels_beside = true;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       Curve& curve = panel.curves.emplace_back(Curve{plain(runs[i].figures.method), {}});
@@ -176,8 +184,10 @@ std::string methods_page(const RunRequest& request, const std::vector<RecordedMe
     page.t.push_back(sample.t);
     page.q.emplace_back(m * shown.size(), nothing);
   }
-  for (const ErrorCurve& error : error_curves(*longest))
+  for (const ErrorCurve& error : error_curves(*longest)) {
     page.charts.push_back({error.title, error.symbol, error.scale, {}});
+    page.charts.back().round_off = round_off_of(error, *longest);
+  }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string& method = runs[i].figures.method;
     page.method += (i > 0 ? ", " : "") + method;

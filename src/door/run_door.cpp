@@ -13,6 +13,7 @@
 #include "run/run_figure.hpp"
 #include "run/run_page.hpp"
 #include "run/scene_run.hpp"
+#include "scene/observe.hpp"
 #include "scene/set_number.hpp"
 #include "scene/sketch.hpp"
 #include "step/registry.hpp"
@@ -31,7 +32,12 @@ hbvm::Trajectory trajectory_of(std::istream& lines) {
 }
 
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start) {
-  const Scene scene = scene_of(asked.scene);
+  Scene scene = scene_of(asked.scene);
+  for (const auto& [across, up] : asked.portraits)
+    for (const std::string& quantity : {across, up})
+      if (std::none_of(scene.observations.begin(), scene.observations.end(),
+                       [&](const SceneObservation& known) { return known.name == quantity; }))
+        scene = with_observation(scene, quantity, quantity);
   const Expression until = expression_of(asked.until, "until");
   RunRequest request{scene,
                      parse_method(asked.method),
@@ -44,6 +50,8 @@ RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::st
                      asked.error,
                      parse_on_failure(asked.on_failure),
                      asked.reverse ? Direction::backward : Direction::forward};
+  request.linear_energy = asked.linear_energy;
+  for (const auto& [across, up] : asked.portraits) request.portraits.push_back({across, up});
   if (start) request.start = read_start_state(asked.start, *start);
   return request;
 }
@@ -57,13 +65,20 @@ std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request)
 }
 
 Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command) {
-  Figure figure = run_figure(sketch(request.scene, recording.states()), recording);
+  Figure figure = run_figure(sketch(request.scene, recording.until_lost().states()), recording, request.portraits,
+                             request.linear_energy);
   figure.caption = plain(request.scene.title);
   figure.footnote = std::string("hbvm ") + version() + ": " + command;
   if (recording.every > 1)
     figure.footnote +=
         fmt::format("; a point every {} steps, of errors the greatest since the one before", recording.every);
   return figure;
+}
+
+std::vector<Figure> frames_of(const RunRequest& request, const Recording& recording) {
+  std::vector<Figure> frames = motion_frames(sketch(request.scene, recording.until_lost().states()), recording);
+  for (Figure& frame : frames) frame.caption = plain(request.scene.title);
+  return frames;
 }
 
 }  // namespace core
@@ -89,6 +104,7 @@ Run run(const RunRequest& door) {
   if (door.picture) {
     run.figure = core::figure_of(request, recording, run.command);
     run.page = core::run_page(request, recording, run.command);
+    run.frames = core::frames_of(request, recording);
   }
   return run;
 }

@@ -18,5 +18,7 @@ hbvm::Trajectory trajectory_of(std::istream& lines);
 
 /// The figure of a run: motion, multipliers and errors, with what made it below.
 Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command);
+/// Its motion as pictures one after another.
+std::vector<Figure> frames_of(const RunRequest& request, const Recording& recording);
 
 }  // namespace hbvm::core

@@ -21,18 +21,27 @@ std::string with_data(std::string svg, const std::string& data) {
   return svg;
 }
 
-}  // namespace
-
-void draw(const Figure& figure, const std::string& file) {
-  const std::string script = gnuplot_script(figure, file);
+void run_gnuplot(const std::string& script, const std::string& file) {
   if (std::system("command -v gnuplot >/dev/null") != 0)
     throw Error("pictures need gnuplot, which is not installed: apt install gnuplot-nox");
-  // Whatever the locale outside: in one without UTF-8 gnuplot warns that it cannot show a degree sign.
-  std::FILE* const gnuplot = popen("LC_ALL=C.UTF-8 gnuplot", "w");
+  // Whatever the locale outside: in one without UTF-8 gnuplot warns that it cannot show a degree sign. Of a GIF it
+  // says how many frames there are.
+  std::FILE* const gnuplot =
+      popen(file.ends_with(".gif") ? "LC_ALL=C.UTF-8 gnuplot 2>/dev/null" : "LC_ALL=C.UTF-8 gnuplot", "w");
   if (!gnuplot) throw Error("cannot start gnuplot");
   const bool written = std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
   if (pclose(gnuplot) != 0 || !written) throw Error("gnuplot did not draw '" + file + "'");
+}
+
+}  // namespace
+
+void draw(const Figure& figure, const std::string& file) {
+  run_gnuplot(gnuplot_script(figure, file), file);
   if (file.ends_with(".svg")) write_file(file, with_data(read_file(file), figure_data(figure)));
+}
+
+void draw_frames(const std::vector<Figure>& frames, int a_second, const std::string& file) {
+  run_gnuplot(gnuplot_script(frames, a_second, file), file);
 }
 
 }  // namespace hbvm::core

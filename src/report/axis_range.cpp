@@ -114,6 +114,12 @@ AxisRange range_of(const std::vector<double>& values, AxisScale scale) {
   return {middle - half, middle + half};
 }
 
+AxisRange ended_at_round_off(const AxisRange& range, double round_off) {
+  constexpr double below = 0.5, least = 2;
+  const double from = round_off - below;
+  return {from, std::max(range.to, from + least)};
+}
+
 AxisRange widened(const AxisRange& range, double share) {
   return {range.from - share * range.length(), range.to + share * range.length()};
 }

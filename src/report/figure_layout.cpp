@@ -21,6 +21,7 @@ PanelPlace ranges_of(const Panel& panel) {
   for (const Curve& curve : panel.curves) std::for_each(curve.points.begin(), curve.points.end(), gather);
   for (const Polyline& line : panel.lines) std::for_each(line.points.begin(), line.points.end(), gather);
   for (const Mark& mark : panel.marks) gather(mark.at);
+  std::for_each(panel.room_for.begin(), panel.room_for.end(), gather);
   for (const Bar& bar : panel.bars) {
     gather({bar.x - double{1} / 2, bar.from});
     gather({bar.x + double{1} / 2, bar.to});
@@ -38,6 +39,7 @@ PanelPlace ranges_of(const Panel& panel) {
   } else if (panel.bars.empty()) {
     place.y = widened(place.y, room);
   }
+  if (panel.round_off) place.y = ended_at_round_off(place.y, *panel.round_off);
   if (panel.x.scale == AxisScale::binary) place.x = widened(place.x, room);
   return place;
 }

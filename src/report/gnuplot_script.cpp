@@ -86,6 +86,7 @@ class PanelScript {
               "unset label\n" + words + "set title " + quoted(panel_.title) + " offset 0,-0.4\n";
     axis("x", panel_.x, x_, 6);
     axis("y", panel_.y, y_, 6);
+    shade();
     for (const Polyline& line : panel_.lines) add(line);
     for (const Bar& bar : panel_.bars) add(bar);
     for (std::size_t i = 0; i < panel_.curves.size(); ++i) add(panel_.curves[i], i);
@@ -116,6 +117,16 @@ class PanelScript {
           fmt::format("{}{} {:.12g}{}", list.empty() ? "" : ", ",
                       axis.names.empty() ? quoted(tic.text) : in_lines(tic.text), tic.at, tic.text.empty() ? " 1" : "");
     script_ += list + ")\n";
+  }
+
+  /// What is below round-off.
+  void shade() {
+    script_ += "unset object\n";
+    if (!panel_.round_off) return;
+    script_ += fmt::format(
+        "set object 1 rectangle from graph 0, graph 0 to graph 1, first {:.9g} fc rgb '#ececec' fs solid noborder "
+        "behind\nset label 'round-off' at graph 0.99, first {:.9g} right offset 0,0.5 tc rgb '#777777'\n",
+        *panel_.round_off, y_.from);
   }
 
   std::string data(const std::vector<PlotPoint>& points) {
@@ -315,15 +326,22 @@ Terminal terminal_of(const std::string& file, const PlotPoint& size) {
   throw InputError("a picture is .svg, .pdf or .png, not '" + file + "'");
 }
 
-std::string script_of(const Figure& figure, const std::string& file) {
+std::string font_of(double pixels, const Terminal& terminal) {
+  return fmt::format("font 'sans,{:g}'", pixels * terminal.letters);
+}
+
+/// What stands before all pictures of a file.
+std::string opening(const Terminal& terminal, const std::string& file) {
+  return "set encoding utf8\nset minussign\nset terminal " + terminal.text + " " + font_of(12, terminal) +
+         "\nset output " + quoted(file) + "\nset grid lc rgb '#e4e4e4' lw 0.7\nset tics " + font_of(10, terminal) +
+         " scale 0.6\nunset key\nset border lc rgb '#555555'\n";
+}
+
+std::string picture(const Figure& figure, const Terminal& terminal) {
   const FigureLayout layout = layout_of(figure);
   const PlotPoint& size = layout.size;
-  const Terminal terminal = terminal_of(file, size);
-  const auto font = [&](double pixels) { return fmt::format("font 'sans,{:g}'", pixels * terminal.letters); };
-  std::string text = "set encoding utf8\nset minussign\nset terminal " + terminal.text + " " + font(12) +
-                     "\nset output " + quoted(file) + "\nset grid lc rgb '#e4e4e4' lw 0.7\nset tics " + font(10) +
-                     " scale 0.6\nunset key\nset border lc rgb '#555555'\nset multiplot\n";
-  std::string words;
+  const auto font = [&](double pixels) { return font_of(pixels, terminal); };
+  std::string text = "set multiplot\n", words;
   if (!figure.caption.empty())
     words += fmt::format("set label 1 {} at screen 0.5,{:.5f} center {}\n", quoted(figure.caption),
                          1 - 0.55 * title_height / size[1], font(14));
@@ -350,6 +368,22 @@ std::string plain(const std::string& text) {
   return result;
 }
 
-std::string gnuplot_script(const Figure& figure, const std::string& file) { return core::script_of(figure, file); }
+std::string gnuplot_script(const Figure& figure, const std::string& file) {
+  const core::Terminal terminal = core::terminal_of(file, core::layout_of(figure).size);
+  return core::opening(terminal, file) + core::picture(figure, terminal);
+}
+
+std::string gnuplot_script(const std::vector<Figure>& frames, int a_second, const std::string& file) {
+  if (!file.ends_with(".gif")) throw InputError("a picture that moves is .gif, not '" + file + "'");
+  const PlotPoint size = core::layout_of(frames.empty() ? Figure{} : frames.front()).size;
+  constexpr int hundredths = 100;
+  const core::Terminal terminal{fmt::format("gif animate delay {} loop 0 size {:.0f},{:.0f} enhanced background "
+                                            "rgb 'white'",
+                                            hundredths / a_second, size[0], size[1]),
+                                0.75};
+  std::string text = core::opening(terminal, file);
+  for (const Figure& frame : frames) text += core::picture(frame, terminal);
+  return text;
+}
 
 }  // namespace hbvm

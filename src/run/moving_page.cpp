@@ -156,11 +156,13 @@ OrderedJson json_of(const PageChart& chart, std::size_t first_column) {
     if (curve.number > 0) curves.back()["number"] = curve.number;
     if (!curve.label.empty()) curves.back()["label"] = curve.label;
   }
-  const AxisRange range = widened(range_of(all), room);
+  AxisRange range = widened(range_of(all), room);
+  if (chart.round_off) range = ended_at_round_off(range, *chart.round_off);
   OrderedJson json = json_of(range, tics_of(range, chart.scale, most_tics));
   json["title"] = chart.title;
   json["symbol"] = chart.symbol;
   json["decimal"] = chart.scale == AxisScale::decimal;
+  if (chart.round_off) json["round_off"] = *chart.round_off;
   json["curves"] = curves;
   return json;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct PageChart {
   std::string title, symbol;
   AxisScale scale;
   std::vector<PageCurve> curves;
+  std::optional<double> round_off = {};  ///< as a Panel has it
 };
 
 /// A page of HTML that needs nothing besides itself: a scene moves beside charts on one clock.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,13 +23,16 @@ struct Recording {
     double energy = 0, constraints = 0, hidden = 0;
     double H_change = 0;  ///< H - H_0, at the sample
     std::vector<double> observed = {};
+    std::vector<double> v = {};  ///< velocities of q
+    /// The least and the greatest of lambda and of what is observed since the sample before.
+    std::vector<double> least_lambda = {}, greatest_lambda = {}, least_observed = {}, greatest_observed = {};
 
     void remember(Archive& archive) {
       archive(t);
-      archive.sized(q);
-      archive.sized(lambda);
       archive(energy, constraints, hidden, H_change);
-      archive.sized(observed);
+      for (std::vector<double>* const list :
+           {&q, &lambda, &observed, &v, &least_lambda, &greatest_lambda, &least_observed, &greatest_observed})
+        archive.sized(*list);
     }
   };
 
@@ -37,6 +41,11 @@ struct Recording {
   std::vector<std::string> constraints;   ///< whose multipliers these are
   std::vector<std::string> observations;  ///< names of what was observed
   std::vector<Sample> samples;
+  /// Decimal logarithms of the terms of H at the start, and of their rounding or that of the terms of g, if it is less.
+  double size_of_H = std::numeric_limits<double>::infinity(), round_off = -size_of_H;
+
+  /// What is seen of the motion: of one whose H is off by more than its terms, for good, that before.
+  Recording until_lost() const;
 
   /// q of all samples.
   std::vector<std::vector<double>> states() const;
@@ -56,12 +65,24 @@ class MotionRecorder final : public Observer<S> {
   void remember(Archive& archive) override;
 
  private:
+  const Problem<S>& problem_;
   StateEvaluator<S> point_;
   RedundantConstraints<S> redundant_;
   long steps_;
   Recording& recording_;
   const Observations<S>* observations_;
   S H0_ = 0, energy_ = 0, constraints_ = 0, hidden_ = 0;
+  Vector<S> v_;
+  /// Of what a sample has, since the one before.
+  struct Range {
+    std::vector<double> least, greatest;
+    void take(const std::vector<double>& values);
+    void remember(Archive& archive) {
+      archive.sized(least);
+      archive.sized(greatest);
+    }
+  };
+  Range lambda_, observed_;
 };
 
 }  // namespace hbvm::core

@@ -1,11 +1,15 @@
 #include "run/run_figure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 
 #include "run/multiplier_names.hpp"
+#include "run/smooth_path.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -81,6 +85,19 @@ void add_lines(Panel& panel, const std::vector<PointLine>& lines, const Projecti
   if (!all.points.empty()) panel.lines.push_back(std::move(all));
 }
 
+/// The path of a place.
+Curve path_of(const Sketch& sketch, std::size_t place, const Recording& recording, const Projection& projection) {
+  constexpr std::size_t at_least = 2'000;
+  std::vector<PathPoint> points;
+  for (const Recording::Sample& sample : recording.samples) {
+    PathPoint& point =
+        points.emplace_back(PathPoint{sample.t, project(sketch.position(place, sample.q), projection), {}});
+    if (!sample.v.empty()) point.velocity = project(sketch.velocity(place, sample.v), projection);
+  }
+  const bool has_velocities = !recording.samples.front().v.empty();
+  return {"", smooth_path(points, has_velocities ? at_least : 0)};
+}
+
 Panel against_time(const std::string& title, const Axis& y) {
   Panel panel;
   panel.title = title;
@@ -89,10 +106,26 @@ Panel against_time(const std::string& title, const Axis& y) {
   return panel;
 }
 
+/// One value of each sample.
 Curve curve_of(const std::string& label, const Recording& recording,
                const std::function<double(const Recording::Sample&)>& value) {
   Curve curve{label, {}};
   for (const Recording::Sample& sample : recording.samples) curve.points.push_back({sample.t, value(sample)});
+  return curve;
+}
+
+/// Where a sample stands for several mesh points, it is a stroke from the least to the greatest of them.
+Curve range_of(const std::string& label, const Recording& recording, std::size_t i,
+               std::vector<double> Recording::Sample::*value, std::vector<double> Recording::Sample::*least,
+               std::vector<double> Recording::Sample::*greatest) {
+  Curve curve{label, {}};
+  for (const Recording::Sample& sample : recording.samples) {
+    if (recording.every > 1) {
+      curve.points.push_back({sample.t, (sample.*least)[i]});
+      curve.points.push_back({sample.t, (sample.*greatest)[i]});
+    }
+    curve.points.push_back({sample.t, (sample.*value)[i]});
+  }
   return curve;
 }
 
@@ -107,20 +140,44 @@ Panel multipliers_panel(const Recording& recording) {
   const std::vector<std::size_t> shown = shown_multipliers(recording);
   const std::vector<std::string> names = multiplier_names(recording);
   for (std::size_t n = 0; n < shown.size(); ++n)
-    panel.curves.push_back(curve_of(beside(names[n], shown[n]), recording,
-                                    [i = shown[n]](const Recording::Sample& sample) { return sample.lambda[i]; }));
+    panel.curves.push_back(range_of(beside(names[n], shown[n]), recording, shown[n], &Recording::Sample::lambda,
+                                    &Recording::Sample::least_lambda, &Recording::Sample::greatest_lambda));
   return panel;
 }
 
 Panel observation_panel(const Recording& recording, std::size_t i) {
   const std::string name = plain(recording.observations[i]);
   Panel panel = against_time(name, {name});
-  panel.curves.push_back(curve_of("", recording, [i](const Recording::Sample& sample) { return sample.observed[i]; }));
+  panel.curves.push_back(range_of("", recording, i, &Recording::Sample::observed, &Recording::Sample::least_observed,
+                                  &Recording::Sample::greatest_observed));
+  return panel;
+}
+
+Panel portrait_panel(const Recording& recording, const Portrait& portrait) {
+  std::array<std::size_t, 2> numbers{};
+  for (std::size_t j = 0; j < 2; ++j)
+    numbers[j] =
+        static_cast<std::size_t>(std::find(recording.observations.begin(), recording.observations.end(), portrait[j]) -
+                                 recording.observations.begin());
+  Panel panel;
+  panel.x.label = plain(portrait[0]);
+  panel.y.label = plain(portrait[1]);
+  panel.title = panel.y.label + " against " + panel.x.label;
+  Curve& curve = panel.curves.emplace_back();
+  for (const Recording::Sample& sample : recording.samples)
+    curve.points.push_back({sample.observed.at(numbers[0]), sample.observed.at(numbers[1])});
+  return panel;
+}
+
+Panel energy_panel(const Recording& recording) {
+  Panel panel = against_time("Error of energy, linear", {"H − H_0"});
+  panel.curves.push_back(curve_of("", recording, [](const auto& sample) { return sample.H_change; }));
   return panel;
 }
 
 Panel errors_panel(const Recording& recording) {
   Panel panel = against_time("Errors of energy and constraints", {"error", AxisScale::decimal});
+  if (std::isfinite(recording.round_off)) panel.round_off = recording.round_off;
   panel.curves.push_back(curve_of("|H − H_0|", recording, [](const auto& sample) { return sample.energy; }));
   if (recording.constraints.empty()) return panel;
   panel.curves.push_back(curve_of("|g|", recording, [](const auto& sample) { return sample.constraints; }));
@@ -154,6 +211,19 @@ std::vector<Panel> motion_panels(const Sketch& sketch, const Recording& recordin
   return panels;
 }
 
+/// The lower left and the upper right corner of what these points take.
+std::vector<PlotPoint> corners_of(const std::vector<PlotPoint>& points) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  PlotPoint low{far, far}, high{-far, -far};
+  for (const PlotPoint& point : points)
+    for (std::size_t j = 0; j < 2; ++j) {
+      if (!std::isfinite(point[j])) continue;
+      low[j] = std::min(low[j], point[j]);
+      high[j] = std::max(high[j], point[j]);
+    }
+  return {low, high};
+}
+
 }  // namespace
 
 Panel motion_panel(const Sketch& sketch, const Recording& recording, const Projection& projection) {
@@ -172,10 +242,7 @@ Panel motion_panel(const Sketch& sketch, const Recording& recording, const Proje
     const PlotPoint at = project(sketch.position(i, last), projection);
     const std::string label = moving <= most_labels && place.labelled ? place.name : "";
     if (place.has_mass) {
-      Curve path;
-      for (const Recording::Sample& sample : recording.samples)
-        path.points.push_back(project(sketch.position(i, sample.q), projection));
-      panel.curves.push_back(std::move(path));
+      panel.curves.push_back(path_of(sketch, i, recording, projection));
       panel.marks.push_back({project(sketch.position(i, first), projection), Mark::Look::start, ""});
       panel.marks.push_back({at, place.of ? Mark::Look::centre : Mark::Look::body, label});
     } else if (place.mark == Sketch::Place::Mark::dot && place.at.blocks.empty()) {
@@ -195,14 +262,48 @@ Panel motion_panel(const Sketch& sketch, const Recording& recording, const Proje
   return panel;
 }
 
-Figure run_figure(const Sketch& sketch, const Recording& recording) {
+Figure run_figure(const Sketch& sketch, const Recording& recording, const std::vector<Portrait>& portraits,
+                  bool linear_energy) {
+  const Recording seen = recording.until_lost();
+  const bool whole = seen.samples.size() == recording.samples.size();
   Figure figure;
-  figure.panels = motion_panels(sketch, recording, "Motion");
+  figure.panels =
+      motion_panels(sketch, seen, whole ? "Motion" : fmt::format("Motion until {:.4g}", seen.samples.back().t));
+  for (const Portrait& portrait : portraits) figure.panels.push_back(portrait_panel(seen, portrait));
   for (std::size_t i = 0; i < recording.observations.size(); ++i)
-    figure.panels.push_back(observation_panel(recording, i));
+    if (std::none_of(portraits.begin(), portraits.end(), [&](const Portrait& portrait) {
+          return std::count(portrait.begin(), portrait.end(), recording.observations[i]) > 0;
+        }))
+      figure.panels.push_back(observation_panel(recording, i));
   if (!recording.constraints.empty()) figure.panels.push_back(multipliers_panel(recording));
+  if (linear_energy) figure.panels.push_back(energy_panel(recording));
   figure.panels.push_back(errors_panel(recording));
   return figure;
+}
+
+std::vector<Figure> motion_frames(const Sketch& sketch, const Recording& recording) {
+  constexpr std::size_t most = 120;
+  const Recording whole = recording.until_lost();
+  const std::size_t last = whole.samples.size() - 1, count = std::min(most, last);
+  std::vector<Figure> frames;
+  std::vector<std::vector<PlotPoint>> room;
+  for (std::size_t n = 1; n <= count; ++n) {
+    Recording part = whole;
+    part.samples.resize(n * last / count + 1);
+    Figure& frame = frames.emplace_back();
+    frame.panels = motion_panels(sketch, part, fmt::format("t = {:.3f}", part.samples.back().t));
+    room.resize(frame.panels.size());
+    for (std::size_t i = 0; i < frame.panels.size(); ++i) {
+      const Panel& panel = frame.panels[i];
+      for (const Curve& curve : panel.curves) room[i].insert(room[i].end(), curve.points.begin(), curve.points.end());
+      for (const Polyline& line : panel.lines) room[i].insert(room[i].end(), line.points.begin(), line.points.end());
+      for (const Mark& mark : panel.marks) room[i].push_back(mark.at);
+      room[i] = corners_of(room[i]);
+    }
+  }
+  for (Figure& frame : frames)
+    for (std::size_t i = 0; i < frame.panels.size(); ++i) frame.panels[i].room_for = room[i];
+  return frames;
 }
 
 Figure scene_figure(const Sketch& sketch, const std::vector<double>& q) {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <string>
+#include <vector>
+
 #include "hbvm/figure.hpp"
 #include "run/recording.hpp"
 #include "scene/sketch.hpp"
@@ -15,9 +19,19 @@ struct Projection {
 /// Paths of what has mass, with the scene as it was at the start, dashed, and is at the end.
 Panel motion_panel(const Sketch& sketch, const Recording& recording, const Projection& projection);
 
-/// What there is to see of a run: its motion (in the plane, or along two axes), its multipliers and its errors. The
-/// axis of the errors is logarithmic.
-Figure run_figure(const Sketch& sketch, const Recording& recording);
+/// Two observations that are drawn against each other.
+using Portrait = std::array<std::string, 2>;
+
+/// What there is to see of a run: its motion (in the plane, or along two axes), what it observes, its multipliers and
+/// its errors. The axis of the errors is logarithmic. Observations of a portrait are drawn against each other, the
+/// others against time. \param linear_energy also H - H_0 on an axis that is not
+Figure run_figure(const Sketch& sketch, const Recording& recording, const std::vector<Portrait>& portraits = {},
+                  bool linear_energy = false);
+
+/// The motion as pictures of one size one after another, at equal distances of time.
+std::vector<Figure> motion_frames(const Sketch& sketch, const Recording& recording);
+/// How many of them are shown a second.
+constexpr int frames_a_second = 20;
 
 /// The scene where its coordinates are these.
 Figure scene_figure(const Sketch& sketch, const std::vector<double>& q);

@@ -1,6 +1,8 @@
 #include "run/run_page.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "run/multiplier_names.hpp"
 #include "scene/sketch.hpp"
@@ -40,10 +42,18 @@ PageChart chart_of(const Recording& recording, std::size_t observation) {
 
 PageChart errors_of(const Recording& recording) {
   PageChart chart{"Errors of energy and constraints", "error", AxisScale::decimal, {}};
+  if (std::isfinite(recording.round_off)) chart.round_off = recording.round_off;
   chart.curves.push_back(curve_of("|H − H₀|", recording, &Recording::Sample::energy));
   if (recording.constraints.empty()) return chart;
   chart.curves.push_back(curve_of("|g|", recording, &Recording::Sample::constraints));
   chart.curves.push_back(curve_of("hidden", recording, &Recording::Sample::hidden));
+  return chart;
+}
+
+PageChart energy_of(const Recording& recording) {
+  PageChart chart{"Error of energy, linear", "H − H₀", AxisScale::linear, {}};
+  chart.curves.push_back(curve_of("H − H₀", recording, &Recording::Sample::H_change));
+  chart.curves.front().is_error = false;
   return chart;
 }
 
@@ -71,11 +81,15 @@ MovingPage page_about(const RunRequest& request, const std::string& command) {
 
 std::string run_page(const RunRequest& request, const Recording& recording, const std::string& command) {
   MovingPage page = page_about(request, command);
-  page.sketch = sketch(request.scene, recording.states());
+  const std::vector<std::vector<double>> seen = recording.until_lost().states();
+  page.sketch = sketch(request.scene, seen);
   for (const Recording::Sample& sample : recording.samples) page.t.push_back(sample.t);
   page.q = recording.states();
+  for (std::size_t n = seen.size(); n < page.q.size(); ++n)
+    std::fill(page.q[n].begin(), page.q[n].end(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < recording.observations.size(); ++i) page.charts.push_back(chart_of(recording, i));
   if (!shown_multipliers(recording).empty()) page.charts.push_back(multipliers_of(recording));
+  if (request.linear_energy) page.charts.push_back(energy_of(recording));
   page.charts.push_back(errors_of(recording));
   page.every = recording.every;
   page.steps = recording.steps;

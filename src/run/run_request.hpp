@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "integrate/time_grid.hpp"
 #include "run/run_stepper.hpp"
@@ -23,7 +26,9 @@ struct RunRequest {
   bool error = false;    ///< repeat it with more stages, too
   OnFailure on_failure = OnFailure::stop;
   Direction direction = Direction::forward;
-  std::optional<StartState> start = {};  ///< instead of that of the scene
+  std::optional<StartState> start = {};                    ///< instead of that of the scene
+  std::vector<std::array<std::string, 2>> portraits = {};  ///< observations of the scene, drawn against each other
+  bool linear_energy = false;                              ///< pictures also show H - H_0 on a linear axis
 };
 
 }  // namespace hbvm::core

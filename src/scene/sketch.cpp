@@ -209,6 +209,14 @@ std::array<double, 3> Sketch::position(std::size_t i, const std::vector<double>&
   return result;
 }
 
+std::array<double, 3> Sketch::velocity(std::size_t i, const std::vector<double>& v) const {
+  std::array<double, 3> result{};
+  for (const auto& block : places[i].at.blocks)
+    for (Index j = 0; j < dimension; ++j)
+      result[static_cast<std::size_t>(j)] += block.weight * v[static_cast<std::size_t>(block.offset + j)];
+  return result;
+}
+
 std::vector<std::array<double, 3>> Sketch::corners(const Body& body, const std::vector<double>& q) const {
   std::vector<std::array<double, 3>> result;
   const auto& blocks = body.reference.blocks;

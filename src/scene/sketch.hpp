@@ -47,6 +47,8 @@ struct Sketch {
   std::array<double, 3> position(std::size_t i, const std::vector<double>& q) const;
   /// The corners of a body's solid.
   std::vector<std::array<double, 3>> corners(const Body& body, const std::vector<double>& q) const;
+  /// Its velocity. \param v of scene's coordinates
+  std::array<double, 3> velocity(std::size_t i, const std::vector<double>& v) const;
 };
 
 /// Bodies, points and rigid bodies of a scene, with its rods, joints and those of its springs that it names. A rigid

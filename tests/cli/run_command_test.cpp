@@ -581,6 +581,23 @@ TEST(RunPlot, MakesAPageThatMoves) {
   expect_words(page, {"hbvm run kepler --method hbvm:3,3"});
 }
 
+TEST(RunPlot, MakesAGifThatMoves) {
+  const Folder folder;
+  EXPECT_TRUE(drawn("double_pendulum", folder / "a.gif").starts_with("GIF89a"));
+}
+
+/// Two quantities against each other, and H - H_0 as it is.
+TEST(RunPlot, DrawsAPhasePortrait) {
+  const Folder folder;
+  const std::string file = folder / "a.svg";
+  const Arguments run = run_of("kepler", "hbvm:3,3", "1/16", "4") + Arguments{"--plot", file, "--plot-xy"};
+  ended_with(0, run + Arguments{"distance(planet, sun),planet.px", "--plot-linear"});
+  expect_words(text_of(file), {"planet.px", "distance(planet, sun)", "linear"});
+  expect_refused(run + Arguments{"planet.x"}, {"--plot-xy planet.x", "two quantities"});
+  expect_refused(run + Arguments{"planet.x,plant.px"}, {"plant.px", "did you mean 'planet'"});
+  expect_refused(run_of("kepler", "hbvm:3,3", "1/16", "4") + Arguments{"--plot-xy", "planet.x,planet.px"}, {"--plot"});
+}
+
 TEST(RunPlot, ShowsWhatWasComputedBeforeAFailure) {
   const Folder folder;
   ended_with(2, run_of("kepler", "tableau:" HBVM_SOURCE_DIR "/tests/cli/none.toml", "1/8", "1") +

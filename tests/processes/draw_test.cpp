@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "folder.hpp"
+#include "hbvm/error.hpp"
 #include "hbvm/figure.hpp"
 #include "read_file.hpp"
 #include "words.hpp"
@@ -59,6 +60,20 @@ TEST_F(FigureTest, IsDrawnInSilenceInEveryFormatWhateverTheLocale) {
   }
   const std::string svg = read_file(folder_ / "it's a figure.svg");
   expect_words(svg, {"a caption", "what_made_it", "it's 90° of λ", "two"});
+}
+
+/// As many pictures as there are frames: each has a control extension.
+TEST_F(FigureTest, MovesInAGif) {
+  const std::string file = folder_ / "a.gif";
+  testing::internal::CaptureStderr();
+  draw_frames({figure_, figure_, figure_}, 20, file);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  const std::string gif = read_file(file), control = {0x21, '\xF9', 0x04};
+  EXPECT_TRUE(gif.starts_with("GIF89a"));
+  int frames = 0;
+  for (std::size_t at = gif.find(control); at != std::string::npos; at = gif.find(control, at + 1)) ++frames;
+  EXPECT_EQ(frames, 3);
+  EXPECT_THROW(draw_frames({figure_}, 20, folder_ / "a.svg"), InputError);
 }
 
 TEST_F(FigureTest, NamesThePackageThatIsMissing) {

@@ -80,6 +80,12 @@ TEST(Tics, OfPowersStandAtPowers) {
   EXPECT_EQ(tics.tics.size(), 3u + 2 * 8);
 }
 
+TEST(AxisRange, EndsAtRoundOff) {
+  EXPECT_EQ(ended_at_round_off({-40, -2}, -16).from, -16.5);
+  EXPECT_EQ(ended_at_round_off({-40, -2}, -16).to, -2);
+  EXPECT_EQ(ended_at_round_off({-40, -30}, -16).to, -14.5);
+}
+
 TEST(Tics, OfLessThanTwoPowersAreNumbersBetween) {
   const Tics tics = tics_of({-15.8, -15.2}, AxisScale::decimal, 6);
   EXPECT_EQ(texts(tics), (Texts{"2·10^{-16}", "5·10^{-16}"}));

@@ -38,6 +38,45 @@ TEST(Recording, OfALongRunLeavesNoErrorOut) {
   EXPECT_EQ(hidden, std::log10(run.e_hid));
 }
 
+/// Between samples lambda goes up and down: the range has all of it.
+TEST(Recording, OfALongRunHasTheRangeOfMultipliers) {
+  const Recording all = recorded<double>(load_scene("double_pendulum"), "1/16", "50").first,
+                  some = recorded<double>(load_scene("double_pendulum"), "1/16", "156.25").first;
+  for (std::size_t n = 1; 3 * n < all.samples.size(); ++n) {
+    double least = INFINITY, greatest = -INFINITY;
+    for (std::size_t i = 3 * n - 2; i <= 3 * n; ++i) {
+      least = std::min(least, all.samples[i].lambda[1]);
+      greatest = std::max(greatest, all.samples[i].lambda[1]);
+    }
+    EXPECT_EQ(some.samples[n].least_lambda[1], least) << n;
+    EXPECT_EQ(some.samples[n].greatest_lambda[1], greatest) << n;
+  }
+}
+
+TEST(Recording, HasVelocitiesAndTheSizeOfRoundOff) {
+  const Assembled<double> scene = assemble<double>(load_scene("double_pendulum"));
+  const Recording recording = recorded<double>(load_scene("double_pendulum"), "1/16", "1").first;
+  Vector<double> v(scene.q0.size());
+  scene.problem.mass.velocity(lanes(scene.p0), lanes(v));
+  EXPECT_EQ(recording.samples.front().v, std::vector<double>(v.begin(), v.end()));
+  StateEvaluator<double> point(scene.problem);
+  const double of_H = point.energy_size(scene.q0, scene.p0), of_g = point.constraint_size(scene.q0);
+  EXPECT_EQ(recording.size_of_H, std::log10(of_H));
+  EXPECT_EQ(recording.round_off, std::log10(epsilon<double>() * std::min(of_H, of_g)));
+}
+
+/// The last samples of a motion whose energy is lost for good are left out; a peak that passes is not.
+TEST(Recording, IsSeenUntilItsEnergyIsLost) {
+  Recording recording;
+  recording.size_of_H = 1;
+  for (const double energy : {-10, -9, 2, -9, 3, 4}) recording.samples.push_back({.energy = energy});
+  EXPECT_EQ(recording.until_lost().samples.size(), 4u);
+  recording.size_of_H = 5;
+  EXPECT_EQ(recording.until_lost().samples.size(), 6u);
+  recording.size_of_H = -INFINITY;
+  EXPECT_EQ(recording.until_lost().samples.size(), 6u);
+}
+
 /// Errors of 10^-400 are none in double.
 TEST(Recording, ShowsErrorsBeyondTheRangeOfDouble) {
   const PrecisionScope digits(420);
@@ -63,6 +102,8 @@ TEST(Recording, IsKeptWithItsRun) {
   EXPECT_EQ(second.samples[1].q, first.samples[1].q);
   EXPECT_EQ(second.samples[1].lambda, first.samples[1].lambda);
   EXPECT_EQ(second.samples[1].energy, first.samples[1].energy);
+  EXPECT_EQ(second.samples[1].v, first.samples[1].v);
+  EXPECT_EQ(second.round_off, first.round_off);
   one.observe({2, 1, scene.q0, 3 * scene.p0, Vector<double>::Ones(2)});
   two.observe({2, 1, scene.q0, 3 * scene.p0, Vector<double>::Ones(2)});
   EXPECT_EQ(second.samples[2].energy, first.samples[2].energy);

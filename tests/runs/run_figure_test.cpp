@@ -6,7 +6,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "report/figure_layout.hpp"
+#include "run/scene_run.hpp"
 #include "runs/request_of.hpp"
+#include "scene/observe.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -16,6 +20,18 @@ std::pair<Recording, Figure> shown(const char* name) {
   const Scene scene = load_scene(name);
   const Recording recording = recorded<double>(scene, "1/16", "1").first;
   return {recording, run_figure(sketch(scene), recording)};
+}
+
+/// What a run leaves for a picture, also if it fails on the way.
+Recording recording_of(const RunRequest& request) {
+  Recording recording;
+  RunHooks hooks;
+  hooks.recording = &recording;
+  try {
+    run(request, hooks);
+  } catch (const IntegrationError&) {
+  }
+  return recording;
 }
 
 TEST(RunFigure, ShowsAPlanarMotionInItsPlane) {
@@ -138,6 +154,64 @@ TEST(RunFigure, ShowsErrorsByTheirLogarithms) {
   EXPECT_EQ(errors.curves[0].points[5][1], recording.samples[5].energy);
   EXPECT_EQ(errors.curves[1].points[5][1], recording.samples[5].constraints);
   EXPECT_EQ(errors.curves[2].points[5][1], recording.samples[5].hidden);
+}
+
+/// What is below round-off is shaded, and the axis ends there.
+TEST(RunFigure, EndsErrorsAtRoundOff) {
+  const auto [recording, figure] = shown("double_pendulum");
+  EXPECT_EQ(figure.panels.back().round_off, recording.round_off);
+  EXPECT_EQ(layout_of(figure).panels.back().y.from, recording.round_off - 0.5);
+}
+
+TEST(RunFigure, DrawsObservationsAgainstEachOther) {
+  Scene scene = with_observation(load_scene("kepler"), "planet.x", "planet.x");
+  scene = with_observation(with_observation(scene, "planet.px", "planet.px"), "L", "planet.x*planet.py");
+  const Recording recording = recording_of(request_of(scene, "hbvm:2,2", "1/16", "1"));
+  const Figure figure = run_figure(sketch(scene), recording, {{"planet.px", "planet.x"}}, true);
+  ASSERT_EQ(figure.panels.size(), 5u);
+  const Panel& portrait = figure.panels[1];
+  EXPECT_EQ(portrait.title, "planet.x against planet.px");
+  const Recording::Sample& sample = recording.samples[7];
+  EXPECT_EQ(portrait.curves.at(0).points.at(7), (PlotPoint{sample.observed[1], sample.observed[0]}));
+  EXPECT_EQ(figure.panels[2].title, "L");
+  EXPECT_EQ(figure.panels[3].curves.at(0).points.at(7)[1], sample.H_change);
+}
+
+/// A path of few steps is a smooth line through them: a circle stays one.
+TEST(RunFigure, DrawsSmoothPathsOfFewSteps) {
+  const Scene scene = read_scene(
+      "dimension = 2\npoint = [{ name = \"o\", position = [0, 0] }]\n"
+      "body = [{ name = \"a\", mass = 1, position = [1, 0], velocity = [0, 1] }]\n"
+      "constraint = [{ kind = \"rod\", between = [\"o\", \"a\"], length = 1 }]\n",
+      "circle");
+  const Recording recording = recorded<double>(scene, "1/2", "6").first;
+  const Curve path = run_figure(sketch(scene), recording).panels.front().curves.at(0);
+  EXPECT_GT(path.points.size(), 1'000u);
+  for (const PlotPoint& x : path.points) EXPECT_NEAR(std::hypot(x[0], x[1]), 1, 3e-3);
+}
+
+/// A run of forward Euler flies away: its motion is seen until its energy is lost, its errors to the end.
+TEST(RunFigure, ShowsALostMotionUntilItIsLost) {
+  const Scene scene = load_scene("henon_heiles");
+  const Recording recording = recording_of(request_of(scene, "euler", "1/8", "100"));
+  const Figure figure = run_figure(sketch(scene), recording);
+  EXPECT_TRUE(figure.panels.front().title.starts_with("Motion until ")) << figure.panels.front().title;
+  EXPECT_EQ(figure.panels.back().curves.at(0).points.size(), recording.samples.size());
+}
+
+/// All of one size, each a little later, the last the whole motion.
+TEST(MotionFrames, HaveTheSameAxes) {
+  const Scene scene = load_scene("tethered_satellites");
+  const Recording recording = recorded<double>(scene, "1/16", "20").first;
+  const std::vector<Figure> frames = motion_frames(sketch(scene), recording);
+  ASSERT_EQ(frames.size(), 120u);
+  const FigureLayout first = layout_of(frames.front()), last = layout_of(frames.back());
+  EXPECT_EQ(first.size, last.size);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(first.panels[i].x.from, last.panels[i].x.from);
+    EXPECT_EQ(first.panels[i].y.to, last.panels[i].y.to);
+  }
+  EXPECT_EQ(frames.back().panels[0].title, "t = 20.000, seen along z");
 }
 
 TEST(SceneFigure, ShowsAScene) {

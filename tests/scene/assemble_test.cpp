@@ -772,9 +772,11 @@ TEST(Mechanism, LeavesWhatItsJointsLeave) {
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(scene.problem.constraints[30 + i].name, names[i]);
 }
 
-/// The directors that are parallel at the start are so to the last digit: no weight is what rounding left.
+/// Directors that are parallel at the start, askew in space, are so to the last digit: no weight is what rounding left.
 TEST(Mechanism, HasNoWeightsOfRoundOff) {
-  const auto scene = assembled<double>(mechanism);
+  const auto scene = assembled<double>(changed(mechanism, "{ directors = [[0, 1, 0], [-1, 0, 0], [0, 0, 1]] }",
+                                               "{ axis = [1, 2, 2], angle = \"pi/3\" }"),
+                                       Consistency::unchecked);
   for (const auto& constraint : scene.problem.constraints) {
     const auto* const product = std::get_if<DisplacementProduct<double>>(&constraint.form);
     if (!product) continue;

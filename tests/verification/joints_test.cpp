@@ -4,7 +4,6 @@
 #include "reference/taylor.hpp"
 #include "scalar/text.hpp"
 #include "scene/assembled.hpp"
-#include "scene/project.hpp"
 #include "verification/models.hpp"
 
 namespace hbvm::core {
@@ -194,6 +193,55 @@ TEST_F(JointsTest, ASliderOnAPlaneRailIsABead) {
   EXPECT_EQ(degrees_of_freedom(with_bead), 4);
   expect_same(with_slider.q.head(6), with_bead.q.tail(6), "rail");
   expect_same(with_slider.q.segment(6, 2), with_bead.q.head(2), "slider");
+}
+
+/// A slider-crank. Its slider is on a rail in space, and does not turn. It is a bead on a `plane`, which is a line
+/// here.
+TEST_F(JointsTest, ASliderCrankHasABeadOnALine) {
+  const std::string head = "dimension = 2\n[[point]]\nname = \"rail\"\nposition = [5, 0]\n", bars = R"([[rigid_body]]
+name = "crank"
+fixed_at = [0, 0]
+mass = 1
+center = ["1/2", 0]
+inertia = "1/12"
+orientation = { directors = [["3/5", "4/5"], ["-4/5", "3/5"]] }
+angular_velocity = 2
+[[rigid_body]]
+name = "rod"
+position = ["3/5", "4/5"]
+velocity = ["-8/5", "6/5"]
+mass = 1
+center = ["17/20", 0]
+inertia = "1/5"
+orientation = { directors = [["15/17", "-8/17"], ["8/17", "15/17"]] }
+angular_velocity = "-4/5"
+)",
+                    pins = joint_of("ball_joint", point_of("crank", "1, 0"), point_of("rod", "0, 0")),
+                    start = "mass = 2\nposition = [\"21/10\", 0]\nvelocity = [\"-56/25\", 0]\n",
+                    end = point_of("rod", "\"17/10\", 0");
+  const std::string with_slider = head + bars + "[[rigid_body]]\nname = \"slider\"\n" + start +
+                                  "inertia = 1\norientation = 1\nangular_velocity = 0\n" + pins +
+                                  joint_of("ball_joint", end, point_of("slider", "0, 0")) +
+                                  joint_of("prismatic", "\"rail\"", point_of("slider", "0, 0"), "axis = [1, 0]\n") +
+                                  pull_in_plane,
+                    with_bead = head + "[[body]]\nname = \"bead\"\n" + start + bars + pins +
+                                joint_of("ball_joint", end, "\"bead\"") +
+                                "[[constraint]]\nkind = \"plane\"\nbody = \"bead\"\nnormal = [0, 1]\noffset = 0\n" +
+                                pull_in_plane;
+  const auto sliding = at_one(with_slider), beaded = at_one(with_bead);
+  EXPECT_EQ(degrees_of_freedom(sliding), 1);
+  EXPECT_EQ(degrees_of_freedom(beaded), 1);
+  expect_same(sliding.q.head(10), beaded.q.tail(10), "crank and rod");
+  expect_same(sliding.q.segment(10, 2), beaded.q.head(2), "slider");
+  expect_same(sliding.q.tail(4), sliding.scene.q0.tail(4), "directors of the slider");
+  // What holds the slider up: l1 e, with e upwards, and -l n of the plane.
+  const auto held = [](const Reached& of, Index from_the_end) {
+    StateEvaluator<Mpfr> point(of.scene.problem);
+    const Vector<Mpfr> lambda = point.multiplier(of.scene.q0, of.scene.p0);
+    return Mpfr(lambda[lambda.size() - from_the_end]);
+  };
+  EXPECT_LE(magnitude(Mpfr(held(sliding, 2) + held(beaded, 1))), literal<Mpfr>("1e-44"));
+  EXPECT_GE(magnitude(held(sliding, 2)), Mpfr(1) / 10);
 }
 
 TEST_F(JointsTest, ASliderOnARailOfSpaceIsABead) {

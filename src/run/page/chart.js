@@ -47,10 +47,25 @@ class Chart {
       highlightCircleSize: 0.25 * letter,
       gridLineWidth: 1,
       rightGap: Math.round(2.6 * letter),
+      underlayCallback: (pen, area, graph) => this.shade(pen, area, graph),
     });
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.listen(choose);
     theme.onChange(() => this.recolour());
+  }
+
+  /** What is below round-off. */
+  shade(pen, area, graph) {
+    if (this.chart.round_off === undefined) return;
+    const top = Math.max(graph.toDomYCoord(this.chart.round_off), area.y), bottom = area.y + area.h;
+    if (top >= bottom) return;
+    pen.fillStyle = this.theme.get('grid');
+    pen.globalAlpha = 0.5;
+    pen.fillRect(area.x, top, area.w, bottom - top);
+    pen.globalAlpha = 1;
+    pen.fillStyle = this.theme.get('rod');
+    pen.textAlign = 'right';
+    pen.fillText('round-off', area.x + area.w - 4, bottom - 4);
   }
 
   /** A constraint by its number where its name is long. */
