@@ -37,8 +37,9 @@ struct Curve {
   bool marked = false;  ///< a mark at every point
 };
 
-/// A line that is part of the scene: a rod, the outline of a body, the axis of a joint, a mesh behind the others, a
-/// triangle that shows a slope, or the front of a cloud of points. Where a coordinate is not finite it is interrupted.
+/// A line that is part of the scene: a rod, the outline of a body, the axis of a joint, or a mesh behind them. It may
+/// also be a triangle that shows a slope, or the front of a cloud of points. Where a coordinate is not finite it is
+/// interrupted.
 struct Polyline {
   enum class Look { solid, bar, faint, dashed, front, axis, mesh };
   std::vector<PlotPoint> points;

@@ -129,7 +129,7 @@ void add_motion(MovingPage& page, const Sketch& sketch, const std::string& metho
   for (const Sketch::Place& place : sketch.places) {
     Sketch::Place& added = page.sketch.places.emplace_back(place);
     for (auto& block : added.at.blocks) block.offset += static_cast<Index>(coordinates) * colour;
-    const bool moves = !added.at.blocks.empty();
+    const bool moves = added.of || !added.at.blocks.empty();
     if (moves) added.name = is_alone ? method : place.name + " (" + method + ")";
     if (!moves && colour > 0) added.labelled = false;
     if (added.of) *added.of += first;

@@ -115,7 +115,7 @@ AxisRange range_of(const std::vector<double>& values, AxisScale scale) {
 }
 
 AxisRange ended_at_round_off(const AxisRange& range, double round_off) {
-  constexpr double below = 0.5, least = 2;
+  constexpr int below = 1, least = 2;
   const double from = round_off - below;
   return {from, std::max(range.to, from + least)};
 }

@@ -21,8 +21,8 @@ struct LabelledMark {
   double width, height;
 };
 
-/// Where each label stands: at the first side of its mark where it is within the box, on no other label and on no other
-/// mark. Earlier marks choose first. A label without such a place is left out.
+/// Where each label stands: at the first side of its mark where it is within the box, and on no label or mark. Earlier
+/// marks choose first. A label without such a place is left out.
 std::vector<std::optional<Rectangle>> label_places(const std::vector<LabelledMark>& marks, const Rectangle& box);
 
 }  // namespace hbvm::core

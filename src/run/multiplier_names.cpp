@@ -41,11 +41,11 @@ std::vector<std::string> multiplier_names(const Recording& recording) {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (std::count(names.begin(), names.end(), names[i]) > 1) result[i] = longer[i];
   names = result;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (std::count(names.begin(), names.end(), names[i]) > 1)
-      result[i] +=
-          " (" +
-          std::to_string(std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) + 1) + ")";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::count(names.begin(), names.end(), names[i]) == 1) continue;
+    const auto here = names.begin() + static_cast<std::ptrdiff_t>(i);
+    result[i] += ", " + std::to_string(std::count(names.begin(), here, names[i]) + 1);
+  }
   return result;
 }
 

@@ -17,7 +17,7 @@ struct Recording {
 
   struct Sample {
     double t = 0;
-    std::vector<double> q, lambda;
+    std::vector<double> q = {}, lambda = {};
     /// Decimal logarithms of |H - H_0|, |g|_max and |grad g^T M^-1 p|_max, the greatest since the sample before; minus
     /// infinity for 0. Errors of hundreds of digits are beyond the range of double, their logarithms are not.
     double energy = 0, constraints = 0, hidden = 0;

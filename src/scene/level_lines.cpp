@@ -20,7 +20,7 @@ class LevelPlane {
   void add_lines(std::vector<PointLine>& lines) {
     for (std::size_t j = 0; j < level_cells; ++j)
       for (std::size_t i = 0; i < level_cells; ++i) cut(i, j);
-    drop_poles();
+    find_zeros();
     while (!next_.empty()) lines.push_back(chain());
   }
 
@@ -64,24 +64,47 @@ class LevelPlane {
     }
   }
 
-  std::array<double, 3> zero_on(const Edge& edge) const {
-    const std::array<double, 3> from = node(edge[0]), to = node(edge[1]);
-    const double share = value(edge[0]) / (value(edge[0]) - value(edge[1]));
+  /// Part of an edge on which g changes its sign, and g at its ends.
+  struct Bracket {
+    std::array<double, 3> from, to;
+    double g_from, g_to;
+  };
+
+  static std::array<double, 3> between(const std::array<double, 3>& from, const std::array<double, 3>& to,
+                                       double share) {
     std::array<double, 3> x{};
     for (std::size_t j = 0; j < 3; ++j) x[j] = from[j] + share * (to[j] - from[j]);
     return x;
   }
 
-  /// Where g changes its sign by way of infinity, it is no smaller between.
-  void drop_poles() {
+  /// Halves each edge some times. Where g changes its sign by way of infinity it has grown at one of the ends: there is
+  /// no zero, and no line.
+  void find_zeros() {
     std::vector<Edge> edges;
-    for (const auto& [edge, others] : next_) edges.push_back(edge);
-    Matrix<double> points(static_cast<Index>(edges.size()), 3);
-    for (std::size_t n = 0; n < edges.size(); ++n) set_row(points, n, zero_on(edges[n]));
-    const Vector<double> there = g_(points);
+    std::vector<Bracket> brackets;
+    for (const auto& [edge, others] : next_) {
+      edges.push_back(edge);
+      brackets.push_back({node(edge[0]), node(edge[1]), value(edge[0]), value(edge[1])});
+    }
+    Matrix<double> middles(static_cast<Index>(edges.size()), 3);
+    for (int halving = 0; halving < level_halvings; ++halving) {
+      for (std::size_t n = 0; n < edges.size(); ++n)
+        set_row(middles, n, between(brackets[n].from, brackets[n].to, 1 / double{2}));
+      const Vector<double> there = g_(middles);
+      for (std::size_t n = 0; n < edges.size(); ++n) {
+        Bracket& bracket = brackets[n];
+        const double g = there[static_cast<Index>(n)];
+        const bool lower = (g < 0) == (bracket.g_from < 0);
+        (lower ? bracket.from : bracket.to) = between(bracket.from, bracket.to, 1 / double{2});
+        (lower ? bracket.g_from : bracket.g_to) = g;
+      }
+    }
     for (std::size_t n = 0; n < edges.size(); ++n) {
-      const double greatest = std::max(std::abs(value(edges[n][0])), std::abs(value(edges[n][1])));
-      if (std::abs(there[static_cast<Index>(n)]) <= greatest) continue;
+      const auto& [from, to, g_from, g_to] = brackets[n];
+      if (std::abs(g_from) <= 2 * std::abs(value(edges[n][0])) && std::abs(g_to) <= 2 * std::abs(value(edges[n][1]))) {
+        zeros_[edges[n]] = between(from, to, g_from / (g_from - g_to));
+        continue;
+      }
       for (const Edge& other : next_[edges[n]]) std::erase(next_[other], edges[n]);
       next_.erase(edges[n]);
     }
@@ -92,7 +115,7 @@ class LevelPlane {
     const auto end =
         std::find_if(next_.begin(), next_.end(), [](const auto& entry) { return entry.second.size() < 2; });
     Edge edge = (end != next_.end() ? end : next_.begin())->first;
-    PointLine line{zero_on(edge)};
+    PointLine line{zeros_[edge]};
     for (;;) {
       std::vector<Edge>& others = next_[edge];
       if (others.empty()) break;
@@ -102,7 +125,7 @@ class LevelPlane {
       back.erase(std::find(back.begin(), back.end(), edge));
       if (others.empty()) next_.erase(edge);
       edge = other;
-      line.push_back(zero_on(edge));
+      line.push_back(zeros_[edge]);
     }
     next_.erase(edge);
     return line;
@@ -114,6 +137,7 @@ class LevelPlane {
   double at_;
   Vector<double> values_;
   std::map<Edge, std::vector<Edge>> next_;  ///< the edges that lines lead to
+  std::map<Edge, std::array<double, 3>> zeros_;
 };
 
 }  // namespace

@@ -52,9 +52,9 @@ struct Sketch {
 };
 
 /// Bodies, points and rigid bodies of a scene, with its rods, joints and those of its springs that it names. A rigid
-/// body has its name at its centre of mass, and its body_shape(). In the plane, unless it has a shape of its own, it is
-/// a bar between two points that are fastened, or the polygon of several. A line leads from the centre of mass to what
-/// is fastened outside.
+/// body has its name at its centre of mass, and its body_shape(). In the plane one without a shape of its own is a bar
+/// between two points that are fastened, or the polygon of several. A line leads from the centre of mass to what is
+/// fastened outside.
 /// \param states of the coordinates that are drawn; those of the start if there are none
 Sketch sketch(const Scene& scene, const std::vector<std::vector<double>>& states = {});
 

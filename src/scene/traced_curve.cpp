@@ -13,7 +13,7 @@ namespace {
 class CurveTracer {
  public:
   CurveTracer(const std::vector<LevelFunction>& g, const SpaceBox& box, int dimension)
-      : g_(g), box_(box), d_(dimension), step_(box.longest() / 200), small_(step_ / 1000) {}
+      : g_(g), box_(box), d_(dimension), step_(box.longest() / 200), least_step_(step_ / 20), small_(step_ / 1000) {}
 
   PointLine traced(const std::array<double, 3>& start) const {
     Vector<double> first(d_);
@@ -31,6 +31,7 @@ class CurveTracer {
 
  private:
   static constexpr std::size_t most_points = 2000;
+  static constexpr double straight = 49 / double{50};  // the cosine of an angle that is not seen
 
   /// Adds points from the first on; true if the line comes back to it.
   bool follow(const Vector<double>& first, double sense, PointLine& line) const {
@@ -41,21 +42,26 @@ class CurveTracer {
       line.push_back(point);
     };
     add(at);
+    bool was_away = false;
     for (std::size_t n = 0; n < most_points; ++n) {
       Vector<double> along = tangent(at);
       if (!along.allFinite()) return false;
       if (along.dot(before) < 0) along = -along;
       std::optional<Vector<double>> next;
-      // Where the curve bends much it is followed in smaller steps.
-      for (double step = step_; !next && step > step_ / 20; step /= 2) {
+      // Where the curve bends much it is followed in smaller steps, and at a corner in the smallest.
+      for (double step = step_; !next && step > least_step_; step /= 2) {
         next = on_curve(at + step * along);
-        if (next && ((*next - at).norm() > 2 * step || (*next - at).dot(along) <= 0)) next.reset();
+        if (!next) continue;
+        const bool bends = step > 2 * least_step_ && !(std::abs(tangent(*next).dot(along)) > straight);
+        if (bends || (*next - at).norm() > 2 * step || (*next - at).dot(along) <= 0) next.reset();
       }
       if (!next || !is_inside(*next)) return false;
       before = along;
       at = *next;
       add(at);
-      if (n > 2 && (at - first).norm() < step_) {
+      const double from_first = (at - first).norm();
+      was_away = was_away || from_first > 2 * step_;
+      if (was_away && from_first < step_) {
         line.push_back(line.front());
         return true;
       }
@@ -123,7 +129,7 @@ class CurveTracer {
   const std::vector<LevelFunction>& g_;
   const SpaceBox& box_;
   Index d_;
-  double step_, small_;
+  double step_, least_step_, small_;
 };
 
 }  // namespace

@@ -172,11 +172,11 @@ def it_can_be_turned(chromium):
 
 
 def names_are_not_cut(chromium):
-    """Of constraints, beside the longest values that there are."""
+    """Beside long values, and numbers of constraints, which are short, beside the longest that there are."""
     chromium.evaluate("player.choose(Math.round(player.last / 2))")
     cut = chromium.evaluate("""player.charts.flatMap((chart) => chart.entries.flatMap(({ value }, i) => {
       const name = value.previousSibling, shown = value.textContent;
-      value.textContent = '−8.8888·10⁻¹²³';
+      value.textContent = name.textContent.startsWith('λ') ? '−8.8888·10⁻¹²³' : '−8.8888·10⁻¹²';
       const missing = name.scrollWidth > name.clientWidth + 1;
       value.textContent = shown;
       return missing ? [name.textContent] : [];
@@ -277,7 +277,7 @@ def no_body_is_missing(chromium):
 
 def all_scenes(program, chromium, folder, pictures):
     answer = subprocess.run([program, "scenes", "--json"], check=True, capture_output=True, text=True)
-    for scene in [one["name"] for one in json.loads(answer.stdout)]:
+    for scene in [one["name"] for one in json.loads(answer.stdout)["scenes"]]:
         path = os.path.join(folder, scene + "_short.html")
         subprocess.run([program, "run", scene, "--step", "1/64", "--until", "1/4", "--plot", path], check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

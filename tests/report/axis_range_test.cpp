@@ -81,9 +81,9 @@ TEST(Tics, OfPowersStandAtPowers) {
 }
 
 TEST(AxisRange, EndsAtRoundOff) {
-  EXPECT_EQ(ended_at_round_off({-40, -2}, -16).from, -16.5);
+  EXPECT_EQ(ended_at_round_off({-40, -2}, -16).from, -17);
   EXPECT_EQ(ended_at_round_off({-40, -2}, -16).to, -2);
-  EXPECT_EQ(ended_at_round_off({-40, -30}, -16).to, -14.5);
+  EXPECT_EQ(ended_at_round_off({-40, -30}, -16).to, -15);
 }
 
 TEST(Tics, OfLessThanTwoPowersAreNumbersBetween) {

@@ -27,7 +27,7 @@ TEST(MultiplierNames, CallJointsByTheirBodies) {
 TEST(MultiplierNames, OfOtherConstraintsAreTheirOwn) {
   EXPECT_EQ(names_in("double_pendulum"), (Names{"rod pivot-a", "rod a-b"}));
   EXPECT_EQ(names_in("bead_on_torus"), (Names{"formula of bead"}));
-  EXPECT_EQ(names_in("bead_on_helix"), (Names{"formula of bead (1)", "formula of bead (2)"}));
+  EXPECT_EQ(names_in("bead_on_helix"), (Names{"formula of bead, 1", "formula of bead, 2"}));
   EXPECT_EQ(names_in("heavy_top")[1], "directors 1 and 2 of top");
 }
 

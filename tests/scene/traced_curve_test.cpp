@@ -49,6 +49,19 @@ TEST(TracedCurve, OfTwoFunctionsLeavesTheBoxAtBothEnds) {
   EXPECT_NEAR(length_of(line), std::sqrt(2) * (high - low), 1e-3);
 }
 
+/// A circle that is small in its box has no corners that are seen; at a corner it goes on.
+TEST(TracedCurve, FollowsBends) {
+  const auto circle = traced_function([](const auto& x) { return x[0] * x[0] + x[1] * x[1] - 1; });
+  const PointLine line = traced_curve({circle}, {1, 0, 0}, {{-50, -50, 0}, {50, 50, 0}}, 2);
+  EXPECT_EQ(line.front(), line.back());
+  EXPECT_NEAR(length_of(line), 2 * M_PI, 0.02);
+  const auto corner = traced_function([](const auto& x) { return x[1] - std::abs(x[0] - 0.1234); });
+  const PointLine both = traced_curve({corner}, {1.1234, 1, 0}, {{-2, -2, 0}, {2, 2, 0}}, 2);
+  const auto [low, high] = std::minmax(both.front()[0], both.back()[0]);
+  EXPECT_LT(low, -1.8);
+  EXPECT_GT(high, 1.9);
+}
+
 /// From beside the curve it goes there first; without a curve there is none.
 TEST(TracedCurve, BeginsOnTheCurve) {
   const auto line = traced_function([](const auto& x) { return x[1] - 1; });

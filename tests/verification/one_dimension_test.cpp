@@ -28,7 +28,7 @@ Scene on_a_line(int dimension) {
   scene.effect({.kind = "formula", .on = {"c"}, .U = "-cos(x)"});
   scene.rod("b", "c", 1);
   if (dimension == 2)
-    for (const std::string& name : {"a", "b"})
+    for (const char* const name : {"a", "b"})
       scene.constraint(
           {.kind = "plane", .names = {{"body", {name}}}, .numbers = {{"offset", 0}}, .vectors = {{"normal", {0, 1}}}});
   return scene;

@@ -22,7 +22,7 @@ class Chart {
     this.names = chart.curves.map((curve) => Chart.nameOf(curve));
     this.entries = chart.curves.map((curve, i) => this.entry(curve, i));
     // Columns that numbers of another length do not move, and in which the shortest names are never cut
-    const longest = Math.max(...this.names.map((name) => name.length)), width = Math.max(12, 0.52 * longest + 9.2);
+    const longest = Math.max(...this.names.map((name) => name.length)), width = longest > 8 ? 0.52 * longest + 10 : 12;
     this.values.style.gridTemplateColumns = `repeat(auto-fill, minmax(${width}em, 1fr))`;
     const rows = motion.rows.map((row) => [row[0], ...chart.curves.map(({ column }) => this.drawn(row[column]))]);
     this.backward = motion.direction < 0;
