@@ -27,6 +27,14 @@ struct Body {
   NumberRows mass_matrix = {};  ///< instead of the mass
 };
 
+/// What a rigid body looks like in pictures.
+struct Shape {
+  std::string kind;   ///< "box", "cylinder", "disc", "ring" or "sphere"
+  Numbers size;       ///< edges of a box; radius and length of a cylinder; one radius
+  Numbers axis = {};  ///< in the body's frame, of the round ones in space; d3 if empty
+  Numbers at = {};    ///< its middle in the body's frame; the centre of mass if empty
+};
+
 /// How a rigid body is turned from the axes of space: one of these. In the plane the angle alone.
 struct Orientation {
   std::optional<Number> angle = {};  ///< in space about the axis
@@ -47,9 +55,10 @@ struct RigidBody {
   NumberRows second_moment = {};                ///< integral of X X^T dm about the reference point, in the body's frame
   NumberRows directors = {};                    ///< row i is director i in space
   std::optional<Orientation> orientation = {};  ///< instead of the directors
-  NumberRows inertia = {};        ///< about the centre of mass, instead of the second moment: a matrix, or one row of
-                                  ///< principal moments; in the plane one number
-  Numbers angular_velocity = {};  ///< one number in the plane, three in space
+  NumberRows inertia = {};          ///< about the centre of mass, instead of the second moment: a matrix, or one row of
+                                    ///< principal moments; in the plane one number
+  Numbers angular_velocity = {};    ///< one number in the plane, three in space
+  std::optional<Shape> shape = {};  ///< in pictures; without, that of a homogeneous body with these moments
 };
 
 /// A condition g(q) = 0 by its kind and keys, as a scene file has them, or by its formula.

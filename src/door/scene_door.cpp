@@ -72,6 +72,15 @@ class SceneTable {
   std::string text_;
 };
 
+SceneTable shape_lines(const Shape& shape) {
+  SceneTable table("shape");
+  if (shape.size.size() == 1)
+    table.key(shape.kind, shape.size.front());
+  else
+    table.key(shape.kind, shape.size);
+  return table.some("axis", shape.axis).some("at", shape.at);
+}
+
 SceneTable orientation_lines(const Orientation& o) {
   SceneTable table("orientation");
   if (o.angle) table.key("angle", *o.angle);
@@ -166,6 +175,7 @@ Scene& Scene::rigid_body(const RigidBody& body) {
     table.some("inertia", body.inertia);
   table.some("directors", body.directors);
   if (body.orientation) table.inline_table("orientation", orientation_lines(*body.orientation));
+  if (body.shape) table.inline_table("shape", shape_lines(*body.shape));
   if (body.angular_velocity.size() == 1)
     table.key("angular_velocity", body.angular_velocity.front());
   else

@@ -156,7 +156,7 @@ HeldOn held_on(const Scene& scene, const std::vector<std::vector<double>>& state
     if (bodies.g.size() + 1 == d)
       lines.curves.push_back(
           traced_curve(bodies.g, bodies.start, widened_for_lines(bodies.box, d, beside_curve), scene.dimension));
-    else if (bodies.g.size() == 1)
+    else if (d == 3 && bodies.g.size() == 1)
       for (PointLine& line : level_lines(bodies.g.front(), widened_for_lines(bodies.box, d, beside_mesh)))
         lines.meshes.push_back(std::move(line));
   }

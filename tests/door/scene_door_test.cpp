@@ -130,6 +130,21 @@ TEST(DoorScene, IsMadeConsistent) {
 
 TEST(DoorScene, BeginsWithATemplate) { EXPECT_NO_THROW(read_scene(scene_template()).check()); }
 
+TEST(DoorScene, BuildsShapes) {
+  for (const Shape& shape : {Shape{"box", {1, 2, 3}}, Shape{.kind = "cylinder", .size = {1, 2}, .axis = {0, 1, 0}},
+                             Shape{.kind = "sphere", .size = {"1/2"}, .at = {0, 0, 1}}}) {
+    Scene scene(3);
+    scene.rigid_body({.name = "a",
+                      .position = {0, 0, 0},
+                      .orientation = Orientation{.angle = 0, .axis = {0, 0, 1}},
+                      .inertia = {{1, 1, 1}},
+                      .angular_velocity = {0, 0, 1},
+                      .shape = shape});
+    EXPECT_NO_THROW(scene.check());
+    EXPECT_NE(scene.toml().find(shape.kind + " = "), std::string::npos) << scene.toml();
+  }
+}
+
 /// Of a scene that was read and of one that is built; the command makes the same again.
 TEST(DoorScene, TakesOtherNumbers) {
   Scene scene = load_scene("double_pendulum");

@@ -72,6 +72,15 @@ TEST(OneDimension, IsDescribedAndDrawn) {
   EXPECT_EQ(drawn.figure->panels.at(0).y.label, "x");
 }
 
+/// A body that a formula holds on the line is drawn without a surface.
+TEST(OneDimension, DrawsABodyThatIsHeld) {
+  Scene scene(1, "held");
+  scene.body({.name = "a", .position = {1}}).body({.name = "b", .position = {2}, .velocity = {1}});
+  scene.constraint({.kind = "formula", .names = {{"on", {"a"}}}, .g = "x^2 - 1"});
+  const hbvm::Run drawn = run({.scene = scene, .step = "1/16", .until = 1, .picture = true});
+  EXPECT_EQ(drawn.figure->panels.at(0).curves.size(), 2u);
+}
+
 TEST(OneDimension, HasNoTurning) {
   Scene scene = on_a_line(1);
   EXPECT_THROW(scene.observe("angle", "angle(a, b)"), InputError);
