@@ -51,7 +51,7 @@ RouteFunction function_of(Route route);
 Reference compute_reference(const ReferenceRequest& request,
                             const std::function<RouteFunction(Route)>& function = function_of);
 
-/// A hash of what a scene says, whatever its name and comments.
+/// A hash of what a scene says of the motion, whatever its name, its comments, what it observes and what it looks like.
 std::string scene_hash(const Scene& scene);
 
 inline constexpr int least_reference_digits = 1, most_reference_digits = 5000;

@@ -31,7 +31,7 @@ struct Tics {
 /// can be shown. On axes of powers it makes room for a tic with a number.
 AxisRange range_of(const std::vector<double>& values, AxisScale scale = AxisScale::linear);
 
-/// The range on an axis of decimal powers where all below this is round-off: it ends a decade below that, and is
+/// The range on an axis of decimal powers where all below this is round-off. It ends a decade below that, and is
 /// two decades long at least.
 AxisRange ended_at_round_off(const AxisRange& range, double round_off);
 

@@ -8,8 +8,7 @@ namespace {
 
 double length(const PlotPoint& x) { return std::hypot(x[0], x[1]); }
 
-/// Whether the cubic is the way that was gone: none of its ends is longer than this many times the straight way, and
-/// both lead on along it.
+/// Whether the cubic is the way that was gone. Both ends lead on along the straight way, and neither is much longer.
 bool fits(const PathPoint& from, const PathPoint& to) {
   constexpr double longest = 2;
   const double passed = to.t - from.t;

@@ -68,7 +68,10 @@ class PositionSearch {
         ++halved;
         next = q + share * direction;
       }
-      if (halved == halvings) return fulfils(polished(q)) ? std::optional(polished(q)) : std::nullopt;
+      if (halved == halvings) {
+        const Vector<S> ended = polished(q);
+        return fulfils(ended) ? std::optional(ended) : std::nullopt;
+      }
       last_ = q = next;
     }
     return std::nullopt;
@@ -95,9 +98,14 @@ class PositionSearch {
   }
 
  private:
-  /// A coordinate that is to be 0, as on the plane y = 0, is so but for what other coordinates were rounded by. It is
-  /// made 0: of that constraint there are no greater terms, which its round-off could be measured against.
-  Vector<S> polished(Vector<S> q) const {
+  /// What other coordinates were rounded by is taken from constraints whose own terms are small. A coordinate that is
+  /// to be 0, as on the plane y = 0, is made so: there are no terms that its round-off could be measured against.
+  Vector<S> polished(Vector<S> q) {
+    constexpr int most = 3;
+    for (int step = 0; step < most && !fulfils(q); ++step) {
+      if (!solve_at(q, Vector<S>::Zero(q.size()))) break;
+      q = moved(q, S(1));
+    }
     const S tolerance = round_off(q);
     for (const Constraint<S>& constraint : problem_.constraints) {
       if (value(constraint, problem_.dimension, q).vanishes()) continue;

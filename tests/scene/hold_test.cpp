@@ -64,8 +64,8 @@ class Hold : public InDigits<50> {
 };
 TYPED_TEST_SUITE(Hold, AllScalars, ScalarNames);
 
-/// Angle and rate stay as they are written. The rest follows: with the crank's end at height h = sqrt(3)/4 the rod of
-/// length l = 3/2 reaches the line at x = 1/4 + w, w = sqrt(l^2 - h^2), with the speed -20 h (1 + x_c/w), x_c = 1/4.
+/// Angle and rate stay as they are written, and the rest follows. The crank's end is at x_c = 1/4, h = sqrt(3)/4. The
+/// rod of length l = 3/2 reaches the line at x = x_c + w, w = sqrt(l^2 - h^2). Its speed there is -20 h (1 + x_c/w).
 TYPED_TEST(Hold, KeepsTheAngleAndTheRateOfACrank) {
   using S = TypeParam;
   using std::sqrt;

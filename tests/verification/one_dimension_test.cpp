@@ -37,10 +37,10 @@ Scene on_a_line(int dimension) {
 /// The same numbers to round-off, whichever the precision and the method.
 TEST(OneDimension, IsTheMotionOnALineOfThePlane) {
   for (const char* precision : {"double", "quad", "mpfr:40"})
-    for (const char* method : {"hbvm:4,2", "hbvm:auto,3", "rattle", "rk4+project", "taylor"}) {
+    for (const char* method : {"hbvm:4,2", "hbvm:auto,3", "rattle", "rk4+project", "hbvm:3,3"}) {
       const auto made = [&](int dimension) {
         return run(
-            {.scene = on_a_line(dimension), .method = method, .step = "1/32", .until = 3, .precision = precision});
+            {.scene = on_a_line(dimension), .method = method, .step = "1/32", .until = 1, .precision = precision});
       };
       const hbvm::Run line = made(1), plane = made(2);
       ASSERT_EQ(line.q.size(), 3u);
@@ -56,7 +56,7 @@ TEST(OneDimension, IsTheMotionOnALineOfThePlane) {
 /// The reference of the line, in thirty digits, is that of the plane.
 TEST(OneDimension, HasReferences) {
   const auto made = [&](int dimension) {
-    return reference({.scene = on_a_line(dimension), .times = {2}, .digits = 30}).times.at(0);
+    return reference({.scene = on_a_line(dimension), .times = {1}, .digits = 30}).times.at(0);
   };
   const auto line = made(1), plane = made(2);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(line.q[i].substr(0, 30), plane.q[2 * i].substr(0, 30));
@@ -83,7 +83,8 @@ TEST(OneDimension, DrawsABodyThatIsHeld) {
 
 TEST(OneDimension, HasNoTurning) {
   Scene scene = on_a_line(1);
-  EXPECT_THROW(scene.observe("angle", "angle(a, b)"), InputError);
+  scene.observe("angle", "angle(a, b)");
+  EXPECT_THROW(run({.scene = scene, .step = "1/4", .until = 1}), InputError);
 }
 
 }  // namespace
