@@ -99,7 +99,7 @@ class PositionSearch {
 
  private:
   /// What other coordinates were rounded by is taken from constraints whose own terms are small. A coordinate that is
-  /// to be 0, as on the plane y = 0, is made so: there are no terms that its round-off could be measured against.
+  /// to be 0, as on the plane y = 0, is made so. It has no terms that its round-off could be measured against.
   Vector<S> polished(Vector<S> q) {
     constexpr int most = 3;
     for (int step = 0; step < most && !fulfils(q); ++step) {
