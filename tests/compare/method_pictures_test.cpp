@@ -55,6 +55,16 @@ TEST(MethodPictures, JoinThePathsOfAMotion) {
   EXPECT_EQ((*(gap + 1))[0], compared.runs[0].recording.samples[0].q[2]);
 }
 
+/// Satellites that go round the Earth are far from where they were, and none of that is left out.
+TEST(MethodPictures, ShowAllOfAMotionThatStays) {
+  const Figure figure = Compared("tethered_satellites", {"hbvm:2,2", "rattle"}, "1/4", "50").figure();
+  for (const Curve& curve : figure.panels[0].curves) {
+    const auto gaps =
+        std::count_if(curve.points.begin(), curve.points.end(), [](const PlotPoint& x) { return std::isnan(x[0]); });
+    EXPECT_EQ(gaps, 2) << "between three bodies";
+  }
+}
+
 /// Explicit Euler spirals away from the sun; it is seen until it has left what the others stay in, its error is all.
 TEST(MethodPictures, ShowAMotionUntilItLeaves) {
   const Compared compared("kepler", {"euler", "rattle"}, "1/8", "100");

@@ -80,16 +80,16 @@ TYPED_TEST(ObservationsTest, TellTheirRange) {
   using S = TypeParam;
   Scene scene = turning();
   scene.observations.clear();
-  scene = with_observation(scene, "height", "bob.y");
+  scene = with_observation(scene, "height", "bob.y + 5");
   SceneRun<S> run(scene, 8, 8, "1/16", "9", SolverKind::newton);
   Observations<S> observations(scene, run.scene.problem);
   Recorder<S> recorder;
   run({&observations, &recorder});
   const auto lower = [](const Snapshot<S>& a, const Snapshot<S>& b) { return a.q[1] < b.q[1]; };
   const auto [lowest, highest] = std::minmax_element(recorder.seen.begin(), recorder.seen.end(), lower);
-  EXPECT_EQ(observations.least().values[0], lowest->q[1]);
+  EXPECT_EQ(observations.least().values[0], S(lowest->q[1] + 5));
   EXPECT_EQ(observations.least().times[0], lowest->t);
-  EXPECT_EQ(observations.greatest().values[0], highest->q[1]);
+  EXPECT_EQ(observations.greatest().values[0], S(highest->q[1] + 5));
   EXPECT_EQ(observations.greatest().times[0], highest->t);
   EXPECT_GT(highest->q[1], 0);
 }

@@ -39,6 +39,18 @@ TYPED_TEST(NearestPosition, IsRefusedWhereThereIsNone) {
                {"no consistent position", "the search ended where these are off: rod '", "e-"});
 }
 
+/// Where the slope of g falls off, a full step of Newton's method from far away leads farther away.
+TYPED_TEST(NearestPosition, IsFoundWhereFullStepsLeadAway) {
+  using S = TypeParam;
+  const Assembled<S> scene = assembled<S>(
+      "dimension = 2\nbody = [{ name = \"a\", mass = 1, position = [1, 0.3], velocity = [0, 1] }]\n"
+      "constraint = [{ kind = \"formula\", on = \"a\", g = \"atan(5*x)\" }]\n",
+      Consistency::unchecked);
+  const Vector<S> q = nearest_position(scene.problem, scene.q0);
+  EXPECT_EQ(q[0], 0);
+  EXPECT_EQ(q[1], scene.q0[1]);
+}
+
 /// Bars of a chain that are drawn up to thirty degrees off, and whose ends do not meet.
 TYPED_TEST(NearestPosition, IsFoundFromARoughSketch) {
   using S = TypeParam;
