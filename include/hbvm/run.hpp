@@ -169,9 +169,9 @@ struct Run {
 /// \throws InputError, IntegrationError with the time where the run could not go on, Interrupted
 Run run(const RunRequest& request);
 
-/// Lines for people, as `hbvm run` prints them: a verdict, errors, warnings, and the state. The state is that of
-/// output, to the digits that were found right, or to six if none were looked for. \param state the propagated and the
-/// output state instead, with all digits
+/// Lines for people, as `hbvm run` prints them: a verdict, errors, warnings, and the output state. Its numbers have the
+/// digits that were found right, or six if none were looked for.
+/// \param state all digits instead, of the propagated state and of that of output
 std::string to_text(const Run& run, bool state = false);
 
 /// One JSON object, as `hbvm run --json` prints it. Every number of the working precision is decimal text that reads

@@ -151,9 +151,10 @@ Scene load_scene(const std::string& path_or_name);
 Scene read_scene(const std::string& toml, const std::string& name = "scene");
 /// A scene to begin with: a commented text that runs, and names the parts there are.
 const std::string& scene_template();
-/// The scene with the nearest start that fulfils the constraints, comments and all. A start with more digits than are
-/// exact is one in the digits of the precision. \param hold parts that stay as they are: "a.position", "a.velocity", a
-/// coordinate, as "a.x" or "a.vx", and "crank.angle" and "crank.rate" of a rigid body
+/// The scene with the nearest start that fulfils the constraints, comments and all. What changes is written in the
+/// digits of the precision.
+/// \param hold parts that stay as they are: "a.position", "a.velocity", a coordinate, as "a.x" or "a.vx", and
+///        "crank.angle" and "crank.rate" of a rigid body
 /// \throws InputError if there is none, or none that holds these
 Scene project(const Scene& scene, const std::string& precision = "double", const std::vector<std::string>& hold = {});
 

@@ -24,7 +24,8 @@ using Portrait = std::array<std::string, 2>;
 
 /// What there is to see of a run: its motion (in the plane, or along two axes), what it observes, its multipliers and
 /// its errors. The axis of the errors is logarithmic. Observations of a portrait are drawn against each other, the
-/// others against time. \param linear_energy also H - H_0 on an axis that is not
+/// others against time.
+/// \param linear_energy also show H - H_0 on a linear axis
 Figure run_figure(const Sketch& sketch, const Recording& recording, const std::vector<Portrait>& portraits = {},
                   bool linear_energy = false);
 
