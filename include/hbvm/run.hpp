@@ -29,7 +29,8 @@ struct RunRequest {
   bool shadow = false;               ///< tell how many digits survived rounding
   bool error = false;                ///< tell how many digits are right
   std::string start = {};            ///< JSON with q and p, as to_json() of a run gives it; messages call it start.json
-  bool picture = false;              ///< also make a figure, a page that moves, and frames
+  bool picture = false;              ///< also make a figure and a page that moves
+  bool frames = false;               ///< also make pictures one after another
   /// Pairs of what may be observed, as {"a.x", "a.px"}: the figure draws one against the other.
   std::vector<std::pair<std::string, std::string>> portraits = {};
   bool linear_energy = false;  ///< figure and page also show H - H_0 on a linear axis
@@ -162,7 +163,7 @@ struct Run {
   Trajectory trajectory;
   std::optional<Figure> figure;  ///< motion, multipliers and errors, if a picture was asked for
   std::string page;              ///< HTML of its own, in which the motion moves; likewise
-  std::vector<Figure> frames;    ///< the motion as pictures one after another, 20 a second; likewise
+  std::vector<Figure> frames;    ///< the motion as pictures one after another, 20 a second, if they were asked for
   std::string command;           ///< of the program, which makes the same motion
 };
 

@@ -97,15 +97,15 @@ Run run(const RunRequest& door) {
     hooks.trajectory = &lines;
     hooks.every = door.every;
   }
-  if (door.picture) hooks.recording = &recording;
+  if (door.picture || door.frames) hooks.recording = &recording;
   Run run = core::run(request, hooks);
   run.command = core::command_of(door, request);
   run.trajectory = core::trajectory_of(lines);
   if (door.picture) {
     run.figure = core::figure_of(request, recording, run.command);
     run.page = core::run_page(request, recording, run.command);
-    run.frames = core::frames_of(request, recording);
   }
+  if (door.frames) run.frames = core::frames_of(request, recording);
   return run;
 }
 

@@ -309,8 +309,10 @@ struct Terminal {
   double letters;
 };
 
+constexpr double points_a_pixel = 0.75;
+
 Terminal terminal_of(const std::string& file, const PlotPoint& size) {
-  constexpr double pixels_an_inch = 96, points_a_pixel = 0.75;
+  constexpr double pixels_an_inch = 96;
   if (file.ends_with(".svg"))
     return {fmt::format("svg size {:.0f},{:.0f} enhanced background rgb 'white'", size[0], size[1]), 1};
   if (file.ends_with(".pdf"))
@@ -380,7 +382,7 @@ std::string gnuplot_script(const std::vector<Figure>& frames, int a_second, cons
   const core::Terminal terminal{fmt::format("gif animate delay {} loop 0 size {:.0f},{:.0f} enhanced background "
                                             "rgb 'white'",
                                             hundredths / a_second, size[0], size[1]),
-                                0.75};
+                                core::points_a_pixel};
   std::string text = core::opening(terminal, file);
   for (const Figure& frame : frames) text += core::picture(frame, terminal);
   return text;

@@ -283,13 +283,19 @@ Figure run_figure(const Sketch& sketch, const Recording& recording, const std::v
 
 std::vector<Figure> motion_frames(const Sketch& sketch, const Recording& recording) {
   constexpr std::size_t most = 120;
-  const Recording whole = recording.until_lost();
+  Recording whole = recording.until_lost();
+  // Every frame has the path anew. So many samples make no corners in it, and need no points between them.
+  constexpr std::size_t smooth = 300;
+  if (whole.samples.size() >= smooth)
+    for (Recording::Sample& sample : whole.samples) sample.v.clear();
   const std::size_t last = whole.samples.size() - 1, count = std::min(most, last);
   std::vector<Figure> frames;
   std::vector<std::vector<PlotPoint>> room;
+  Recording part = whole;
+  part.samples.clear();
   for (std::size_t n = 1; n <= count; ++n) {
-    Recording part = whole;
-    part.samples.resize(n * last / count + 1);
+    const auto sample = [&](std::size_t i) { return whole.samples.begin() + static_cast<std::ptrdiff_t>(i); };
+    part.samples.insert(part.samples.end(), sample(part.samples.size()), sample(n * last / count + 1));
     Figure& frame = frames.emplace_back();
     frame.panels = motion_panels(sketch, part, fmt::format("t = {:.3f}", part.samples.back().t));
     room.resize(frame.panels.size());

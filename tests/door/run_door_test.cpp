@@ -111,6 +111,17 @@ TEST(DoorRun, MakesPictures) {
   EXPECT_GT(made.figure->panels.size(), 1u);
   core::expect_words(made.figure->footnote, {made.command});
   core::expect_words(made.page, {"<html"});
+  EXPECT_TRUE(made.frames.empty());
+}
+
+/// One for each step of a short run.
+TEST(DoorRun, MakesFramesIfAsked) {
+  RunRequest request = pendulum();
+  request.frames = true;
+  const hbvm::Run made = run(request);
+  EXPECT_FALSE(made.figure);
+  ASSERT_EQ(made.frames.size(), 32u);
+  EXPECT_EQ(made.frames.back().panels.at(0).title, "t = 2.000");
 }
 
 TEST(DoorRun, RefusesWhatTheProgramRefuses) {
