@@ -79,20 +79,17 @@ class PositionSearch {
 
   /// The constraints that are farthest from 0 where consistent() ended.
   std::string residuals() const {
-    struct Residual {
-      const std::string* name;
-      S g, share;
-    };
-    std::vector<Residual> all;
+    std::vector<std::pair<double, std::string>> all;  // shares of the terms, and texts
     for (const Constraint<S>& constraint : problem_.constraints) {
       const auto at = value(constraint, problem_.dimension, last_);
-      if (!at.vanishes()) all.push_back({&constraint.name, at.g, S(magnitude(at.g) / at.size)});
+      if (!at.vanishes())
+        all.emplace_back(approximately(S(magnitude(at.g) / at.size)),
+                         fmt::format("{} ({})", constraint.name, to_scientific(at.g, 2)));
     }
-    std::stable_sort(all.begin(), all.end(), [](const Residual& a, const Residual& b) { return a.share > b.share; });
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     constexpr std::size_t most = 4;
     std::vector<std::string> texts;
-    for (std::size_t i = 0; i < std::min(all.size(), most); ++i)
-      texts.push_back(fmt::format("{} ({})", *all[i].name, to_scientific(all[i].g, 2)));
+    for (std::size_t i = 0; i < std::min(all.size(), most); ++i) texts.push_back(all[i].second);
     return fmt::format("{}{}", fmt::join(texts, ", "),
                        all.size() > most ? fmt::format(", and {} more", all.size() - most) : "");
   }
