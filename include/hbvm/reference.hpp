@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -10,15 +11,21 @@
 namespace hbvm {
 
 /// A solution whose digits are found by two routes that share only the scene, and by the closed form where there is
-/// one.
+/// one. Or its digits are proved.
 struct ReferenceRequest {
   Scene scene;
   Numbers times;           ///< positive, ascending
   int digits = 30;         ///< after the leading one of each vector's greatest component, 1 to 5000
   std::string route = {};  ///< "taylor", "hbvm" or "closed_form" alone: nothing is confirmed then
   bool force = false;      ///< do also what is expected to take more than a day, or 16 GB
+  bool prove = false;      ///< by bounds of the motion, step by step, instead of two routes that agree
   std::function<void(double part)> progress = {};  ///< called now and then, from any thread
   std::stop_token stop = {};
+};
+
+/// How far numbers may be from the motion, as is proved: the most of each vector's components, three digits or fewer.
+struct ProvedRadius {
+  std::string q, p, lambda, H;
 };
 
 /// A decimal text for each number, to `digits` digits after the leading one of its vector's greatest component.
@@ -28,7 +35,8 @@ struct ReferenceState {
   std::string H;
   std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
   long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors
-  std::vector<std::string> observed = {};  ///< what the scene observes; angles in (-pi, pi]
+  std::vector<std::string> observed = {};   ///< what the scene observes; angles in (-pi, pi]
+  std::optional<ProvedRadius> radius = {};  ///< if the digits are proved: besides their rounding to the last digit
 };
 
 struct RouteReport {
@@ -44,10 +52,13 @@ struct Reference {
   std::vector<std::string> momentum_names, observed_names;
   std::vector<RouteReport> routes;
   double digits_lost = 0;  ///< by which the motion magnifies an error of the start, in decimal digits
+  int proved = 0;          ///< digits that are proved; 0 if they are agreed on
 };
 
-/// \throws InputError for digits or times out of range, for what would take too long, and for a closed form that is not
-///         known; IntegrationError where the motion ends, or the routes do not agree, with both values; Interrupted
+/// \throws InputError for digits or times out of range, for what would take too long, for a closed form that is not
+///         known, and for a proof from a start that is not exact
+/// \throws IntegrationError where the motion ends, the routes do not agree, with both values, or nothing can be proved
+/// \throws Interrupted
 Reference reference(const ReferenceRequest& request);
 
 /// One JSON object, as `hbvm reference --json` prints it. \param command that made it, of the program

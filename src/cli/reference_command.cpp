@@ -34,7 +34,7 @@ struct ReferenceArguments {
   std::vector<std::string> at;
   ComparisonArguments against;
   int digits = 30;
-  bool json = false, list = false, force = false;
+  bool json = false, list = false, force = false, prove = false;
 };
 
 Expression time_of(const std::string& text) { return expression_of(text, "a time of the reference:"); }
@@ -112,7 +112,12 @@ void print(const Scene& scene, const Reference& r) {
     for (std::size_t i = 0; i < state.momenta.size(); ++i) lines.add(r.momentum_names[i], "", state.momenta[i]);
     for (std::size_t i = 0; i < state.observed.size(); ++i) lines.add(r.observed_names[i], "", state.observed[i]);
     lines.print();
-    if (r.routes.size() > 1)
+    if (state.radius)
+      fmt::print(
+          "{} digits after the leading one, proved: q is within {}, p {}, lambda {}, H {} of the number that was "
+          "rounded\n",
+          r.digits, state.radius->q, state.radius->p, state.radius->lambda, state.radius->H);
+    else if (r.routes.size() > 1)
       fmt::print("{} digits after the leading one; the routes agree in {}\n", r.digits, state.agreed);
     else
       fmt::print("{} digits after the leading one, by one route: nothing confirms them\n", r.digits);
@@ -195,14 +200,18 @@ void reference_command(const ReferenceArguments& o) {
   request.scene = scene_of(SceneArgument{*o.scene, o.settings.settings, o.settings.observations}.load());
   request.digits = o.digits;
   request.force = o.force;
+  request.prove = o.prove;
   for (const std::string& text : o.at) request.times.push_back(time_of(text));
   if (o.at.empty()) request.times.push_back(time_of(*o.until));
   if (o.route) request.only = parse_route(*o.route);
+  if (o.prove && (o.route || o.checkpoint))
+    throw InputError("reference: --prove takes neither --route nor --checkpoint");
   std::string command = "hbvm reference " + *o.scene + settings_in_command(request.scene);
   if (o.until) command += " --until " + *o.until;
   for (std::size_t i = 0; i < o.at.size(); ++i) command += (i == 0 ? " --at " : ",") + o.at[i];
   command += fmt::format(" --digits {}", o.digits);
   if (o.route) command += " --route " + *o.route;
+  if (o.prove) command += " --prove";
   const Reference reference = compute(request, o.checkpoint);
   if (o.out) {
     if (o.route) throw InputError("--out: what one route found alone is no reference");
@@ -233,6 +242,8 @@ void add_reference_command(CLI::App& app) {
   command->add_option("--out", o->out, "Write it to this file, in TOML");
   command->add_option("--checkpoint", o->checkpoint,
                       "Keep what is done in this file, some hundred steps at a time: the same command goes on from it");
+  command->add_flag("--prove", o->prove,
+                    "Prove the digits: bounds of the motion, step by step, in place of two routes that agree");
   command->add_flag("--force", o->force, "Do also what is expected to take more than a day, or 16 GB");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->add_flag("--list", o->list, "List the references that are shipped");

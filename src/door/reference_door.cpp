@@ -15,12 +15,14 @@ Reference reference(const ReferenceRequest& door) {
   request.digits = door.digits;
   if (!door.route.empty()) request.only = core::parse_route(door.route);
   request.force = door.force;
+  request.prove = door.prove;
   request.progress = core::watched(door.progress);
   return core::compute_reference(request);
 }
 
 std::string to_json(const Reference& r, const std::string& command) {
   core::OrderedJson j{{"scene", r.scene}, {"until", r.times.back().t}, {"digits", r.digits}};
+  if (r.proved > 0) j["proved"] = r.proved;
   j["names"] = {{"q", r.q_names}, {"p", r.p_names}, {"lambda", r.lambda_names}};
   j["times"] = core::OrderedJson::array();
   for (const ReferenceState& state : r.times) {
@@ -29,6 +31,9 @@ std::string to_json(const Reference& r, const std::string& command) {
     for (std::size_t i = 0; i < state.momenta.size(); ++i) entry["momenta"][r.momentum_names[i]] = state.momenta[i];
     for (std::size_t i = 0; i < state.observed.size(); ++i) entry["observed"][r.observed_names[i]] = state.observed[i];
     entry["agreed"] = r.routes.size() > 1 ? core::OrderedJson(state.agreed) : core::OrderedJson(nullptr);
+    if (state.radius)
+      entry["radius"] = {
+          {"q", state.radius->q}, {"p", state.radius->p}, {"lambda", state.radius->lambda}, {"H", state.radius->H}};
     j["times"].push_back(entry);
   }
   j["routes"] = core::OrderedJson::array();

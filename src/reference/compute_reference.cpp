@@ -10,12 +10,13 @@
 
 #include "checksum.hpp"
 #include "clock.hpp"
-#include "integrate/observations.hpp"
 #include "interruption.hpp"
 #include "problem/redundant_constraints.hpp"
 #include "reference/agreement.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "reference/effort.hpp"
+#include "reference/observed_texts.hpp"
+#include "reference/proved_reference.hpp"
 #include "reference/reference_motion.hpp"
 #include "reference/route_run.hpp"
 #include "reference/taylor.hpp"
@@ -213,51 +214,6 @@ std::string scene_hash(const Scene& scene) {
   return Checksum(write_scene(plain)).text();
 }
 
-namespace {
-
-/// x with its last digits changed, another way in each component.
-Vector<Mpfr> shaken(Vector<Mpfr> x) {
-  constexpr int least = 64;
-  for (Index i = 0; i < x.size(); ++i) x[i] += x[i] * epsilon<Mpfr>() * static_cast<int>(least + i);
-  return x;
-}
-
-/// The first value to the digits in which no other differs, at most those that were asked for.
-std::string agreed_text(const std::vector<Mpfr>& x, int digits) {
-  using std::floor, std::log10;
-  Mpfr difference = 0;
-  for (const Mpfr& other : x) raise_to(difference, magnitude(Mpfr(other - x.front())));
-  const Mpfr size = magnitude(x.front());
-  if (size <= difference) return "0";
-  long agreed = digits + 1;
-  if (difference > 0) agreed = std::min(agreed, static_cast<long>(floor(log10(Mpfr(size / difference)))));
-  return rounded_text(to_text(x.front()), static_cast<int>(std::max(1L, agreed)));
-}
-
-/// What the scene observes, at each time by each route. Rounding that a formula magnifies is in all routes alike. A
-/// state with its last digits changed shows it.
-void add_observed(Reference& result, const ReferenceRequest& request, const Problem<Mpfr>& problem,
-                  const std::vector<NamedRun>& runs) {
-  if (request.scene.observations.empty()) return;
-  Observations<Mpfr> observations(request.scene, problem);
-  for (const SceneObservation& observation : request.scene.observations)
-    result.observed_names.push_back(observation.name);
-  for (std::size_t n = 0; n < result.times.size(); ++n) {
-    std::vector<std::vector<Mpfr>> values(result.observed_names.size());
-    const Mpfr t = evaluate<Mpfr>(request.times[n], request.scene.constants);
-    const auto add = [&](const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
-      const Vector<Mpfr>& seen = observations.see(t, q, p);
-      for (std::size_t i = 0; i < values.size(); ++i) values[i].push_back(seen[static_cast<Index>(i)]);
-    };
-    for (const NamedRun& run : runs) add(run.run.points[n].q, run.run.points[n].p);
-    const ExactPoint& first = runs.front().run.points[n];
-    add(shaken(first.q), shaken(first.p));
-    for (const std::vector<Mpfr>& x : values) result.times[n].observed.push_back(agreed_text(x, request.digits));
-  }
-}
-
-}  // namespace
-
 RouteFunction function_of(Route route) {
   if (route == Route::taylor) return [](const RouteWork& work, double) { return taylor_route(work); };
   if (route == Route::hbvm) return hbvm_route;
@@ -281,6 +237,10 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
                    .observed_names = {},
                    .routes = {},
                    .digits_lost = nature.digits_lost};
+  if (request.prove) {
+    add_proved_states(result, request);
+    return result;
+  }
   int guard = first_guard;
   for (int round = 1;; ++round) {
     Attempt attempt(request, function, nature, guard);
@@ -297,7 +257,10 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
     result.times = agreement.states();
     result.momentum_names = agreement.momentum_names();
     result.lambda_names = names_of_constraints(assembled.problem);
-    add_observed(result, request, assembled.problem, runs);
+    std::vector<std::vector<ExactPoint>> points;
+    for (const NamedRun& run : runs) points.push_back(run.run.points);
+    points.push_back(shaken(points.front()));
+    add_observed_texts(result, request, assembled.problem, points);
     for (const NamedRun& run : runs) result.routes.push_back({run.name, run.run.settings, run.run.cpu_seconds});
     return result;
   }

@@ -32,6 +32,7 @@ struct ReferenceRequest {
   /// Called with what each route will take, before it begins.
   std::function<void(const Effort&)> estimate = {};
   bool force = false;  ///< do also what will take more than a day, or more memory than most machines have
+  bool prove = false;  ///< by bounds of the motion instead of two routes
 };
 
 /// What a route finds in the digits of the scope, of which so many are to be right. Nothing if it does not serve a

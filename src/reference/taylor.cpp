@@ -496,21 +496,25 @@ void TaylorMotion::finish() {
   p_values_ = kept_p;
 }
 
+void TaylorMotion::next_step() {
+  evaluate(length_, start_q_, start_p_);
+  start_ += length_;
+  ++steps_;
+  set_unit(next_log2_unit_);
+  take_up();
+}
+
+void TaylorMotion::shorten(const Mpfr& most) {
+  if (length_ > most) set(length_, most);
+}
+
 void TaylorMotion::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)>& after_step) {
-  for (;;) {
-    const Mpfr left = t - start_;
-    if (left <= length_) {
-      evaluate(left, q_, p_);
-      finish();
-      return;
-    }
-    evaluate(length_, start_q_, start_p_);
-    start_ += length_;
-    ++steps_;
+  while (t - start_ > length_) {
+    next_step();
     if (after_step) after_step(start_);
-    set_unit(next_log2_unit_);
-    take_up();
   }
+  evaluate(t - start_, q_, p_);
+  finish();
 }
 
 }  // namespace hbvm::core

@@ -55,6 +55,18 @@ class TaylorMotion {
   const Vector<Mpfr>& lambda() const { return lambda_; }
   ExactPoint output() const { return {q_, p_, lambda_}; }
 
+  /// The step under way: where it starts, the unit h of its series, how long it is. The series of the positions
+  /// have coefficients up to order(), those of the multipliers up to order() - 1.
+  const Mpfr& start() const { return start_; }
+  const Mpfr& unit() const { return unit_; }
+  const Mpfr& length() const { return length_; }
+  const Mpfr* position(Index j) const { return &q_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
+  const Mpfr* multiplier(Index a) const { return &lambda_values_[static_cast<std::size_t>(a * (order_ + 2))]; }
+  /// Goes on to the step that begins where this one ends.
+  void next_step();
+  /// Ends the step under way after so long a time at most.
+  void shorten(const Mpfr& most);
+
   Index order() const { return order_; }
   long steps() const { return steps_; }
   /// log2 of the least radius of convergence that the coefficients of a step showed.

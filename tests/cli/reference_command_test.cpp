@@ -31,6 +31,35 @@ TEST(ReferenceCommand, PrintsJson) {
     EXPECT_GT(route["cpu_seconds"], 0);
   }
   for (const char* key : {"scene_hash", "version", "command"}) EXPECT_TRUE(j[key].is_string()) << key;
+  EXPECT_FALSE(j.contains("proved"));
+}
+
+/// Proved digits are those of the routes, with the radius of each vector; and a refusal says until when.
+TEST(ReferenceCommand, ProvesDigits) {
+  const ordered_json j = json_of({"reference", "simple_pendulum", "--at", "5/2,10", "--digits", "40", "--prove"});
+  EXPECT_EQ(j["proved"], 40);
+  EXPECT_EQ(j["times"][1]["q"][0].get<std::string>().substr(0, 32), "0.114003850418645211312316725708");
+  for (const auto& state : j["times"]) {
+    EXPECT_TRUE(state["agreed"].is_null());
+    for (const char* key : {"q", "p", "lambda", "H"})
+      EXPECT_LT(std::stod(state["radius"][key].get<std::string>()), 1e-41) << key;
+  }
+  ASSERT_EQ(j["routes"].size(), 1u);
+  EXPECT_EQ(j["routes"][0]["name"], "proof");
+  EXPECT_EQ(j["command"], "hbvm reference simple_pendulum --at 5/2,10 --digits 40 --prove");
+  expect_words(hbvm({"reference", "kepler", "--until", "1", "--prove"}).out,
+               {"30 digits after the leading one, proved: q is within"});
+  const Folder folder;
+  const std::string fall = folder.write("fall.toml", R"(
+dimension = 2
+point = [{ name = "sun", position = [0, 0] }]
+body = [{ name = "a", mass = 1, position = [1, 0], velocity = [0, 0] }]
+effect = [{ kind = "central_gravity", center = "sun", strength = 1 }]
+)");
+  const Outcome ended = hbvm({"reference", fall, "--until", "2", "--prove"});
+  EXPECT_EQ(ended.code, 3);
+  expect_words(hbvm({"reference", "kepler", "--until", "1", "--prove", "--route", "taylor"}).err,
+               {"--prove takes neither --route nor --checkpoint"});
 }
 
 /// The bob of length 1: its height is that of its angle, and the tension follows from the energy. The digits are all

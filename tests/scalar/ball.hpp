@@ -6,8 +6,7 @@
 
 namespace hbvm::core {
 
-/// The bits of what is computed with numbers of FLINT/Arb, which hold the exact result.
-inline slong ball_bits = 128;
+/// Numbers of FLINT/Arb, which hold the exact result, in the bits of the BallScope.
 
 /// The radius, from above.
 inline BigFloat radius_of(const RealBall& x) {
@@ -21,27 +20,22 @@ inline BigFloat radius_of(const RealBall& x) {
 }
 /// The midpoint, with all its bits.
 inline BigFloat midpoint_of(const RealBall& x) {
-  BigFloat result(static_cast<mpfr_prec_t>(ball_bits));
+  BigFloat result(static_cast<mpfr_prec_t>(BallScope::bits()));
   arf_get_mpfr(raw(result), arb_midref(raw(x)), MPFR_RNDN);
   return result;
 }
 
 inline RealBall made(void (*f)(arb_t, const arb_t, const arb_t, slong), const RealBall& a, const RealBall& b) {
   RealBall result;
-  f(raw(result), raw(a), raw(b), ball_bits);
+  f(raw(result), raw(a), raw(b), BallScope::bits());
   return result;
 }
 inline RealBall made(void (*f)(arb_t, const arb_t, slong), const RealBall& a) {
   RealBall result;
-  f(raw(result), raw(a), ball_bits);
+  f(raw(result), raw(a), BallScope::bits());
   return result;
 }
 
-inline RealBall operator+(const RealBall& a, const RealBall& b) { return made(arb_add, a, b); }
-inline RealBall operator-(const RealBall& a, const RealBall& b) { return made(arb_sub, a, b); }
-inline RealBall operator*(const RealBall& a, const RealBall& b) { return made(arb_mul, a, b); }
-inline RealBall operator/(const RealBall& a, const RealBall& b) { return made(arb_div, a, b); }
-inline RealBall operator-(const RealBall& a) { return RealBall(0) - a; }
 inline RealBall pow(const RealBall& a, const RealBall& b) { return made(arb_pow, a, b); }
 inline RealBall sqrt(const RealBall& a) { return made(arb_sqrt, a); }
 inline RealBall sin(const RealBall& a) { return made(arb_sin, a); }

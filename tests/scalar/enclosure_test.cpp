@@ -44,7 +44,7 @@ class Generator {
     switch (pick(4)) {
       case 0: {
         Formula pi{"pi", Binding::primary, {}};
-        arb_const_pi(raw(pi.value), ball_bits);
+        arb_const_pi(raw(pi.value), BallScope::bits());
         return pi;
       }
       case 1: {
@@ -158,7 +158,7 @@ class RandomExpressions : public ::testing::TestWithParam<int> {};
 TEST_P(RandomExpressions, AreRoundedCorrectly) {
   const PrecisionScope scope(static_cast<unsigned>(GetParam()));
   const int bits = mpfr_working_bits();
-  ball_bits = 6 * bits + 1'000;
+  const BallScope balls(6 * bits + 1'000);
   Generator generator(2024);
   int not_zero = 0;
   for (int trial = 0; trial < 1'000; ++trial) {

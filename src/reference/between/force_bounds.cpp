@@ -83,27 +83,31 @@ std::vector<double> ForceBounds::scales(double log2_h) const {
   return scale;
 }
 
-bool ForceBounds::hold(double log2_h, const LoopOf& loop) {
+std::vector<double> ForceBounds::limits(std::size_t number, double log2_h) const {
+  const Force& force = forces_[number];
   const Index d = problem_.dimension;
   const std::vector<double> scale = scales(log2_h);
+  std::vector<double> result;
+  for (Index i = 0; i < force.term->arguments * d; ++i) {
+    double limit = force.log2_size;
+    if (!force.is_constraint) {
+      limit = std::numeric_limits<double>::infinity();
+      for (const auto& block : force.displacement(i, d).blocks)
+        limit =
+            std::min(limit, scale[block_of_[static_cast<std::size_t>(block.offset)]] - log2_of(block.weight) - log2_h);
+    }
+    result.push_back(limit + allowed_bits);
+  }
+  return result;
+}
+
+bool ForceBounds::hold(double log2_h, const LoopOf& loop) {
   for (std::size_t f = 0; f < forces_.size(); ++f) {
     Force& force = forces_[f];
     if (force.term->constant_force) continue;
-    const Index inputs = force.term->arguments * d;
     std::vector<Loop> loops;
-    std::vector<double> limits;
-    for (Index i = 0; i < inputs; ++i) {
-      loops.push_back(loop(f, i));
-      double limit = force.log2_size;
-      if (!force.is_constraint) {
-        limit = std::numeric_limits<double>::infinity();
-        for (const auto& block : force.displacement(i, d).blocks)
-          limit = std::min(limit,
-                           scale[block_of_[static_cast<std::size_t>(block.offset)]] - log2_of(block.weight) - log2_h);
-      }
-      limits.push_back(limit + allowed_bits);
-    }
-    if (!force.program.is_bounded(loops, limits)) {
+    for (Index i = 0; i < force.term->arguments * problem_.dimension; ++i) loops.push_back(loop(f, i));
+    if (!force.program.is_bounded(loops, limits(f, log2_h))) {
       failed_ = f;
       return false;
     }

@@ -28,6 +28,8 @@ class ForceBounds {
   bool hold(double log2_h, const LoopOf& loop);
   /// log2 of what each block's momentum consists of: itself, and what forces do to it in so long a time.
   std::vector<double> scales(double log2_h) const;
+  /// log2 of what hold() allows each output of that force's gradient to be.
+  std::vector<double> limits(std::size_t force, double log2_h) const;
   /// Why hold() was false: "effect 'formula': a division by 0".
   std::string obstacle() const;
 

@@ -51,7 +51,7 @@ Expression formula(const std::string& text) { return Expression::parse(text, Exp
 void expect_random_formulas(unsigned digits, int trials) {
   RandomValues<double> random(static_cast<std::uint64_t>(digits));
   const PrecisionScope scope(digits);
-  ball_bits = 8 * static_cast<slong>(digits);
+  const BallScope balls(8 * static_cast<slong>(digits));
   for (int trial = 0; trial < trials; ++trial) {
     const RandomFormula tree(random, 1 + trial % 4, {"x", "y", "z", "m"});
     SCOPED_TRACE(tree.text());

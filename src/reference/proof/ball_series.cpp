@@ -1,0 +1,70 @@
+#include "ball_series.hpp"
+
+namespace hbvm::core {
+
+BallSeries BallSeries::exactly(const Mpfr* coefficients, Index count) {
+  BallSeries result;
+  arb_poly_fit_length(result.value_, count);
+  RealBall a;
+  for (Index n = 0; n < count; ++n) {
+    arf_set_mpfr(arb_midref(raw(a)), raw(coefficients[n]));
+    result.set(n, a);
+  }
+  return result;
+}
+
+RealBall BallSeries::operator[](Index n) const {
+  RealBall a;
+  arb_poly_get_coeff_arb(raw(a), value_, n);
+  return a;
+}
+
+BallSeries BallSeries::shortened(Index length) const {
+  BallSeries result = *this;
+  arb_poly_truncate(result.value_, length);
+  return result;
+}
+
+BallSeries BallSeries::operator*(const RealBall& a) const {
+  BallSeries result;
+  arb_poly_scalar_mul(result.value_, value_, raw(a), BallScope::bits());
+  return result;
+}
+
+BallSeries BallSeries::times(const BallSeries& b, Index length) const {
+  BallSeries result;
+  arb_poly_mullow(result.value_, value_, b.value_, length, BallScope::bits());
+  return result;
+}
+
+BallSeries BallSeries::derivative() const {
+  BallSeries result;
+  arb_poly_derivative(result.value_, value_, BallScope::bits());
+  return result;
+}
+
+RealBall BallSeries::at(const RealBall& time) const {
+  RealBall result;
+  if (arb_is_exact(raw(time)) != 0) {
+    arb_poly_evaluate(raw(result), value_, raw(time), BallScope::bits());
+    return result;
+  }
+  // By the mean value theorem about the centre.
+  RealBall centre, slope;
+  arb_get_mid_arb(raw(centre), raw(time));
+  arb_poly_evaluate(raw(result), value_, raw(centre), BallScope::bits());
+  arb_poly_evaluate_horner(raw(slope), raw(derivative()), raw(time), BallScope::bits());
+  result.add_product(slope, time - centre);
+  return result;
+}
+
+RealBall BallSeries::size_within(const RealBall& r) const {
+  RealBall sum, radius = greatest_magnitude(r);
+  for (Index n = length(); n-- > 0;) {
+    sum = sum * radius;
+    sum += greatest_magnitude((*this)[n]);
+  }
+  return greatest_magnitude(sum);
+}
+
+}  // namespace hbvm::core
