@@ -21,8 +21,14 @@
 namespace hbvm::core {
 namespace {
 
-/// "theirs=ours": theirs may hold no "=".
-std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std::string>& texts) {
+/// "theirs=ours": theirs may hold no "=". A comma within parentheses, as in atan2(y, x), divides nothing.
+std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std::string>& parts) {
+  std::vector<std::string> texts;
+  for (const std::string& part : parts)
+    if (!texts.empty() && std::ranges::count(texts.back(), '(') > std::ranges::count(texts.back(), ')'))
+      texts.back() += "," + part;
+    else
+      texts.push_back(part);
   std::vector<std::pair<std::string, std::string>> map;
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
@@ -55,13 +61,24 @@ std::vector<ResultsFile> read_results(const ComparisonArguments& arguments) {
 /// A time with the digits it needs: what a program added up in double as the number that was meant.
 std::string shown_time(const std::string& text) {
   const double t = std::strtod(text.c_str(), nullptr);
-  std::string shown;
+  double shown = t;
   constexpr int most = 15;
   for (int digits = 1; digits <= most; ++digits) {
-    shown = fmt::format("{:.{}g}", t, digits);
-    if (std::abs(std::strtod(shown.c_str(), nullptr) - t) <= std::abs(t) * std::pow(10, -most)) break;
+    shown = std::strtod(fmt::format("{:.{}g}", t, digits).c_str(), nullptr);
+    if (std::abs(shown - t) <= std::abs(t) * std::pow(10, -most)) break;
   }
-  return shown;
+  return fmt::format("{}", shown);
+}
+
+/// 10^exponent with two digits, whatever its size.
+std::string power_text(double exponent) {
+  double whole = std::floor(exponent);
+  std::string digits = fmt::format("{:.1f}", std::pow(10, exponent - whole));
+  if (digits == "10.0") {
+    digits = "1.0";
+    ++whole;
+  }
+  return fmt::format("{}e{:.0f}", digits, whole);
 }
 
 std::string digits_text(double digits) { return std::isnan(digits) ? "-" : fmt::format("{:.1f}", digits); }
@@ -110,18 +127,19 @@ const ComponentDigits* least_right(const FileComparison& file, std::size_t n) {
   return least;
 }
 
-/// Where most is lost from one time to the next.
+/// Where most is lost from one time to the next. The component that is right least is looked at, since the error of
+/// another may pass through 0.
 void print_loss(const FileComparison& file) {
   std::size_t where = 0;
   const ComponentDigits* what = nullptr;
   double most = 1;
-  for (const ComponentDigits& c : file.components)
-    for (std::size_t n = 1; n < c.digits.size(); ++n)
-      if (c.digits[n - 1] - c.digits[n] > most) {
-        most = c.digits[n - 1] - c.digits[n];
-        where = n;
-        what = &c;
-      }
+  for (std::size_t n = 1; n < file.times.size(); ++n) {
+    const ComponentDigits *const before = least_right(file, n - 1), *const after = least_right(file, n);
+    if (before == nullptr || after == nullptr || !(before->digits[n - 1] - after->digits[n] > most)) continue;
+    most = before->digits[n - 1] - after->digits[n];
+    where = n;
+    what = after;
+  }
   if (what)
     fmt::print("  most is lost between t = {} and {}: {:.1f} digits of {}\n", shown_time(file.times[where - 1]),
                shown_time(file.times[where]), most, what->name);
@@ -133,18 +151,17 @@ void print(const FileComparison& file, const std::vector<double>& by_growth) {
   for (const std::string& reason : file.unused) fmt::print("  not used: {}\n", reason);
   std::size_t width = 14;
   for (const ComponentDigits& c : file.components) width = std::max(width, c.name.size());
-  fmt::print("  {:<16} {:>7}  {:<{}}{:>16}{:>8}{:>8}\n", "t", "digits", "least right", width, "growth leaves", "H off",
-             "g off");
+  fmt::print("  {:<16} {:>7}  {:<{}}{:>16}{:>9}{:>9}\n", "t", "digits", "least right", width,
+             by_growth.empty() ? "" : "growth leaves", "H off", "g off");
   constexpr std::size_t most_lines = 20;
   const std::size_t lines = std::min(most_lines, file.times.size());
   const auto power = [](const std::vector<double>& drift, std::size_t n) {
-    return n < drift.size() ? std::isinf(drift[n]) ? std::string("0") : fmt::format("1e{:.0f}", drift[n])
-                            : std::string("-");
+    return n < drift.size() ? std::isinf(drift[n]) ? std::string("0") : power_text(drift[n]) : std::string("-");
   };
   for (std::size_t i = 1; i <= lines; ++i) {
     const std::size_t n = file.times.size() * i / lines - 1;
     const ComponentDigits* const least = least_right(file, n);
-    fmt::print("  {:<16} {:>7}  {:<{}}{:>16}{:>8}{:>8}\n", shown_time(file.times[n]),
+    fmt::print("  {:<16} {:>7}  {:<{}}{:>16}{:>9}{:>9}\n", shown_time(file.times[n]),
                least ? digits_text(least->digits[n]) : "-", least ? least->name : "", width,
                n < by_growth.size() ? fmt::format("{:.1f}", by_growth[n]) : "", power(file.H_drift, n),
                power(file.g_drift, n));
@@ -164,7 +181,8 @@ std::string step_text(const FileComparison& file) {
 
 void print(const Comparison& against) {
   const bool stored = std::all_of(against.files.begin(), against.files.end(), [](const auto& f) { return f.stored; });
-  fmt::print("right digits beside a reference of {} digits, {}\n", against.digits, stored ? "stored" : "computed now");
+  fmt::print("right digits beside a reference of {} digits, {}; H and g are off relative to the size of their terms\n",
+             against.digits, stored ? "stored" : "computed now");
   for (std::size_t f = 0; f < against.files.size(); ++f)
     print(against.files[f], f == 0 ? against.by_growth : std::vector<double>());
   for (const Convergence& c : against.orders) {
@@ -224,11 +242,9 @@ void add_comparison_options(CLI::App& command, ComparisonArguments& arguments) {
   command.add_option("--plot", arguments.plot, "With --against: digits against time, SVG, PDF or PNG");
 }
 
-void compare_results(const std::optional<std::string>& scene, bool json, const ComparisonArguments& arguments) {
-  if (!scene)
-    throw InputError("reference --against: a scene is missing, as in hbvm reference SCENE --against FILE.csv");
+void compare_results(const Scene& scene, bool json, const ComparisonArguments& arguments) {
   ComparisonRequest request;
-  request.scene = load_scene(*scene);
+  request.scene = scene;
   request.files = read_results(arguments);
   request.map = read_map(arguments.map);
   ProgressBar bar("reference");

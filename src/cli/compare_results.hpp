@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/scene.hpp"
+
 namespace hbvm::core {
 
 /// What `hbvm reference --against` is asked for.
@@ -22,6 +24,6 @@ void add_comparison_options(CLI::App& command, ComparisonArguments& arguments);
 /// Compares the files with the reference and prints what is right.
 /// \throws InputError as compare_with_reference() does; CLI::RuntimeError with exit code 1 if the order or the digits
 /// that were asked for are not there
-void compare_results(const std::optional<std::string>& scene, bool json, const ComparisonArguments& arguments);
+void compare_results(const Scene& scene, bool json, const ComparisonArguments& arguments);
 
 }  // namespace hbvm::core

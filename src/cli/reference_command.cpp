@@ -34,6 +34,7 @@ struct ReferenceArguments {
   std::vector<std::string> at;
   ComparisonArguments against;
   int digits = 30;
+  bool digits_given = false;
   bool json = false, list = false, force = false, prove = false;
 };
 
@@ -189,7 +190,20 @@ void verify(const ReferenceArguments& o) {
 }
 
 void reference_command(const ReferenceArguments& o) {
-  if (!o.against.files.empty()) return compare_results(o.scene, o.json, o.against);
+  const auto scene = [&] {
+    return scene_of(SceneArgument{*o.scene, o.settings.settings, o.settings.observations}.load());
+  };
+  if (!o.against.files.empty()) {
+    if (!o.scene)
+      throw InputError("reference --against: a scene is missing, as in hbvm reference SCENE --against FILE.csv");
+    if (o.until || !o.at.empty() || o.digits_given || o.route || o.out || o.checkpoint || o.prove || o.force)
+      throw InputError(
+          "reference --against compares at the times of the file, with as many digits as that takes: it "
+          "goes with no --until, --at, --digits, --route, --out, --checkpoint, --prove or --force");
+    if (!o.settings.observations.empty())
+      throw InputError("reference --against compares q, p and velocities: it goes with no --observe");
+    return compare_results(scene(), o.json, o.against);
+  }
   o.against.refuse_alone();
   if (o.list) return list_references();
   if (o.show) return show_references(*o.show);
@@ -197,7 +211,7 @@ void reference_command(const ReferenceArguments& o) {
   if (!o.scene) throw InputError("reference: a scene is missing (see hbvm reference --help)");
   if (!o.until && o.at.empty()) throw InputError("reference: --until or --at is missing");
   ReferenceRequest request;
-  request.scene = scene_of(SceneArgument{*o.scene, o.settings.settings, o.settings.observations}.load());
+  request.scene = scene();
   request.digits = o.digits;
   request.force = o.force;
   request.prove = o.prove;
@@ -251,7 +265,10 @@ void add_reference_command(CLI::App& app) {
   command->add_option("--verify", o->verify, "Compute the reference of this file again, and compare digit by digit");
   add_comparison_options(*command, o->against);
   command->footer("Example: hbvm reference tethered_satellites --until 10 --digits 50");
-  command->callback([o] { reference_command(*o); });
+  command->callback([o, command] {
+    o->digits_given = command->count("--digits") > 0;
+    reference_command(*o);
+  });
 }
 
 }  // namespace hbvm::core

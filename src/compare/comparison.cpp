@@ -48,6 +48,14 @@ int digits_of(const ResultsTable& rows) {
   return static_cast<int>(most);
 }
 
+/// Not to the end of a long list.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return text + (names.size() > most ? fmt::format(", and {} more", names.size() - most) : "");
+}
+
 /// The rows to be compared: those after the start.
 /// \throws InputError, with line and column, for times that do not ascend
 std::vector<std::size_t> choose_rows(const ResultsColumns& columns, const ResultsTable& rows, FileComparison& out) {
@@ -74,7 +82,9 @@ std::vector<std::size_t> choose_rows(const ResultsColumns& columns, const Result
   if (chosen.size() < usable.size())
     reasons[fmt::format("left out: {} of {} times, evenly spaced, are compared", chosen.size(), usable.size())] =
         usable.size() - chosen.size();
-  for (const auto& [reason, n] : reasons) out.unused.push_back(fmt::format("{} times {}", n, reason));
+  for (const auto& [reason, n] : reasons)
+    out.unused.push_back(fmt::format("{} {} {}", n, n == 1 ? "time" : "times", reason));
+  if (!columns.unread().empty()) out.unused.push_back("columns " + listed(columns.unread()));
   return chosen;
 }
 
@@ -251,6 +261,7 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
     FileComparison& out = result.files.emplace_back();
     out.name = request.files[f].name;
     const ResultsColumns columns(request, request.files[f], rows[f]);
+    columns.check_numbers();
     const std::vector<std::size_t> chosen = choose_rows(columns, rows[f], out);
     const ResultsColumns::Reading& time = *columns.find("t");
     compare_start(columns, rows[f], start_of_scene, out);

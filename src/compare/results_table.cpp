@@ -28,6 +28,12 @@ bool is_column(const std::string& name) {
   return name.size() > 1 && name[0] == 'c' && name.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
+/// Whether it is a decimal. What is not may be another number, as 1/3.
+bool is_plain_number(const std::string& cell) {
+  return !cell.empty() && cell.find_first_not_of("0123456789+-.eE") == std::string::npos &&
+         cell.find_first_of("0123456789") != std::string::npos;
+}
+
 /// A column's name in an expression of the map is replaced where it stands as a whole word.
 /// \throws InputError for a word that would be taken for a column
 std::string with_columns(const std::string& expression, const std::vector<std::string>& names,
@@ -68,6 +74,9 @@ ResultsTable::ResultsTable(const ResultsFile& file) {
     if (names.empty()) {
       if (row.size() == 1 && row[0].find_first_of("; \t") != std::string::npos)
         throw InputError(fmt::format("{}:{}: the names are not separated by commas: '{}'", file.name, number, row[0]));
+      if (std::ranges::all_of(row, is_plain_number))
+        throw InputError(fmt::format("{}:{}: numbers stand where the names of columns are expected, as t,{}", file.name,
+                                     number, "q_1,q_2"));
       names = std::move(row);
       for (auto name = names.begin(); name != names.end(); ++name)
         if (std::find(names.begin(), name, *name) != name)
@@ -101,6 +110,12 @@ ResultsColumns::ResultsColumns(const ComparisonRequest& request, const ResultsFi
   }
   read_map(request);
   if (find("t") == nullptr) throw InputError(file.name + ": no column is called t (map one by --map \"theirs=t\")");
+  std::set<std::string> read;
+  for (const Reading& reading : readings_)
+    for (const std::string& name : reading.expression.names()) read.insert(name);
+  for (std::size_t i = 0; i < rows.names.size(); ++i)
+    if (!read.contains(column_name(i)) && !is_one_of(own_name(rows.names[i]), momenta_))
+      unread_.push_back(rows.names[i]);
   if (readings_.size() < 2)
     throw InputError(file.name + ": no column is one of " + positions_.front() + ", ..., " + momenta_.front() +
                      ", ..., " + velocities_.front() + ", ... (map some by --map \"theirs=ours,...\")");
@@ -129,6 +144,15 @@ void ResultsColumns::read_map(const ComparisonRequest& request) {
 const ResultsColumns::Reading* ResultsColumns::find(const std::string& ours) const {
   const auto found = std::find_if(readings_.begin(), readings_.end(), [&](const Reading& r) { return r.ours == ours; });
   return found == readings_.end() ? nullptr : &*found;
+}
+
+void ResultsColumns::check_numbers() const {
+  std::set<std::size_t> columns;
+  for (const Reading& reading : readings_)
+    for (const std::string& name : reading.expression.names()) columns.insert(column_of(name));
+  for (std::size_t row = 0; row < rows_.cells.size(); ++row)
+    for (const std::size_t column : columns)
+      if (!is_plain_number(rows_.cells[row][column])) number(row, column);
 }
 
 Mpfr ResultsColumns::value(const Reading& reading, std::size_t row) const {

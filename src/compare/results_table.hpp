@@ -36,6 +36,10 @@ class ResultsColumns {
   const std::vector<std::string>& momenta() const { return momenta_; }
   const std::vector<std::string>& velocities() const { return velocities_; }
   const Reading* find(const std::string& ours) const;
+  /// Columns that are nothing of the scene.
+  const std::vector<std::string>& unread() const { return unread_; }
+  /// \throws InputError for a cell of a column that is read, in any line, that is no number, with line and column
+  void check_numbers() const;
 
   /// In the digits of the scope. \throws InputError with line and column
   Mpfr value(const Reading& reading, std::size_t row) const;
@@ -51,6 +55,7 @@ class ResultsColumns {
   const ResultsTable& rows_;
   std::vector<std::string> positions_, momenta_, velocities_;
   std::vector<Reading> readings_;
+  std::vector<std::string> unread_;
 };
 
 }  // namespace hbvm::core

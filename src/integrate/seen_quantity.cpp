@@ -177,8 +177,40 @@ class SeenQuantities<S>::Names {
   const Displacement<S>& displacement(const std::string& name) const {
     const auto found = places_.find(name);
     if (found == places_.end())
-      throw InputError("there is no body or point '" + name + "'" + did_you_mean_or_list(name, bodies_));
+      throw InputError("there is no body or point '" + name + "'" + did_you_mean_or_list(name, others_like(name)));
     return found->second;
+  }
+
+  /// The points of the body that a name is a point of, as a[1, 0]; else all that has a place.
+  std::vector<std::string> others_like(const std::string& name) const {
+    std::vector<std::string> points;
+    const std::size_t bracket = name.find('[');
+    if (bracket != std::string::npos)
+      for (const std::string& other : bodies_)
+        if (other.starts_with(name.substr(0, bracket + 1))) points.push_back(other);
+    return points.empty() ? bodies_ : points;
+  }
+
+  /// The rods and joints of the bodies of a and b, "a[1, 0], b[0, 0]"; of all bodies if those have none.
+  std::string pairs_of(const std::string& a, const std::string& b) const {
+    const auto body_of = [](const std::string& name) { return name.substr(0, name.find('[')); };
+    std::vector<std::string> near, all;
+    for (const Constraint<S>& constraint : constraints_) {
+      const std::string& name = constraint.name;
+      const std::size_t first = name.find(" '"), middle = name.find("'-'"), last = name.find('\'', middle + 3);
+      if (first == std::string::npos || middle == std::string::npos || last == std::string::npos) continue;
+      const std::string one = name.substr(first + 2, middle - first - 2),
+                        other = name.substr(middle + 3, last - middle - 3);
+      const std::string pair = one + " and " + other;
+      if (std::find(all.begin(), all.end(), pair) != all.end()) continue;
+      all.push_back(pair);
+      for (const std::string& end : {one, other})
+        if ((body_of(end) == body_of(a) || body_of(end) == body_of(b)) && (near.empty() || near.back() != pair))
+          near.push_back(pair);
+    }
+    std::string list;
+    for (const std::string& pair : near.empty() ? all : near) list += (list.empty() ? "" : "; ") + pair;
+    return list;
   }
 
   Along place(const std::string& name) const {
@@ -205,7 +237,9 @@ class SeenQuantities<S>::Names {
   }
   Along direction(const std::string& name) const {
     if (!is_direction(name))
-      throw InputError("'" + name + "' is no direction; there are " +
+      throw InputError("'" + name + "' is no direction" +
+                       (name.starts_with("angle(") ? ", and rate() takes what angle() takes, as rate(a, b)" : "") +
+                       "; there are " +
                        (d_ == 1   ? "x"
                         : d_ == 2 ? "x, y"
                                   : "x, y, z") +
@@ -337,8 +371,11 @@ class SeenQuantities<S>::Names {
         if (part.starts_with(" (across"))
           found.across.push_back({number, std::get<DisplacementProduct<S>>(constraints_[i].form).y, forward});
       }
-    if (found.rods.empty() && found.points.empty() && found.across.empty())
-      throw InputError(fmt::format("there is no {} between '{}' and '{}'", rods_alone ? "rod" : "rod or joint", a, b));
+    if (found.rods.empty() && found.points.empty() && found.across.empty()) {
+      const std::string pairs = pairs_of(a, b);
+      throw InputError(fmt::format("there is no {} between '{}' and '{}'{}", rods_alone ? "rod" : "rod or joint", a, b,
+                                   pairs.empty() ? "" : "; there is one between " + pairs));
+    }
     return found;
   }
 

@@ -114,17 +114,22 @@ Curve curve_of(const std::string& label, const Recording& recording,
   return curve;
 }
 
-/// Where a sample stands for several mesh points, it is a stroke from the least to the greatest of them.
+/// A sample stands for all mesh points since the one before. What they reach beyond the two samples is a stroke half
+/// way between.
 Curve range_of(const std::string& label, const Recording& recording, std::size_t i,
                std::vector<double> Recording::Sample::*value, std::vector<double> Recording::Sample::*least,
                std::vector<double> Recording::Sample::*greatest) {
   Curve curve{label, {}};
   for (const Recording::Sample& sample : recording.samples) {
-    if (recording.every > 1) {
-      curve.points.push_back({sample.t, (sample.*least)[i]});
-      curve.points.push_back({sample.t, (sample.*greatest)[i]});
+    const double now = (sample.*value)[i];
+    if (recording.every > 1 && !curve.points.empty()) {
+      const PlotPoint before = curve.points.back();
+      const double middle = before[0] + (sample.t - before[0]) / 2;
+      for (const double reached : {(sample.*least)[i], (sample.*greatest)[i]})
+        if (reached < std::min(before[1], now) || reached > std::max(before[1], now))
+          curve.points.push_back({middle, reached});
     }
-    curve.points.push_back({sample.t, (sample.*value)[i]});
+    curve.points.push_back({sample.t, now});
   }
   return curve;
 }

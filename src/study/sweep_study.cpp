@@ -211,6 +211,8 @@ Findings conclude(const Experiment& experiment, const Sweep& sweep) {
 }  // namespace
 
 Part<Findings> sweep_study(const Experiment& experiment, TomlTable& top) {
+  // Read before the step, for which 'sweep' would be taken as misspelt where there is none.
+  const auto sweeps = top.tables("sweep");
   RunRequest request{experiment.scene,
                      parse_method(top.string("method")),
                      SolverKind::automatic,
@@ -225,7 +227,7 @@ Part<Findings> sweep_study(const Experiment& experiment, TomlTable& top) {
     reader.finish();
   }
   std::vector<SweptNumber> swept;
-  for (const toml::table* table : top.tables("sweep"))
+  for (const toml::table* table : sweeps)
     swept.push_back(read_swept(TomlTable(top.source(), *table, "sweep")));
   if (swept.empty()) top.fail("a sweep has a table [[sweep]] for each number that it changes");
   Sweep sweep{{}, {}, points_of(request, swept), {}};

@@ -159,8 +159,8 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   const auto against = [](const std::string& results) {
     return Arguments{"reference", "simple_pendulum", "--against", results};
   };
-  expect_words(ended_with(0, against(files)).out, {"right digits beside a reference of ", ", computed now\n",
-                                                   "1 times at the start", "most is lost between t = "});
+  expect_words(ended_with(0, against(files)).out,
+               {"right digits beside a reference of ", ", computed now; H and g", "1 time at the start"});
   const ordered_json j = json_of({"reference", "--scene", "simple_pendulum", "--against", files});
   ASSERT_EQ(j["files"].size(), 4u);
   ASSERT_EQ(j["orders"].size(), 3u);
@@ -177,6 +177,26 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   const ordered_json many = json_of(against(file));
   for (const auto& [name, digits] : many["files"][0]["right_digits"].items())
     for (const auto& right : digits) EXPECT_GT(right.get<double>(), 12) << name;
+}
+
+/// A number that is set is set in the reference, too; what would change nothing is refused.
+TEST(ReferenceCommand, ComparesWithTheSceneAsItIsSet) {
+  const Folder folder;
+  const std::string file = folder / "heavy.csv";
+  ended_with(0, run_of("double_pendulum", "hbvm:8,8", "1/16", "1") + Arguments{"--set", "a.mass=3", "--out", file});
+  const Arguments against{"reference", "double_pendulum", "--against", file, "--require", "9"};
+  ended_with(0, against + Arguments{"--set", "a.mass=3"});
+  ended_with(1, against);
+  expect_words(ended_with(2, against + Arguments{"--set", "nonsense=1"}).err, {"nonsense"});
+  for (const Arguments& idle : {Arguments{"--until", "3"}, {"--digits", "5"}, {"--prove"}, {"--at", "1"}})
+    expect_words(ended_with(2, against + idle).err, {"--against compares at the times of the file"});
+  expect_words(ended_with(2, against + Arguments{"--observe", "a.x"}).err, {"goes with no --observe"});
+  // A comma within parentheses divides nothing; a time is as short as it can be.
+  const std::string angle = folder.write("angle.csv", "t,x,y\n10,0.11400385,-0.99348031\n");
+  expect_words(ended_with(0, {"reference", "simple_pendulum", "--against", angle, "--map",
+                              "sin(atan2(x, -y))=bob.x,-cos(atan2(x,-y))=bob.y"})
+                   .out,
+               {"\n  10  "});
 }
 
 /// That the start is another is said before any digits; times are as short as they can be.

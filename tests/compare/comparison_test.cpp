@@ -97,8 +97,18 @@ TEST(Comparison, SaysWhichTimesItCouldNotUse) {
   const Comparison against = compare_with_reference(request_of("t,bob.x\n-2,0\n-1,0\n0,0\n1,0\n2,0\n"));
   EXPECT_EQ(against.files[0].times, (std::vector<std::string>{"1", "2"}));
   ASSERT_EQ(against.files[0].unused.size(), 2u);
-  EXPECT_EQ(against.files[0].unused[0], "1 times at the start");
+  EXPECT_EQ(against.files[0].unused[0], "1 time at the start");
   EXPECT_EQ(against.files[0].unused[1], "2 times before the start");
+}
+
+/// What is read is looked at in every line, also where nothing is compared; what is not read is named.
+TEST(Comparison, LooksAtEveryLineAndColumn) {
+  std::string csv = "t,bob.x,lambda1,bob.ux\n";
+  for (int n = 1; n <= 200; ++n) csv += fmt::format("{}/64,{},1,2\n", n, n == 7 ? "nan" : "1/3");
+  expect_words(message_of([&] { compare_with_reference(request_of(csv)); }),
+               {"theirs.csv:8: column 'bob.x' holds 'nan'"});
+  const Comparison against = compare_with_reference(request_of("t,bob.x,lambda1,bob.ux\n1,0,nan,2\n"));
+  EXPECT_EQ(against.files[0].unused, std::vector<std::string>{"columns lambda1, bob.ux"});
 }
 
 /// The same times are found in the store, however they are written; others are computed.
@@ -252,7 +262,8 @@ TEST(Comparison, RefusesWhatItCannotRead) {
         {"t,z\n1,2\n", "no column is one of bob.x"},
         {"t,bob.x\n1,0\n2,0\n2.0,0\n", "theirs.csv:4: t is 2.0, which is not later than 2 in line 3"},
         {"t,bob.x\n2,0\n1,0\n", "theirs.csv:3: t is 1, which is not later than 2 in line 2"},
-        {"t,bob.x\n-1,0\n", "no time in it is after the start"}})
+        {"t,bob.x\n-1,0\n", "no time in it is after the start"},
+        {"0,1,2\n1,1,2\n", "theirs.csv:1: numbers stand where the names of columns are expected"}})
     expect_words(message_of([&, csv = csv] { compare_with_reference(request_of(csv)); }), {says});
 }
 

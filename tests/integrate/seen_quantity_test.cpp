@@ -194,7 +194,10 @@ TEST_F(SeenQuantityTest, IsRefusedWithWhatThereIs) {
     return message_of<InputError>([&] { at_start(scene, {text}); });
   };
   expect_words(refusal(plane, "tension(upper, lower)"), {"observe 'tension(upper, lower)'", "no rod between"});
-  expect_words(refusal(plane, "force(upper, lower, x)"), {"no rod or joint between"});
+  expect_words(refusal(plane, "force(upper, lower, x)"),
+               {"no rod or joint between", "there is one between", "upper[1, 0] and lower"});
+  expect_words(refusal(plane, "force(upper[2, 0], lower, x)"), {"'upper[2, 0]'", "upper[1, 0]"});
+  expect_words(refusal(plane, "rate(angle(upper, lower))"), {"rate() takes what angle() takes, as rate(a, b)"});
   expect_words(refusal(plane, "slide(lower[-2/5, 0], upper[1, 0])"), {"nothing slides between"});
   expect_words(refusal(plane, "angel(upper.d1)"), {"did you mean 'angle'"});
   expect_words(refusal(plane, "angle(uper.d1)"), {"no direction", "directors of rigid bodies"});

@@ -175,6 +175,28 @@ TEST(RunFigure, DrawsObservationsAgainstEachOther) {
   EXPECT_EQ(figure.panels[3].curves.at(0).points.at(7)[1], sample.H_change);
 }
 
+/// Where a sample stands for several mesh points, only what these reach beyond it and the one before is a stroke.
+TEST(RunFigure, StrokesAreOnlyOfWhatSamplesDoNotShow) {
+  const Scene scene = with_observation(load_scene("kepler"), "x", "planet.x");
+  Recording recording;
+  recording.observations = {"x"};
+  recording.every = 4;
+  const auto add = [&](double t, double now, double least, double greatest) {
+    Recording::Sample sample = recorded<double>(scene, "1/16", "1").first.samples.front();
+    sample.t = t;
+    sample.observed = {now};
+    sample.least_observed = {least};
+    sample.greatest_observed = {greatest};
+    recording.samples.push_back(sample);
+  };
+  add(0, 1, 1, 1);
+  add(1, 2, 1.5, 2);  // monotone
+  add(2, 1, 1, 2.5);  // turns above both
+  add(3, 1.5, 0.5, 1.5);
+  const Curve curve = run_figure(sketch(scene), recording).panels.at(1).curves.at(0);
+  EXPECT_EQ(curve.points, (std::vector<PlotPoint>{{0, 1}, {1, 2}, {1.5, 2.5}, {2, 1}, {2.5, 0.5}, {3, 1.5}}));
+}
+
 /// A path of few steps is a smooth line through them: a circle stays one.
 TEST(RunFigure, DrawsSmoothPathsOfFewSteps) {
   const Scene scene = read_scene(
