@@ -152,7 +152,8 @@ void list_references() {
     const StoredReference stored = read_reference(text, name);
     std::string times;
     for (const ReferenceState& state : stored.reference.times) times += (times.empty() ? "" : ", ") + state.t;
-    fmt::print("{:<32}t = {:<14}{:>5} digits\n", name, times, stored.reference.digits);
+    fmt::print("{:<36}t = {:<14}{:>5} digits{}\n", name, times, stored.reference.digits,
+               stored.reference.proved > 0 ? ", proved" : "");
   }
 }
 
@@ -175,18 +176,29 @@ void verify(const ReferenceArguments& o) {
   request.scene = load_scene(o.scene.value_or(r.scene));
   request.digits = r.digits;
   if (o.route) request.only = parse_route(*o.route);
+  request.prove = o.prove;
+  request.force = o.force;
   if (scene_hash(request.scene) != r.scene_hash)
     throw InputError(*o.verify + ": scene '" + request.scene.name + "' is not the one it was made of: its hash is " +
                      scene_hash(request.scene) + ", not " + r.scene_hash);
   for (const ReferenceState& state : r.times) request.times.push_back(time_of(state.t));
-  const std::vector<Difference> found = differences(r, compute(request));
+  const Reference again = compute(request);
+  const std::vector<Difference> found = differences(r, again);
   for (const Difference& d : found) fmt::print("t = {}: {} is {}, not {}\n", d.t, d.what, d.found, d.stored);
   if (!found.empty()) {
     fmt::print("{}: {} numbers differ\n", *o.verify, found.size());
     std::fflush(stdout);
     throw CLI::RuntimeError(1);
   }
-  fmt::print("{}: all digits of {} times are found again\n", *o.verify, r.times.size());
+  fmt::print("{}: all digits of {} times are {}\n", *o.verify, r.times.size(), o.prove ? "proved" : "found again");
+  if (!o.out) return;
+  if (!o.prove) throw InputError("reference --verify: --out writes the file with what is proved, by --prove");
+  StoredReference kept = stored;
+  kept.reference.proved = again.proved;
+  for (std::size_t n = 0; n < r.times.size(); ++n) kept.reference.times[n].radius = again.times[n].radius;
+  std::erase_if(kept.reference.routes, [](const RouteReport& route) { return route.name == "proof"; });
+  kept.reference.routes.push_back(again.routes.front());
+  write_and_say(*o.out, to_toml(kept));
 }
 
 void reference_command(const ReferenceArguments& o) {

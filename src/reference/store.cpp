@@ -49,6 +49,12 @@ std::vector<std::string> decimals(TomlTable& table, const char* key) {
   return result;
 }
 
+std::string decimal(TomlTable& table, const char* key) {
+  std::string text = table.string(key);
+  if (!is_decimal(text)) table.fail(std::string("'") + key + "' is no decimal");
+  return text;
+}
+
 template <class Read>
 void for_each_table(const TomlSource& source, TomlTable& root, const char* key, const Read& read) {
   for (const toml::table* const entry : root.tables(key)) {
@@ -66,6 +72,7 @@ std::string to_toml(const StoredReference& stored) {
       fmt::format("format = {}\nscene = {}\nscene_hash = {}\ndigits = {}\ndigits_lost = {}\nversion = {}\ndate = {}\n",
                   quoted(format_name), quoted(r.scene), quoted(r.scene_hash), r.digits,
                   quoted(fmt::format("{:.2f}", r.digits_lost)), quoted(stored.version), quoted(stored.date));
+  if (r.proved > 0) text += fmt::format("proved = {}\n", r.proved);
   text += list("momenta", r.momentum_names);
   for (const RouteReport& route : r.routes)
     text += fmt::format("\n[[route]]\nname = {}\nsettings = {}\ncpu_seconds = {}\n", quoted(route.name),
@@ -74,6 +81,7 @@ std::string to_toml(const StoredReference& stored) {
     text += fmt::format("\n[[time]]\nt = {}\nagreed = {}\n", quoted(state.t), state.agreed);
     text += list("q", state.q) + list("p", state.p) + list("lambda", state.lambda);
     text += "H = " + quoted(state.H) + "\n" + list("momenta", state.momenta);
+    if (state.radius) text += list("radius", {state.radius->q, state.radius->p, state.radius->lambda, state.radius->H});
   }
   return text;
 }
@@ -89,17 +97,14 @@ StoredReference read_reference(const std::string& toml, const std::string& name)
   r.scene = root.string("scene");
   r.scene_hash = root.string("scene_hash");
   r.digits = static_cast<int>(root.integer("digits"));
-  const std::string lost = root.string("digits_lost");
-  if (!is_decimal(lost)) root.fail("'digits_lost' is no decimal");
-  r.digits_lost = std::stod(lost);
+  r.digits_lost = std::stod(decimal(root, "digits_lost"));
   stored.version = root.string("version");
   stored.date = root.string("date");
+  if (root.has("proved")) r.proved = static_cast<int>(root.integer("proved"));
   r.momentum_names = root.strings("momenta");
   for_each_table(source, root, "route", [&](TomlTable& table) {
     RouteReport route{table.string("name"), table.string("settings")};
-    const std::string seconds = table.string("cpu_seconds");
-    if (!is_decimal(seconds)) table.fail("'cpu_seconds' is no decimal");
-    route.cpu_seconds = std::stod(seconds);
+    route.cpu_seconds = std::stod(decimal(table, "cpu_seconds"));
     r.routes.push_back(std::move(route));
   });
   for_each_table(source, root, "time", [&](TomlTable& table) {
@@ -109,9 +114,14 @@ StoredReference read_reference(const std::string& toml, const std::string& name)
     state.q = decimals(table, "q");
     state.p = decimals(table, "p");
     state.lambda = decimals(table, "lambda");
-    state.H = table.string("H");
-    if (!is_decimal(state.H)) table.fail("'H' is no decimal");
+    state.H = decimal(table, "H");
     state.momenta = decimals(table, "momenta");
+    if (table.has("radius")) {
+      // Of q, p, lambda and H.
+      const std::vector<std::string> radius = decimals(table, "radius");
+      if (radius.size() != 4) table.fail("'radius' has not four numbers");
+      state.radius = {radius[0], radius[1], radius[2], radius[3]};
+    }
     if (state.p.size() != state.q.size()) table.fail("'q' and 'p' have different lengths");
     if (state.momenta.size() != r.momentum_names.size()) table.fail("'momenta' has not a number for each name");
     r.times.push_back(std::move(state));
@@ -134,7 +144,7 @@ std::optional<FoundReference> find_reference(const Scene& scene, const Expressio
       continue;
     for (const ReferenceState& state : reference.times)
       if (mpfr_equal_p(raw(instant(Expression::parse(state.t))), raw(wanted)) != 0)
-        best = FoundReference{name, reference.digits, state};
+        best = FoundReference{name, reference.digits, state, reference.proved};
   }
   return best;
 }

@@ -31,6 +31,7 @@ struct FoundReference {
   std::string name;
   int digits = 0;
   ReferenceState state;
+  int proved = 0;  ///< digits
 };
 /// The reference of a scene that says the same, whatever its name, at exactly this time, whatever its text, with so
 /// many digits at least. Of several it is that with the most.

@@ -116,7 +116,7 @@ std::optional<ErrorEstimate> estimate_by_store(const RunRequest& request, const 
   if (!tells(of_q, exact_q.unsure) || !tells(of_p, exact_p.unsure) || !tells(of_lambda, lambda.unsure))
     return std::nullopt;
   ErrorEstimate estimate;
-  estimate.reference = fmt::format("stored reference, {} digits", found->digits);
+  estimate.reference = fmt::format("stored reference, {} digits{}", found->digits, found->proved > 0 ? ", proved" : "");
   say(estimate, of_q, of_p, of_lambda);
   return estimate;
 }

@@ -50,6 +50,16 @@ TEST(ReferenceCommand, ProvesDigits) {
   expect_words(hbvm({"reference", "kepler", "--until", "1", "--prove"}).out,
                {"30 digits after the leading one, proved: q is within"});
   const Folder folder;
+  // A stored reference is proved digit by digit, and says so from then on.
+  const std::string file = folder / "pendulum.toml", proved = folder / "proved.toml";
+  ended_with(0, {"reference", "simple_pendulum", "--until", "3", "--digits", "25", "--out", file});
+  expect_words(ended_with(0, {"reference", "--verify", file, "--prove", "--out", proved}).out,
+               {"all digits of 1 times are proved"});
+  expect_words(text_of(proved), {"proved = 25", "radius = [", "name = \"proof\"", "name = \"taylor\""});
+  std::string text = text_of(file);
+  text.replace(text.find("H = \"-0.5"), 10, "H = \"-0.6");
+  const std::string wrong = folder.write("wrong.toml", text);
+  expect_words(ended_with(1, {"reference", "--verify", wrong, "--prove", "--out", proved}).out, {"1 numbers differ"});
   const std::string fall = folder.write("fall.toml", R"(
 dimension = 2
 point = [{ name = "sun", position = [0, 0] }]

@@ -33,6 +33,37 @@ TEST(Store, ReadsWhatItWrote) {
   EXPECT_TRUE(differences(stored.reference, read.reference).empty());
 }
 
+/// That digits are proved is kept, with the radius of each vector.
+TEST(Store, KeepsWhatIsProved) {
+  StoredReference stored = example();
+  EXPECT_EQ(read_reference(to_toml(stored), "file").reference.proved, 0);
+  stored.reference.proved = 20;
+  stored.reference.times[1].radius = {"1e-24", "2.5e-25", "0", "3e-26"};
+  const Reference read = read_reference(to_toml(stored), "file").reference;
+  EXPECT_EQ(read.proved, 20);
+  EXPECT_FALSE(read.times[0].radius.has_value());
+  ASSERT_TRUE(read.times[1].radius.has_value());
+  EXPECT_EQ(read.times[1].radius->p, "2.5e-25");
+  EXPECT_EQ(read.times[1].radius->H, "3e-26");
+  std::string text = to_toml(stored);
+  text.replace(text.find("\"3e-26\""), 7, "\"x\"");
+  EXPECT_THROW(read_reference(text, "file"), InputError);
+}
+
+/// What is shipped as proved has a radius at each time, as a proof found it.
+TEST(Store, ShipsProofs) {
+  int proved = 0;
+  for (const auto& [name, text] : shipped_references()) {
+    const Reference r = read_reference(text, name).reference;
+    if (r.proved == 0) continue;
+    ++proved;
+    EXPECT_EQ(r.proved, r.digits) << name;
+    EXPECT_EQ(r.routes.back().name, "proof") << name;
+    for (const ReferenceState& state : r.times) ASSERT_TRUE(state.radius.has_value()) << name;
+  }
+  EXPECT_GE(proved, 35);
+}
+
 /// One digit anywhere is found, and named with its time.
 TEST(Store, FindsEveryDigitThatChanged) {
   const Reference stored = example().reference;
