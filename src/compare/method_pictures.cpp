@@ -183,6 +183,7 @@ std::string methods_page(const RunRequest& request, const std::vector<RecordedMe
   for (const Recording::Sample& sample : longest->samples) {
     page.t.push_back(sample.t);
     page.q.emplace_back(m * shown.size(), nothing);
+    page.v.push_back(page.q.back());
   }
   for (const ErrorCurve& error : error_curves(*longest)) {
     page.charts.push_back({error.title, error.symbol, error.scale, {}});
@@ -193,8 +194,11 @@ std::string methods_page(const RunRequest& request, const std::vector<RecordedMe
     page.method += (i > 0 ? ", " : "") + method;
     add_motion(page, drawn, method, static_cast<int>(i), m);
     const std::vector<Recording::Sample>& samples = shown[i].samples;
-    for (std::size_t n = 0; n < samples.size(); ++n)
-      std::copy(samples[n].q.begin(), samples[n].q.end(), page.q[n].begin() + static_cast<std::ptrdiff_t>(i * m));
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+      const auto at = static_cast<std::ptrdiff_t>(i * m);
+      std::copy(samples[n].q.begin(), samples[n].q.end(), page.q[n].begin() + at);
+      std::copy(samples[n].v.begin(), samples[n].v.end(), page.v[n].begin() + at);
+    }
     const std::vector<ErrorCurve> errors = error_curves(*longest);
     for (std::size_t e = 0; e < errors.size(); ++e) {
       PageCurve& curve = page.charts[e].curves.emplace_back(PageCurve{method, {}});

@@ -124,14 +124,21 @@ std::vector<double> thinned(const std::vector<double>& values, std::size_t k, bo
   return kept;
 }
 
+/// Every k-th and the last.
+std::vector<std::vector<double>> thinned(const std::vector<std::vector<double>>& states, std::size_t k) {
+  std::vector<std::vector<double>> kept;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (i % k == 0 || i + 1 == states.size()) kept.push_back(states[i]);
+  return kept;
+}
+
 MovingPage thinned(const MovingPage& page, std::size_t k) {
   if (k == 1) return page;
   MovingPage result = page;
   result.every *= static_cast<long>(k);
   result.t = thinned(page.t, k, false);
-  result.q.clear();
-  for (std::size_t i = 0; i < page.q.size(); ++i)
-    if (i % k == 0 || i + 1 == page.q.size()) result.q.push_back(page.q[i]);
+  result.q = thinned(page.q, k);
+  result.v = thinned(page.v, k);
   for (PageChart& chart : result.charts)
     for (PageCurve& curve : chart.curves) curve.values = thinned(curve.values, k, curve.is_error);
   return result;
@@ -167,6 +174,22 @@ OrderedJson json_of(const PageChart& chart, std::size_t first_column) {
   return json;
 }
 
+/// Of all that has mass, at each time.
+OrderedJson velocities(const MovingPage& page) {
+  OrderedJson list = OrderedJson::array();
+  for (const std::vector<double>& v : page.v) {
+    OrderedJson& row = list.emplace_back(OrderedJson::array());
+    for (std::size_t i = 0; i < page.sketch.places.size(); ++i) {
+      if (!page.sketch.places[i].has_mass) continue;
+      const std::array<double, 3> of_place = page.sketch.velocity(i, v);
+      OrderedJson& parts = row.emplace_back(OrderedJson::array());
+      for (int j = 0; j < page.sketch.dimension; ++j)
+        parts.push_back(any_number(as_drawn(of_place[static_cast<std::size_t>(j)])));
+    }
+  }
+  return list;
+}
+
 /// The charts, and rows of t, q and the values of all curves, where each chart finds its own.
 void add_data(OrderedJson& data, const MovingPage& page) {
   OrderedJson charts = OrderedJson::array(), rows = OrderedJson::array();
@@ -186,6 +209,7 @@ void add_data(OrderedJson& data, const MovingPage& page) {
   data["time"] = json_of(time, tics_of(time, AxisScale::linear, most_tics));
   data["charts"] = charts;
   data["samples"] = rows;
+  data["velocities"] = velocities(page);
 }
 
 /// 12 000

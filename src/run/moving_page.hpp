@@ -37,6 +37,7 @@ struct MovingPage {
   std::vector<double> t = {};     ///< the times that are shown
   std::vector<std::vector<double>> q =
       {};  ///< the sketch's coordinates at each; not finite where nothing is to be seen
+  std::vector<std::vector<double>> v = {};  ///< their velocities, which bend the paths; none if they are not known
   std::vector<PageChart> charts = {};
   long every = 1;                 ///< steps between two times
   long steps = 0, last_step = 0;  ///< of the run, and those that were made

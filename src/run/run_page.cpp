@@ -85,6 +85,8 @@ std::string run_page(const RunRequest& request, const Recording& recording, cons
   page.sketch = sketch(request.scene, seen);
   for (const Recording::Sample& sample : recording.samples) page.t.push_back(sample.t);
   page.q = recording.states();
+  for (const Recording::Sample& sample : recording.samples)
+    if (!sample.v.empty()) page.v.push_back(sample.v);
   for (std::size_t n = seen.size(); n < page.q.size(); ++n)
     std::fill(page.q[n].begin(), page.q[n].end(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < recording.observations.size(); ++i) page.charts.push_back(chart_of(recording, i));

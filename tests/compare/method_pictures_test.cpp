@@ -95,7 +95,10 @@ TEST(MethodPictures, APageMovesAllOnOneClock) {
     if (!moves) continue;
     const std::size_t column = 1 + places[i]["blocks"][0][0].get<std::size_t>();
     const double x = data["samples"][20][column];
-    EXPECT_EQ(x, compared.runs[static_cast<std::size_t>(run)].recording.samples[20].q[(column - 1) % 4]);
+    const Recording::Sample& sample = compared.runs[static_cast<std::size_t>(run)].recording.samples[20];
+    EXPECT_EQ(x, sample.q[(column - 1) % 4]);
+    const double v = sample.v[(column - 1) % 4];
+    EXPECT_NEAR(data["velocities"][20][(column - 1) / 2][0].get<double>(), v, 1e-4 * std::abs(v));
   }
 }
 

@@ -208,6 +208,18 @@ def curves_are_drawn_in_order(chromium):
     check(not wrong, f"states {wrong[:5]} are not drawn as they are")
 
 
+def paths_are_round(chromium):
+    """Between two states too, Kepler's planet is on its ellipse, r = 3/4 - x/2."""
+    farthest = chromium.evaluate("""(() => {
+      const { stage } = player, [path] = stage.paths, zero = stage.project(stage.middle.map((x) => -x));
+      return Math.max(...path.slice(1).map(([x, y, , ...bend], i) => {
+        const middle = [x, y].map((to, j) => (path[i][j] + 3 * bend[j] + 3 * bend[2 + j] + to) / 8 - zero[j]);
+        return Math.abs(Math.hypot(...middle) + middle[0] / 2 - 0.75 * stage.scale) / stage.scale;
+      }));
+    })()""")
+    check(farthest is not None and farthest < 1e-4, f"the path is {farthest} beside the orbit")
+
+
 def pages(program, chromium, folder, pictures):
     for scene in RUNS:
         path, names, rows = run(program, scene, folder)
@@ -221,6 +233,8 @@ def pages(program, chromium, folder, pictures):
             for part in (curves_go_to_a_time, curves_are_drawn_in_order, bodies_are_drawn_where_they_are,
                          it_can_be_turned, views_show_two_axes, names_are_not_cut, labels_are_apart):
                 part(chromium)
+            if scene == "kepler":
+                paths_are_round(chromium)
         except Failure as failure:
             raise Failure(f"{scene}: {failure}") from None
         check(not chromium.complaints, f"{scene}: {chromium.complaints}")

@@ -20,6 +20,7 @@ MovingPage page_of(std::size_t times, std::size_t coordinates) {
     const auto x = static_cast<double>(n);
     page.t.push_back(x / 7);
     page.q.emplace_back(coordinates, (x + 1) / 7);
+    page.v.emplace_back(coordinates, x);
     chart.curves[0].values.push_back(n == 5 ? 9 : 1);
     chart.curves[1].values.push_back(n == 5 ? 9 : 1);
   }
@@ -46,6 +47,9 @@ TEST(MovingPage, LeavesNoErrorOut) {
   EXPECT_EQ(error, 9);
   EXPECT_EQ(value, 1);
   EXPECT_EQ(data["samples"].back()[0], 1000 / 7.0);
+  ASSERT_EQ(data["velocities"].size(), data["samples"].size());
+  EXPECT_EQ(data["velocities"][1][0][0], data["every"]);
+  EXPECT_EQ(data["velocities"].back()[0][0], 1000);
   EXPECT_THROW(moving_page(page_of(4, 60'000)), Error);
 }
 

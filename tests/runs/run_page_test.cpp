@@ -69,6 +69,22 @@ TEST(RunPage, HoldsTheNumbersOfTheRecordingExactly) {
   EXPECT_EQ(data["last_step"], 16);
 }
 
+/// Of what has mass, at each state, in as many digits as are drawn.
+TEST(RunPage, HoldsTheVelocitiesThatBendThePaths) {
+  const Scene scene = load_scene("double_pendulum");
+  Recording recording = recording_of(scene);
+  const Json velocities = data_of(run_page(request_for(scene), recording, "hbvm run"))["velocities"];
+  ASSERT_EQ(velocities.size(), recording.samples.size());
+  for (std::size_t n = 0; n < velocities.size(); ++n) {
+    const std::vector<double>& v = recording.samples[n].v;
+    ASSERT_EQ(v.size(), 4u);
+    for (std::size_t i = 0; i < v.size(); ++i)
+      EXPECT_NEAR(number(velocities[n].at(i / 2).at(i % 2)), v[i], 1e-4 * std::abs(v[i]));
+  }
+  for (Recording::Sample& sample : recording.samples) sample.v.clear();
+  EXPECT_TRUE(data_of(run_page(request_for(scene), recording, "hbvm run"))["velocities"].empty());
+}
+
 /// Of a scene without constraints there are no multipliers, and no errors of constraints.
 TEST(RunPage, LeavesOutWhatASceneHasNot) {
   const Scene scene = load_scene("kepler");

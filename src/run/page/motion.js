@@ -2,6 +2,7 @@
 class Motion {
   constructor(data) {
     this.rows = data.samples.map((row) => row.map(Number));
+    this.velocities = data.velocities;
     this.count = this.rows.length;
     this.dimension = data.sketch.dimension;
     this.places = data.sketch.places;
@@ -42,6 +43,12 @@ class Motion {
 
   position(place, i) { return this.positions[place][i]; }
 
+  /** Of the k-th place that has mass, in state i; zero if it is not known. */
+  velocity(k, i) {
+    const known = this.velocities[i]?.[k] ?? [];
+    return [0, 1, 2].map((j) => Number(known[j] ?? 0));
+  }
+
   /** The last state that is not later than this time after the start. */
   indexAfter(passed) {
     let low = 0, high = this.count - 1;
@@ -64,6 +71,13 @@ class Motion {
   mean(i) {
     const sum = [0, 0, 0];
     for (const place of this.masses) this.position(place, i).forEach((x, j) => (sum[j] += x / this.masses.length));
+    return sum;
+  }
+
+  /** Its velocity. */
+  meanVelocity(i) {
+    const sum = [0, 0, 0];
+    this.masses.forEach((_, k) => this.velocity(k, i).forEach((x, j) => (sum[j] += x / this.masses.length)));
     return sum;
   }
 }

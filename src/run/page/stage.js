@@ -92,6 +92,32 @@ class Stage {
   /** A position from there. */
   relative(place, i) { return Stage.less(this.motion.position(place, i), this.origin(i)); }
 
+  /** The velocity from there of the k-th place that has mass. */
+  relativeVelocity(k, i) {
+    const { motion, centre } = this, v = motion.velocity(k, i);
+    if (centre === 'all') return v;
+    return Stage.less(v, centre === 'mean' ? motion.meanVelocity(i) : motion.velocity(motion.masses.indexOf(centre), i));
+  }
+
+  /** The path of the k-th place that has mass: points, each behind the two that bend the way to it. */
+  pathOf(k) {
+    const { motion } = this, place = motion.masses[k];
+    const states = motion.rows.map(([t], i) => ({ t, at: this.relative(place, i), v: this.relativeVelocity(k, i) }));
+    return states.map((state, i) => {
+      const bend = i > 0 ? Stage.bend(states[i - 1], state) : [];
+      return [...this.project(state.at), ...bend.flatMap((x) => this.project(x).slice(0, 2))];
+    });
+  }
+
+  /** Two points by which a cubic has the velocities at its ends; none where these do not fit, as in smooth_path.cpp. */
+  static bend(from, to) {
+    const passed = to.t - from.t, way = Stage.less(to.at, from.at), longest = 2 * Math.hypot(...way);
+    const leadsOn = (v) =>
+      passed * v.reduce((sum, x, j) => sum + x * way[j], 0) >= 0 && Math.hypot(...v) * Math.abs(passed) <= longest;
+    if (!leadsOn(from.v) || !leadsOn(to.v)) return [];
+    return [from.at.map((x, j) => x + (passed / 3) * from.v[j]), to.at.map((x, j) => x - (passed / 3) * to.v[j])];
+  }
+
   /** To pixels, right and down, and towards who looks. */
   project([x, y, z]) {
     let across = x, up = y, near = z;
@@ -123,7 +149,7 @@ class Stage {
     const free = [Math.max(this.width - 2 * room, 20), Math.max(this.height - 2 * room, 20)];
     const sizes = this.sizes();
     this.scale = this.zoom * Math.min(...free.map((x, j) => x / Math.max(sizes[j], 0.05 * this.radius)));
-    this.paths = this.motion.masses.map((place) => this.motion.rows.map((_, i) => this.drawnAt(place, i)));
+    this.paths = this.motion.masses.map((_, k) => this.pathOf(k));
     this.draw();
   }
 
@@ -185,6 +211,7 @@ class Stage {
     this.drawMeasure();
   }
 
+  /** A line through points; one with the two that bend the way to it has them behind its three numbers. */
   stroke(points, colour, width, { alpha = 1, dash = [] } = {}) {
     const { pen } = this;
     pen.globalAlpha = alpha;
@@ -193,9 +220,10 @@ class Stage {
     pen.setLineDash(dash);
     pen.beginPath();
     let open = false;
-    for (const [x, y] of points) {
+    for (const [x, y, , ...bend] of points) {
       const there = Number.isFinite(x) && Number.isFinite(y);
-      if (there && open) pen.lineTo(x, y);
+      if (there && open && bend.length > 0) pen.bezierCurveTo(...bend, x, y);
+      else if (there && open) pen.lineTo(x, y);
       else if (there) pen.moveTo(x, y);
       open = there;
     }
