@@ -367,11 +367,71 @@ def odd_data(program, chromium, folder):
                 check(height > 60, f"{what}: the names leave {height} pixels to the curves")
 
 
+def many_charts(data):
+    many_multipliers(data)
+    data["charts"][:0] = 20 * data["charts"][-1:]
+
+
+def charts_have_room(program, chromium, folder):
+    """However many there are: nothing stands on anything else, all names are there, and the controls are in sight."""
+    path, _, _ = run(program, "double_pendulum", folder)
+    changed = with_data(path, many_charts)
+    for width, height in ((360, 740), (1280, 720), (1400, 900), (1920, 1080)):
+        chromium.resize(width, height)
+        chromium.open(changed)
+        wrong = chromium.evaluate("""(() => {
+          const wrong = [], letter = player.stage.letter, all = (within, what) => [...within.querySelectorAll(what)];
+          const numbers = (plot, axis) => all(plot, '.dygraph-axis-label-' + axis).filter((label) => label.textContent);
+          const expect = (holds, what) => holds || wrong.push(what);
+          const box = (element) => {
+            const range = document.createRange();
+            range.selectNodeContents(element);
+            return range.getBoundingClientRect();
+          };
+          const height = (element) => (box(element).top + box(element).bottom) / 2;
+          const controls = (when) => {
+            for (const id of ['play', 'slider', 'speed']) {
+              const element = document.getElementById(id), at = element.getBoundingClientRect();
+              const seen = document.elementFromPoint((at.left + at.right) / 2, (at.top + at.bottom) / 2);
+              expect(seen === element, `${id} is not in sight ${when}`);
+            }
+          };
+          controls('at first');
+          player.charts.forEach(({ chart, values, entries, graph, plot, canvas, roundOff }, i) => {
+            const own = plot.parentElement, bottom = own.getBoundingClientRect().bottom, next = own.nextElementSibling;
+            expect(plot.clientHeight >= 6.9 * letter, `chart ${i} is ${plot.clientHeight} high`);
+            expect(all(own, '*').every((part) => part.getBoundingClientRect().bottom < bottom + 1), `chart ${i} is too small`);
+            expect(!next || next.getBoundingClientRect().top >= bottom, `chart ${i} stands on the next`);
+            expect(values.scrollHeight <= values.clientHeight + 1 && entries.length === chart.curves.length, `names ${i}`);
+            const x = numbers(plot, 'x').map(box).sort((a, b) => a.left - b.left);
+            const y = numbers(plot, 'y').map(height).sort((a, b) => a - b);
+            expect(x.length > 1 && y.length > 1, `chart ${i} has ${x.length} and ${y.length} numbers`);
+            expect(x.every(({ left }, k) => k === 0 || left > x[k - 1].right), `times of chart ${i}`);
+            expect([...y, (x[0].top + x[0].bottom) / 2].every((at, k) => k === 0 || at - y[k - 1] > 0.7 * letter),
+                   `numbers of chart ${i} are at ${y}`);
+            const area = graph.getArea(), end = canvas.getBoundingClientRect().left + area.x + area.w;
+            expect(roundOff.hidden === (chart.round_off === undefined), `round-off of chart ${i}`);
+            expect(roundOff.hidden || box(roundOff).left >= end - 1, `curves ${i} go over the name of round-off`);
+          });
+          document.getElementById('charts').scrollTop = 1e6;
+          document.getElementById('account').scrollIntoView({ block: 'end' });
+          controls('at the last chart');
+          const end = player.charts.at(-1).plot.getBoundingClientRect().bottom;
+          const top = document.getElementById('controls').getBoundingClientRect().top;
+          expect(end <= top + 1, 'the last chart is out of reach');
+          expect(document.documentElement.scrollWidth <= innerWidth, 'the page is too wide');
+          return wrong;
+        })()""")
+        check(not wrong, f"at {width} x {height}: {wrong[:5]}")
+    chromium.resize(1366, 768)
+
+
 def tests(program, page, folder, pictures):
     page.prefer(reduced_motion="reduce")
     pages(program, page, folder, pictures)
     all_scenes(program, page, folder, pictures)
     odd_data(program, page, folder)
+    charts_have_room(program, page, folder)
 
 
 sys.exit(browser.test(tests))

@@ -19,24 +19,33 @@ class Chart {
     this.canvas = element('div', 'canvas', this.plot);
     this.cursor = element('div', 'cursor', this.plot);
     element('div', 'time', this.plot).textContent = 't';
+    this.roundOff = element('div', 'round-off', this.plot);
+    this.roundOff.textContent = 'round-off';
+    this.roundOff.hidden = true;
     this.names = chart.curves.map((curve) => Chart.nameOf(curve));
     this.entries = chart.curves.map((curve, i) => this.entry(curve, i));
     // Columns that numbers of another length do not move, and in which the shortest names are never cut
     const longest = Math.max(...this.names.map((name) => name.length)), width = longest > 8 ? 0.52 * longest + 10 : 12;
-    this.values.style.gridTemplateColumns = `repeat(auto-fill, minmax(${width}em, 1fr))`;
+    this.values.style.gridTemplateColumns = `repeat(auto-fill, minmax(min(${width}em, 100%), 1fr))`;
     const rows = motion.rows.map((row) => [row[0], ...chart.curves.map(({ column }) => this.drawn(row[column]))]);
     this.backward = motion.direction < 0;
     if (this.backward) rows.reverse();
-    const tics = (list) => () => list.map(([v, text]) => ({ v, label: Numbers.raised(text) }));
     const letter = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    // Numbers at as many as have room, each of so many pixels, and 0 among them
+    const tics = (list, room) => (from, to, pixels) => {
+      const apart = list.length > 1 ? (pixels * (list[1][0] - list[0][0])) / (to - from) : room;
+      const every = Math.ceil(room / apart), zero = list.findIndex(([v]) => v === 0);
+      return list.map(([v, text], i) => ({ v, label: (i - zero) % every === 0 ? Numbers.raised(text) : '' }));
+    };
+    const ofTime = 0.55 * Math.max(0, ...time.tics.map(([, text]) => text.length)) + 0.6;
     this.graph = new Dygraph(this.canvas, rows, {
       labels: ['t', ...chart.curves.map((_, i) => 'c' + i)],
       ...this.colours(),
       dateWindow: this.withItsEnds(time.range),
       valueRange: chart.range,
       axes: {
-        x: { ticker: tics(time.tics), axisLabelWidth: 3.6 * letter },
-        y: { ticker: tics(chart.tics), axisLabelWidth: 3.6 * letter },
+        x: { ticker: tics(time.tics, ofTime * letter), axisLabelWidth: 3.6 * letter, axisTickSize: 0.45 * letter },
+        y: { ticker: tics(chart.tics, 1.1 * letter), axisLabelWidth: 3.6 * letter },
       },
       axisLabelFontSize: 0.88 * letter,
       strokeWidth: 1.6,
@@ -54,18 +63,17 @@ class Chart {
     theme.onChange(() => this.recolour());
   }
 
-  /** What is below round-off. */
+  /** What is below round-off, and its name beside it, where no curve goes. */
   shade(pen, area, graph) {
     if (this.chart.round_off === undefined) return;
     const top = Math.max(graph.toDomYCoord(this.chart.round_off), area.y), bottom = area.y + area.h;
+    this.roundOff.hidden = top >= bottom;
     if (top >= bottom) return;
+    this.roundOff.style.bottom = this.plot.clientHeight - bottom + 'px';
     pen.fillStyle = this.theme.get('grid');
     pen.globalAlpha = 0.5;
     pen.fillRect(area.x, top, area.w, bottom - top);
     pen.globalAlpha = 1;
-    pen.fillStyle = this.theme.get('rod');
-    pen.textAlign = 'right';
-    pen.fillText('round-off', area.x + area.w - 4, bottom - 4);
   }
 
   /** A constraint by its number where its name is long. */
