@@ -37,6 +37,19 @@ bool is_positive_definite(Matrix<S> a) {
   return true;
 }
 
+/// \param moment about the point that is named, in space
+/// \throws InputError if it is 0 across the body, or no more than rounding
+template <Scalar S>
+void refuse_flat(const Matrix<S>& moment, const std::string& about) {
+  constexpr int few = 8;
+  const S least = few * epsilon<S>() * max_norm(moment);
+  if (is_positive_definite(Matrix<S>(moment - Matrix<S>::Identity(moment.rows(), moment.cols()) * least))) return;
+  throw InputError("the body has no thickness across itself: about its " + about +
+                   " one principal moment of inertia is the sum of the other two, as of a flat plate, and its mass "
+                   "matrix is not positive definite; give it a little thickness by a moment that is a little less, as "
+                   "inertia = [1, 2, 2.999] for [1, 2, 3], or by a small second moment across it");
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -64,6 +77,7 @@ Matrix<S> usable_second_moment(const MassDistribution<S>& of, bool fixed) {
     throw InputError(what +
                      "S - m c c^T is not positive semidefinite; an inertia tensor J about c, of which no principal "
                      "moment is greater than the sum of the others, stands here as S = tr(J)/2 I - J + m c c^T");
+  refuse_flat(fixed ? of.second_moment : about_center, fixed ? "fixed point" : "centre of mass");
   return of.second_moment;
 }
 

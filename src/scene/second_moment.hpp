@@ -20,7 +20,7 @@ struct MassDistribution {
 /// \param fixed whether the reference point is
 /// \throws InputError for one that no distribution of mass has: about the centre of mass, S - m c c^T is not positive
 ///         semidefinite, or its trace, which in the plane is all that counts,
-///         not positive
+///         not positive. In space also for a flat body, which has no thickness across itself
 template <Scalar S>
 Matrix<S> usable_second_moment(const MassDistribution<S>& of, bool fixed);
 

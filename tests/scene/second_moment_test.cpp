@@ -48,6 +48,18 @@ TYPED_TEST(SecondMoment, OfASheetMayHaveRoundOff) {
   EXPECT_NE(this->refused(sheet, true).find("S - m c c^T is not positive semidefinite"), std::string::npos);
 }
 
+/// Moments of inertia 1, 2 and 3: the message says what is wrong with it, and what to do.
+TYPED_TEST(SecondMoment, OfAFlatBodyInSpaceIsRefused) {
+  const auto plate = this->body(1, {0, 0, 0}, {{2, 0, 0}, {0, 1, 0}, {0, 0, 0}});
+  expect_words(this->refused(plate, false), {"no thickness", "centre of mass", "sum of the other two", "2.999"});
+  expect_words(this->refused(plate, true), {"no thickness", "fixed point"});
+  auto rounded = plate, thin = plate;
+  rounded.second_moment(2, 2) = epsilon<TypeParam>();
+  EXPECT_NE(this->refused(rounded, false), "");
+  thin.second_moment(2, 2) = TypeParam(1) / 10'000;
+  EXPECT_EQ(this->refused(thin, false), "");
+}
+
 /// J of a bar of length 2 and mass 3 about its middle, the reference point being its end.
 TYPED_TEST(SecondMoment, RefusesAnInertiaTensor) {
   for (const bool fixed : {false, true}) {
