@@ -45,6 +45,7 @@ struct Polyline {
   std::vector<PlotPoint> points;
   Look look = Look::solid;
   std::optional<std::size_t> colour = {};  ///< that of the curve of this number, else a grey
+  bool dashed = false;                     ///< with the dashes of that curve: of two on each other both are seen
 };
 
 /// A part of a bar that stands on the axis of x, in the colour of the curve of this number.
@@ -61,6 +62,7 @@ struct Mark {
   PlotPoint at;
   Look look = Look::body;
   std::string label;
+  std::optional<std::size_t> colour = {};  ///< that of the curve of this number, else the one of its look
 };
 
 /// Words in a panel, to the right of a place.

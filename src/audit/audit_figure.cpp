@@ -56,7 +56,8 @@ Panel panel_of(const std::string& title, const std::vector<Line>& lines,
     text += "\n";
   }
   write_file(csv, text);
-  for (const auto& [line, slope] : slopes) add_slope_triangle(panel, ladders[line], ladders[line].size() - 3, slope);
+  for (const auto& [line, slope] : slopes)
+    add_slope_triangle(panel, slope_triangle(ladders[line], ladders[line].size() - 3, slope));
   return panel;
 }
 

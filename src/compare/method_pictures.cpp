@@ -95,25 +95,27 @@ Curve joined(const Panel& panel, const std::string& label) {
   return curve;
 }
 
-/// The last state of a motion that is to be seen, of each the same.
+/// The last state of a motion that is to be seen, if there is one.
+const std::vector<double>* last_seen(const Recording& recording) {
+  for (auto sample = recording.samples.rbegin(); sample != recording.samples.rend(); ++sample)
+    if (std::all_of(sample->q.begin(), sample->q.end(), [](double x) { return std::isfinite(x); })) return &sample->q;
+  return nullptr;
+}
+
+/// Paths over one another, and each motion's bodies where it was last seen.
 Panel motions_panel(const Sketch& sketch, const std::vector<RecordedMethod>& runs, const std::vector<Recording>& shown,
-                    const Projection& projection, const std::string& title) {
+                    const Projection& seen, const std::string& title) {
+  const Projection without_end{seen.across, seen.up, 0, false};
   Panel all;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    Panel one = motion_panel(sketch, shown[i], projection);
+    Panel one = motion_panel(sketch, shown[i], without_end);
     const Curve paths = joined(one, plain(runs[i].figures.method));
     if (i == 0) {
       all = std::move(one);
       all.curves.clear();
-      std::erase_if(all.lines, [](const Polyline& line) {
-        return line.look == Polyline::Look::solid || line.look == Polyline::Look::bar ||
-               line.look == Polyline::Look::axis;
-      });
-      std::erase_if(all.marks, [](const Mark& mark) {
-        return mark.look == Mark::Look::body || mark.look == Mark::Look::centre || mark.look == Mark::Look::joint;
-      });
     }
     all.curves.push_back(paths);
+    if (const std::vector<double>* const q = last_seen(shown[i])) add_state(all, sketch, *q, seen, i);
   }
   all.title = title;
   all.labels_beside = true;

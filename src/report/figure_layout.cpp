@@ -44,24 +44,6 @@ PanelPlace ranges_of(const Panel& panel) {
   return place;
 }
 
-/// What the labels at the right of its curves need, in pixels.
-double right_of(const Panel& panel) {
-  std::size_t longest = 0;
-  if (has_names(panel))
-    for (const Curve& curve : panel.curves) longest = std::max(longest, letters(curve.label));
-  const double before = panel.labels_beside ? 20 : 10;
-  return longest > 0 ? before + letter_width * static_cast<double>(longest) : 0;
-}
-
-using Json = nlohmann::ordered_json;
-
-const char* name_of(AxisScale scale) {
-  return scale == AxisScale::binary    ? "binary"
-         : scale == AxisScale::decimal ? "decimal"
-         : scale == AxisScale::falling ? "falling"
-                                       : "linear";
-}
-
 /// Words of a figure as they are read: what lowers, raises and joins is for the eye alone.
 std::string read_words(const std::string& text) {
   std::string result;
@@ -72,6 +54,31 @@ std::string read_words(const std::string& text) {
       result += text[i];
   }
   return result;
+}
+
+/// What the labels at the right of its curves need, in pixels.
+double right_of(const Panel& panel) {
+  std::size_t longest = 0;
+  bool marked = false;
+  if (has_names(panel))
+    for (const Curve& curve : panel.curves) {
+      longest = std::max(longest, letters(read_words(curve.label)));
+      marked = marked || (panel.labels_beside && curve.marked);
+    }
+  // The label of the next panel's axis stands at the edge, and a wide letter takes more than the usual width.
+  constexpr double mark = 12, wide = 7.2, beside_edge = 12;
+  const double before = (panel.labels_beside ? 10 + beside_edge : 10) + (marked ? mark : 0);
+  const double width = panel.labels_beside ? wide : letter_width;
+  return longest > 0 ? before + width * static_cast<double>(longest) : 0;
+}
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(AxisScale scale) {
+  return scale == AxisScale::binary    ? "binary"
+         : scale == AxisScale::decimal ? "decimal"
+         : scale == AxisScale::falling ? "falling"
+                                       : "linear";
 }
 
 Json json_of(const Axis& axis, const AxisRange& range) {

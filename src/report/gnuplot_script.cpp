@@ -175,7 +175,10 @@ class PanelScript {
                                : line.look == Look::axis  ? std::pair("lw 1.2 dt 4", "#333333")
                                : line.look == Look::mesh  ? std::pair("lw 0.4", "#c4c4c4")
                                                           : std::pair("lw 1 dt 2", "#777777");
-    parts_.push_back(data(line.points) + "with lines " + style + " lc rgb " +
+    const std::string dash = line.dashed && line.colour && line.look != Look::axis
+                                 ? fmt::format(" dt {}", dashes[*line.colour % std::size(dashes)])
+                                 : "";
+    parts_.push_back(data(line.points) + "with lines " + style + dash + " lc rgb " +
                      quoted(line.colour ? colour_of(*line.colour) : grey) + " notitle");
   }
 
@@ -191,16 +194,18 @@ class PanelScript {
 
   void add(const Mark& mark) {
     if (!any({mark.at})) return;
-    const char* const style = mark.look == Mark::Look::body       ? "pt 7 ps 0.9 lc rgb 'black'"
-                              : mark.look == Mark::Look::start    ? "pt 6 ps 0.8 lc rgb '#666666'"
-                              : mark.look == Mark::Look::fixed    ? "pt 9 ps 1.3 lc rgb 'black'"
-                              : mark.look == Mark::Look::centre   ? "pt 7 ps 0.45 lc rgb 'black'"
-                              : mark.look == Mark::Look::joint    ? "pt 6 ps 0.6 lw 1.5 lc rgb 'black'"
-                              : mark.look == Mark::Look::positive ? "pt 1 ps 1.4 lw 1.5 lc rgb '#D55E00'"
-                                                                  : "pt 2 ps 1.2 lw 1.5 lc rgb '#0072B2'";
+    using Look = Mark::Look;
+    const auto [style, usual] = mark.look == Look::body       ? std::pair("pt 7 ps 0.9", "black")
+                                : mark.look == Look::start    ? std::pair("pt 6 ps 0.8", "#666666")
+                                : mark.look == Look::fixed    ? std::pair("pt 9 ps 1.3", "black")
+                                : mark.look == Look::centre   ? std::pair("pt 7 ps 0.45", "black")
+                                : mark.look == Look::joint    ? std::pair("pt 6 ps 0.6 lw 1.5", "black")
+                                : mark.look == Look::positive ? std::pair("pt 1 ps 1.4 lw 1.5", "#D55E00")
+                                                              : std::pair("pt 2 ps 1.2 lw 1.5", "#0072B2");
     const std::string at = data({mark.at});
     if (mark.look == Mark::Look::joint) parts_.push_back(at + "with points pt 7 ps 0.6 lc rgb 'white' notitle");
-    parts_.push_back(at + "with points " + style + " notitle");
+    parts_.push_back(at + "with points " + style + " lc rgb " + quoted(mark.colour ? colour_of(*mark.colour) : usual) +
+                     " notitle");
   }
 
   void write(const PlotPoint& at, const std::string& text, const std::string& colour, double lines_up,
@@ -266,8 +271,8 @@ class PanelScript {
       script_ += fmt::format("set label {} at graph {},{:.5f} left tc rgb {}", quoted(curve.label),
                              panel_.labels_beside ? "1.03" : "1.02", label.at / box_height, colour);
       if (panel_.labels_beside && curve.marked)
-        script_ +=
-            fmt::format(" point pt {} ps 0.6 lc rgb {} offset 0.8,0", marks[label.curve % std::size(marks)], colour);
+        script_ += fmt::format(" point pt {} ps 0.6 lc rgb {} offset 0.8,-0.35", marks[label.curve % std::size(marks)],
+                               colour);
       script_ += "\n";
     }
   }

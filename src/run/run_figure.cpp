@@ -52,8 +52,9 @@ std::map<std::size_t, std::size_t> colours_of_paths(const Sketch& sketch) {
 }
 
 /// The lines of the scene at one state, and the outlines of its rigid bodies.
+/// \param one colour of all; without it each is drawn in that of its body's path
 void add_links(Panel& panel, const Sketch& sketch, const std::vector<double>& q, const Projection& projection,
-               Polyline::Look look) {
+               Polyline::Look look, std::optional<std::size_t> one = {}) {
   const bool whole = look == Polyline::Look::solid;
   const std::map<std::size_t, std::size_t> colours = colours_of_paths(sketch);
   for (const Sketch::Link& link : sketch.links) {
@@ -65,14 +66,30 @@ void add_links(Panel& panel, const Sketch& sketch, const std::vector<double>& q,
                                                                     : look;
     Polyline& line = panel.lines.emplace_back(Polyline{
         {project(sketch.position(link.a, q), projection), project(sketch.position(link.b, q), projection)}, drawn});
-    if (whole && link.as == Sketch::Joins::body) line.colour = colours.at(*sketch.places[link.a].of);
+    line.colour = one;
+    if (!one && whole && link.as == Sketch::Joins::body) line.colour = colours.at(*sketch.places[link.a].of);
   }
   for (const Sketch::Body& body : sketch.bodies) {
     Polyline& outline = panel.lines.emplace_back(outline_of(sketch, body, q, projection));
     outline.look = whole ? look : Polyline::Look::faint;
-    if (whole) outline.colour = colours.at(body.place);
+    if (whole) outline.colour = one.value_or(colours.at(body.place));
   }
 }
+
+/// What stands at a place: a body, a fixed point, a joint, a charge.
+void add_marks(Panel& panel, const Sketch::Place& place, const PlotPoint& at, const std::string& label,
+               std::optional<std::size_t> colour) {
+  if (place.has_mass)
+    panel.marks.push_back({at, place.of ? Mark::Look::centre : Mark::Look::body, label, colour});
+  else if (place.mark == Sketch::Place::Mark::dot && place.at.blocks.empty())
+    panel.marks.push_back({at, Mark::Look::fixed, label, colour});
+  else if (place.mark == Sketch::Place::Mark::joint)
+    panel.marks.push_back({at, Mark::Look::joint, "", colour});
+  if (place.charge != 0)
+    panel.marks.push_back({at, place.charge > 0 ? Mark::Look::positive : Mark::Look::negative, "", colour});
+}
+
+bool moves(const Sketch::Place& place) { return place.has_mass || !place.at.blocks.empty(); }
 
 /// Lines behind all else, with gaps between them.
 void add_lines(Panel& panel, const std::vector<PointLine>& lines, const Projection& projection, Polyline::Look look) {
@@ -249,22 +266,26 @@ Panel motion_panel(const Sketch& sketch, const Recording& recording, const Proje
     if (place.has_mass) {
       panel.curves.push_back(path_of(sketch, i, recording, projection));
       panel.marks.push_back({project(sketch.position(i, first), projection), Mark::Look::start, ""});
-      panel.marks.push_back({at, place.of ? Mark::Look::centre : Mark::Look::body, label});
-    } else if (place.mark == Sketch::Place::Mark::dot && place.at.blocks.empty()) {
-      panel.marks.push_back({at, Mark::Look::fixed, label});
-    } else if (place.mark == Sketch::Place::Mark::joint) {
-      panel.marks.push_back({at, Mark::Look::joint, ""});
     }
-    if (place.charge != 0)
-      panel.marks.push_back({at, place.charge > 0 ? Mark::Look::positive : Mark::Look::negative, ""});
+    if (projection.end || !moves(place)) add_marks(panel, place, at, label, std::nullopt);
   }
   const auto samples = static_cast<long>(recording.samples.size());
   for (long n = 1; n <= projection.rods; ++n)
     add_links(panel, sketch, recording.samples[static_cast<std::size_t>(n * samples / (projection.rods + 1))].q,
               projection, Polyline::Look::faint);
   add_links(panel, sketch, first, projection, Polyline::Look::dashed);
-  add_links(panel, sketch, last, projection, Polyline::Look::solid);
+  if (projection.end) add_links(panel, sketch, last, projection, Polyline::Look::solid);
   return panel;
+}
+
+void add_state(Panel& panel, const Sketch& sketch, const std::vector<double>& q, const Projection& projection,
+               std::size_t colour) {
+  for (std::size_t i = 0; i < sketch.places.size(); ++i)
+    if (moves(sketch.places[i]))
+      add_marks(panel, sketch.places[i], project(sketch.position(i, q), projection), "", colour);
+  const std::size_t before = panel.lines.size();
+  add_links(panel, sketch, q, projection, Polyline::Look::solid, colour);
+  for (std::size_t i = before; i < panel.lines.size(); ++i) panel.lines[i].dashed = true;
 }
 
 Figure run_figure(const Sketch& sketch, const Recording& recording, const std::vector<Portrait>& portraits,

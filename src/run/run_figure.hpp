@@ -14,10 +14,16 @@ namespace hbvm::core {
 struct Projection {
   int across = 0, up = 1;  ///< which coordinates: 0 is x
   long rods = 0;           ///< at how many times between start and end rods are drawn, too
+  bool end = true;         ///< whether the scene is drawn as it is at the end
 };
 
 /// Paths of what has mass, with the scene as it was at the start, dashed, and is at the end.
 Panel motion_panel(const Sketch& sketch, const Recording& recording, const Projection& projection);
+
+/// What moves of a scene where its coordinates are these: bodies, rods and rigid bodies, in the colour of one curve.
+/// They are dashed by it, too, so that what lies behind is seen.
+void add_state(Panel& panel, const Sketch& sketch, const std::vector<double>& q, const Projection& projection,
+               std::size_t colour);
 
 /// Two observations that are drawn against each other.
 using Portrait = std::array<std::string, 2>;

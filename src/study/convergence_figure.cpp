@@ -1,6 +1,7 @@
 #include "study/convergence_figure.hpp"
 
 #include <cmath>
+#include <map>
 
 #include "audit/slope_triangle.hpp"
 #include "hbvm/version.hpp"
@@ -19,6 +20,7 @@ Figure convergence_figure(const ConvergenceWork& work, const std::vector<Measure
     panel.x = {"step h", AxisScale::binary};
     panel.y = {"error at t = " + plain(work.request.until.text()), AxisScale::decimal};
     panel.labels_beside = true;
+    std::map<int, std::vector<std::vector<Rung>>> slopes;
     for (const MeasuredConvergence& one : measured) {
       const std::vector<Rung>& rungs = one.rungs[part];
       if (rungs.empty()) continue;
@@ -26,8 +28,9 @@ Figure convergence_figure(const ConvergenceWork& work, const std::vector<Measure
       Curve& curve = panel.curves.emplace_back(Curve{plain(one.method + precision), {}, true});
       for (const Rung& rung : rungs) curve.points.push_back({rung.step, rung.error * log10_of_2});
       if (one.rates[part] && one.precision == work.precisions.back().name() && rungs.size() > 2)
-        add_slope_triangle(panel, rungs, rungs.size() - 1, static_cast<int>(std::lround(one.rates[part]->value)));
+        slopes[static_cast<int>(std::lround(one.rates[part]->value))].push_back(rungs);
     }
+    add_slope_triangles(panel, slopes);
     if (!panel.curves.empty()) figure.panels.push_back(std::move(panel));
   }
   return figure;

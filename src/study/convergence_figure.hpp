@@ -5,7 +5,7 @@
 
 namespace hbvm::core {
 
-/// A panel for each part: a curve a method and precision, and a triangle for the order of each method.
+/// A panel for each part: a curve a method and precision, and a triangle for each order.
 Figure convergence_figure(const ConvergenceWork& work, const std::vector<MeasuredConvergence>& measured,
                           const std::string& command);
 

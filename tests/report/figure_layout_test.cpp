@@ -52,6 +52,16 @@ TEST(FigureLayout, SaysWhatIsDrawnWhere) {
   EXPECT_EQ(bar["points"].dump(), "[[0.0,17.5]]");
 }
 
+/// A letter is 7 pixels wide at most; a mark stands before them.
+TEST(FigureLayout, HasRoomForNamesBesideAPanel) {
+  Figure figure = two_panels();
+  figure.panels.pop_back();
+  figure.panels[0].labels_beside = true;
+  figure.panels[0].curves[0] = {"hbvm:12,10", {{1, 2}}, true};
+  const FigureLayout layout = layout_of(figure);
+  EXPECT_GE(layout.size[0], layout.panels[0].left + box_width + 22 + 7 * 10 + 10);
+}
+
 TEST(FigureLayout, CountsLettersNotBytes) { EXPECT_EQ(letters("λ°a"), 3u); }
 
 }  // namespace

@@ -141,9 +141,12 @@ TEST(GnuplotScript, WritesNoNameOnAMark) {
 TEST(GnuplotScript, DrawsLinesInTheColourOfACurve) {
   Panel panel;
   panel.lines = {{{{0, 0}, {1, 1}}, Polyline::Look::solid, 1}, {{{0, 0}, {1, 0}}, Polyline::Look::mesh}};
-  panel.marks = {{{0, 0}, Mark::Look::joint, ""}};
-  expect_words(script(panel), {"with lines lw 1.6 lc rgb '#D55E00'", "with lines lw 0.4 lc rgb '#c4c4c4'",
-                               "pt 7 ps 0.6 lc rgb 'white'", "pt 6 ps 0.6"});
+  panel.lines.push_back({{{0, 0}, {0, 1}}, Polyline::Look::bar, 1, true});
+  panel.lines.push_back({{{0, 0}, {0, 1}}, Polyline::Look::axis, 1, true});
+  panel.marks = {{{0, 0}, Mark::Look::joint, ""}, {{1, 0}, Mark::Look::body, "", 2}};
+  expect_words(script(panel), {"with lines lw 3 dt 2 lc rgb '#D55E00'", "with lines lw 1.2 dt 4 lc rgb '#D55E00'",
+                               "pt 7 ps 0.9 lc rgb '#009E73'", "with lines lw 1.6 lc rgb '#D55E00'",
+                               "with lines lw 0.4 lc rgb '#c4c4c4'", "pt 7 ps 0.6 lc rgb 'white'", "pt 6 ps 0.6"});
 }
 
 TEST(GnuplotScript, QuotesItsTexts) {
