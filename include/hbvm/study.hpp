@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hbvm/figure.hpp"
+#include "hbvm/run.hpp"
 #include "hbvm/scene.hpp"
 
 namespace hbvm {
@@ -52,9 +53,11 @@ struct MethodsRequest {
 /// What became of one of them. Numbers are decimal text.
 struct MethodRun {
   std::string method;            ///< as it was asked for
+  std::string resolved;          ///< what that is: "rattle" for "verlet", and with k as chosen
   std::string e_H, e_g, e_hid;   ///< greatest errors at mesh points, of H, of g and of the hidden constraints
   std::optional<double> digits;  ///< right ones of the positions at the end, of their greatest coordinate
   double cpu_seconds = 0;
+  std::vector<Warning> warnings;  ///< as run() tells them
   std::string failure;  ///< why it did not come to the end, with the time; all else but the method is then empty
 };
 
@@ -71,7 +74,7 @@ struct MethodComparison {
 /// \throws InputError, Interrupted
 MethodComparison compare_methods(const MethodsRequest& request);
 
-/// A table of names and errors.
+/// A table of names and errors, and the warnings of each run.
 std::string to_text(const MethodComparison& comparison);
 std::string to_json(const MethodComparison& comparison);
 
@@ -98,7 +101,9 @@ struct MethodOrders {
   struct Point {
     std::string step, q, p, lambda;  ///< greatest errors at the end, as decimal text
   };
-  std::string method, precision;
+  std::string method;    ///< as it was asked for
+  std::string resolved;  ///< what that is, with k as chosen at the finest step
+  std::string precision;
   std::optional<MeasuredRate> q, p, lambda;  ///< none where too few errors are above round-off
   std::vector<Point> points;                 ///< from coarse to fine
   std::string failure;                       ///< of the first step that could not be made
@@ -115,7 +120,7 @@ struct ConvergenceStudy {
 /// \throws InputError, also where the exact motion is not known; Interrupted
 ConvergenceStudy convergence(const ConvergenceRequest& request);
 
-/// A table of rates, and of the errors of the finest step.
+/// A table of errors against the step for each method, with the rates below; of several methods the rates once more.
 std::string to_text(const ConvergenceStudy& convergence);
 std::string to_json(const ConvergenceStudy& convergence);
 

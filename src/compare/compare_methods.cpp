@@ -11,11 +11,12 @@
 namespace hbvm::core {
 namespace {
 
-RecordedMethod run_method(RunRequest request, const MethodPtr& method,
+RecordedMethod run_method(RunRequest request, const NamedMethod& named,
                           const std::function<void(long, long)>& progress) {
-  request.method = method;
+  request.method = named.method;
   RecordedMethod one;
-  one.figures.method = method->text();
+  one.figures.method = named.name;
+  one.figures.resolved = named.method->text();
   RunHooks hooks;
   hooks.progress = progress;
   hooks.recording = &one.recording;
@@ -25,6 +26,8 @@ RecordedMethod run_method(RunRequest request, const MethodPtr& method,
     one.figures.e_g = run.e_g;
     one.figures.e_hid = run.e_hid;
     one.figures.cpu_seconds = run.cpu_seconds;
+    one.figures.resolved = run.method;
+    one.figures.warnings = std::move(run.health.warnings);
     one.q = std::move(run.q);
   } catch (const IntegrationError& error) {
     one.figures.failure = error.what();
@@ -34,11 +37,11 @@ RecordedMethod run_method(RunRequest request, const MethodPtr& method,
 
 }  // namespace
 
-std::vector<RecordedMethod> run_methods(const RunRequest& request, const std::vector<MethodPtr>& methods,
+std::vector<RecordedMethod> run_methods(const RunRequest& request, const std::vector<NamedMethod>& methods,
                                         const std::function<void(long, long)>& progress) {
   std::vector<RecordedMethod> runs;
   const auto all = static_cast<long>(methods.size());
-  for (const MethodPtr& method : methods) {
+  for (const NamedMethod& method : methods) {
     const auto before = static_cast<long>(runs.size());
     runs.push_back(run_method(request, method, [&](long done, long of) {
       if (progress) progress(before * of + done, all * of);

@@ -6,6 +6,7 @@
 #include "hbvm/study.hpp"
 #include "run/recording.hpp"
 #include "run/run_request.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm::core {
 
@@ -19,7 +20,7 @@ struct RecordedMethod {
 /// The run that is asked for, by each method in its place.
 /// \param progress is called with steps of all runs
 /// \throws InputError, Interrupted
-std::vector<RecordedMethod> run_methods(const RunRequest& request, const std::vector<MethodPtr>& methods,
+std::vector<RecordedMethod> run_methods(const RunRequest& request, const std::vector<NamedMethod>& methods,
                                         const std::function<void(long, long)>& progress);
 
 /// Tells each run that came to the end how many digits of its positions are right. That is -log10 of the greatest error

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
+
 #include "door/door.hpp"
 #include "door/run_of.hpp"
 #include "hbvm/error.hpp"
@@ -27,8 +30,7 @@ core::ConvergenceWork work_of(const ConvergenceRequest& asked) {
   const Number until = asked.until.value_or(Number(core::time_of_sixteen(steps.front(), constants).text()));
   const core::RunRequest request =
       core::request_of({.scene = asked.scene, .method = asked.methods.front(), .step = until, .until = until}, {});
-  core::ConvergenceWork work{request, {}, {}, std::move(steps)};
-  for (const std::string& name : asked.methods) work.methods.push_back(core::parse_method(name));
+  core::ConvergenceWork work{request, core::named_methods(asked.methods), {}, std::move(steps)};
   for (const std::string& name : asked.precisions) work.precisions.push_back(core::Precision::parse(name));
   work.propagated = asked.propagated;
   work.progress = asked.progress;
@@ -38,7 +40,7 @@ core::ConvergenceWork work_of(const ConvergenceRequest& asked) {
 std::string command_of(const ConvergenceRequest& asked, const core::ConvergenceWork& work) {
   std::string text =
       "hbvm convergence " + work.request.scene.name + core::settings_in_command(work.request.scene) + " --methods";
-  for (const core::MethodPtr& method : work.methods) text += " " + method->text();
+  for (const core::NamedMethod& method : work.methods) text += " " + method.name;
   text += " --steps '" + asked.steps + "' --until '" + work.request.until.text() + "' --precision";
   for (const core::Precision& precision : work.precisions) text += " " + precision.name();
   return text + (work.propagated ? " --propagated" : "");
@@ -50,8 +52,14 @@ std::optional<MeasuredRate> rate_of(const std::optional<core::Rate>& rate) {
 }
 
 MethodOrders orders_of(const core::MeasuredConvergence& one) {
-  MethodOrders orders{one.method, one.precision, rate_of(one.rates[0]), rate_of(one.rates[1]), rate_of(one.rates[2]),
-                      {},         one.failure};
+  MethodOrders orders{.method = one.method,
+                      .resolved = one.resolved,
+                      .precision = one.precision,
+                      .q = rate_of(one.rates[0]),
+                      .p = rate_of(one.rates[1]),
+                      .lambda = rate_of(one.rates[2]),
+                      .points = {},
+                      .failure = one.failure};
   for (const core::ConvergenceStep& step : one.steps)
     orders.points.push_back({step.step, step.errors[0], step.errors[1], step.errors[2]});
   return orders;
@@ -65,6 +73,48 @@ bool has_lambda(const ConvergenceStudy& convergence) {
   for (const MethodOrders& one : convergence.methods)
     if (!one.points.empty() && !one.points.front().lambda.empty()) return true;
   return false;
+}
+
+/// A step as one writes it: 1/256, or else a decimal number.
+std::string short_step(const std::string& decimal) {
+  const double step = std::strtod(decimal.c_str(), nullptr), parts = std::round(1 / step);
+  constexpr double most = 1'000'000'000;
+  if (parts > 1 && parts < most && std::abs(1 / step - parts) * most <= parts)
+    return fmt::format("1/{}", std::lround(parts));
+  return fmt::format("{:.6g}", step);
+}
+
+/// A group a method: errors at each step, and in its last row what they tend to.
+Table errors_of(const ConvergenceStudy& convergence, bool constrained) {
+  Table table;
+  table.columns = {"step", "error of q", "error of p"};
+  if (constrained) table.columns.emplace_back("error of lambda");
+  for (const MethodOrders& one : convergence.methods) {
+    const std::string meant = one.resolved == one.method ? "" : " (" + one.resolved + ")";
+    Table::Group& group = table.groups.emplace_back();
+    group.heading = one.method + meant + ", " + one.precision;
+    const auto add = [&](const std::string& first, const std::string& q, const std::string& p,
+                         const std::string& lambda) {
+      std::vector<std::string>& row = group.rows.emplace_back(std::vector<std::string>{first, q, p});
+      if (constrained) row.push_back(lambda);
+    };
+    for (const MethodOrders::Point& point : one.points) add(short_step(point.step), point.q, point.p, point.lambda);
+    add("order", text_of(one.q), text_of(one.p), text_of(one.lambda));
+  }
+  return table;
+}
+
+/// A row a method.
+Table rates_of(const ConvergenceStudy& convergence, bool constrained) {
+  Table table;
+  table.columns = {"method", "precision", "order of q", "order of p"};
+  if (constrained) table.columns.emplace_back("order of lambda");
+  Table::Group& group = table.groups.emplace_back(Table::Group{.heading = "orders of all", .keys = {}, .rows = {}});
+  for (const MethodOrders& one : convergence.methods) {
+    group.rows.push_back({one.method, one.precision, text_of(one.q), text_of(one.p)});
+    if (constrained) group.rows.back().push_back(text_of(one.lambda));
+  }
+  return table;
 }
 
 }  // namespace
@@ -86,30 +136,16 @@ ConvergenceStudy convergence(const ConvergenceRequest& door) {
 
 std::string to_text(const ConvergenceStudy& convergence) {
   const bool constrained = has_lambda(convergence);
-  Table table;
-  table.columns = {"method", "precision", "order of q", "order of p"};
-  if (constrained) table.columns.emplace_back("order of lambda");
-  table.columns.insert(table.columns.end(), {"finest step", "error of q", "error of p"});
-  if (constrained) table.columns.emplace_back("error of lambda");
   const char* const parts = !constrained             ? ""
                             : convergence.propagated ? "; p and lambda propagated"
                                                      : "; p and lambda of the output state";
-  Table::Group group{
-      .heading = fmt::format("{}: {} at t = {}{}", convergence.scene, convergence.title, convergence.until, parts),
-      .keys = {},
-      .rows = {}};
-  std::string failures;
-  for (const MethodOrders& one : convergence.methods) {
-    std::vector<std::string> row{one.method, one.precision, text_of(one.q), text_of(one.p)};
-    if (constrained) row.push_back(text_of(one.lambda));
-    const MethodOrders::Point finest = one.points.empty() ? MethodOrders::Point{} : one.points.back();
-    row.insert(row.end(), {finest.step, finest.q, finest.p});
-    if (constrained) row.push_back(finest.lambda);
-    group.rows.push_back(row);
-    if (!one.failure.empty()) failures += one.method + ", " + one.precision + ", " + one.failure + "\n";
-  }
-  table.groups.push_back(group);
-  return to_text(table) + failures;
+  std::string text =
+      fmt::format("{}: {} at t = {}{}\n\n", convergence.scene, convergence.title, convergence.until, parts);
+  text += to_text(errors_of(convergence, constrained));
+  if (convergence.methods.size() > 1) text += to_text(rates_of(convergence, constrained));
+  for (const MethodOrders& one : convergence.methods)
+    if (!one.failure.empty()) text += one.method + ", " + one.precision + ", " + one.failure + "\n";
+  return text;
 }
 
 std::string to_json(const ConvergenceStudy& convergence) {
@@ -130,8 +166,11 @@ std::string to_json(const ConvergenceStudy& convergence) {
       if (!point.lambda.empty()) error["lambda"] = point.lambda;
       points.push_back({{"step", point.step}, {"error", error}});
     }
-    core::OrderedJson json{
-        {"method", one.method}, {"precision", one.precision}, {"orders", orders}, {"points", points}};
+    core::OrderedJson json{{"method", one.method},
+                           {"resolved", one.resolved},
+                           {"precision", one.precision},
+                           {"orders", orders},
+                           {"points", points}};
     if (!one.failure.empty()) json["failure"] = one.failure;
     methods.push_back(std::move(json));
   }

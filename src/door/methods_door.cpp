@@ -37,13 +37,11 @@ MethodComparison compare_methods(const MethodsRequest& door) {
   if (door.methods.size() > curve_colours.size())
     throw InputError(fmt::format("{} methods are more than the {} that a picture can tell apart", door.methods.size(),
                                  curve_colours.size()));
-  std::vector<core::MethodPtr> methods;
-  for (const std::string& name : door.methods) methods.push_back(core::parse_method(name));
+  const std::vector<core::NamedMethod> methods = core::named_methods(door.methods);
   RunRequest one{.scene = door.scene, .method = door.methods.front(), .step = door.step, .until = door.until};
   one.precision = door.precision;
   const core::RunRequest request = core::request_of(one, std::nullopt);
   std::vector<core::RecordedMethod> runs = core::run_methods(request, methods, door.progress);
-  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].figures.method = door.methods[i];
   MethodComparison comparison;
   comparison.scene = request.scene.name;
   comparison.title = request.scene.title;
@@ -74,30 +72,34 @@ std::string to_text(const MethodComparison& comparison) {
                                             comparison.until, comparison.step, comparison.precision),
                      .keys = {},
                      .rows = {}};
-  std::string failures;
+  std::string below;
   for (const MethodRun& run : comparison.runs) {
     std::vector<std::string> row{run.method, error(run.e_H)};
     if (constrained) row.insert(row.end(), {error(run.e_g), error(run.e_hid)});
     if (has_digits) row.push_back(run.digits ? fmt::format("{:.1f}", *run.digits) : "");
     row.push_back(run.failure.empty() ? fmt::format("{:.2g}", run.cpu_seconds) : "");
     group.rows.push_back(row);
-    if (!run.failure.empty()) failures += run.method + ": " + run.failure + "\n";
+    if (run.resolved != run.method) below += run.method + ": this is " + run.resolved + "\n";
+    if (!run.failure.empty()) below += run.method + ": " + run.failure + "\n";
+    for (const Warning& warning : run.warnings)
+      below += fmt::format("{}: WARNING {}: {}\n", run.method, warning.name, warning.text);
   }
   table.groups.push_back(group);
-  return to_text(table) + failures +
+  return to_text(table) + below +
          (comparison.no_digits.empty() ? "" : "no digits are known: " + comparison.no_digits + "\n");
 }
 
 std::string to_json(const MethodComparison& comparison) {
   core::OrderedJson runs = core::OrderedJson::array();
   for (const MethodRun& run : comparison.runs) {
-    core::OrderedJson one{{"method", run.method}};
+    core::OrderedJson one{{"method", run.method}, {"resolved", run.resolved}};
     if (!run.failure.empty()) {
       one["failure"] = run.failure;
     } else {
       one.update({{"e_H", run.e_H}, {"e_g", run.e_g}, {"e_hid", run.e_hid}});
       if (run.digits) one["digits"] = *run.digits;
       one["cpu_seconds"] = run.cpu_seconds;
+      one["warnings"] = core::json_of(run.warnings);
     }
     runs.push_back(std::move(one));
   }

@@ -1,20 +1,28 @@
 #include <cmath>
 
+#include "door/run_of.hpp"
 #include "hbvm/run.hpp"
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 
 namespace hbvm {
+namespace core {
+
+OrderedJson json_of(const std::vector<Warning>& warnings) {
+  OrderedJson list = OrderedJson::array();
+  for (const Warning& warning : warnings) list.push_back({{"name", warning.name}, {"text", warning.text}});
+  return list;
+}
+
+}  // namespace core
+
 namespace {
 
 core::OrderedJson json_of(const Health& health) {
-  core::OrderedJson j{{"condition", health.condition},
-                      {"worst_e_H", health.worst_e_H},
-                      {"worst_hidden", health.worst_hidden},
-                      {"warnings", core::OrderedJson::array()}};
-  for (const Warning& warning : health.warnings)
-    j["warnings"].push_back({{"name", warning.name}, {"text", warning.text}});
-  return j;
+  return {{"condition", health.condition},
+          {"worst_e_H", health.worst_e_H},
+          {"worst_hidden", health.worst_hidden},
+          {"warnings", core::json_of(health.warnings)}};
 }
 
 std::vector<double> rounded(std::vector<double> digits) {

@@ -3,6 +3,7 @@
 #include <istream>
 
 #include "hbvm/run.hpp"
+#include "long_work/json.hpp"
 #include "run/scene_run.hpp"
 
 namespace hbvm::core {
@@ -15,6 +16,9 @@ std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request)
 
 /// The trajectory whose CSV lines these are.
 hbvm::Trajectory trajectory_of(std::istream& lines);
+
+/// A list of a name and a text each.
+OrderedJson json_of(const std::vector<Warning>& warnings);
 
 /// The figure of a run: motion, multipliers and errors, with what made it below.
 Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command);

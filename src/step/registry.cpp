@@ -141,6 +141,12 @@ MethodPtr parse_method(std::string_view text) {
                    (near.empty() ? did_you_mean_or_list(spec.family, families) : near));
 }
 
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& names) {
+  std::vector<NamedMethod> methods;
+  for (const std::string& name : names) methods.push_back({name, parse_method(name)});
+  return methods;
+}
+
 std::string method_usage() {
   return "as hbvm:4,2, hbvm:auto,3, rattle, rk4, gauss:3, radau:3 or tableau:FILE; 'hbvm methods' lists all";
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +43,15 @@ bool is_method_name(std::string_view name);
 
 /// \throws InputError for a family or arguments that do not exist, with what there is
 MethodPtr parse_method(std::string_view text);
+
+/// A method beside the name it was asked for by, which may be an alias.
+struct NamedMethod {
+  std::string name;
+  MethodPtr method;
+};
+
+/// \throws InputError as parse_method() does
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& names);
 
 /// How methods are written, in one line.
 std::string method_usage();

@@ -50,20 +50,23 @@ class LadderOfSteps {
  public:
   LadderOfSteps(const ConvergenceWork& work, const EndVectors& exact) : work_(work), exact_(exact) {}
 
-  MeasuredConvergence measured(const MethodPtr& method, const Precision& precision,
+  MeasuredConvergence measured(const NamedMethod& named, const Precision& precision,
                                const std::function<void(long, long)>& progress) {
-    MeasuredConvergence result{method->text(), precision.name(), {}, {}, {}, {}};
+    MeasuredConvergence result{named.name, named.method->text(), precision.name(), {}, {}, {}, {}};
     std::optional<Run> finest;
     for (const Expression& step : work_.steps) {
       try {
-        const Run run = made(method, step, precision, progress);
+        const Run run = made(named.method, step, precision, progress);
         add(result, run);
         finest = run;
       } catch (const IntegrationError& error) {
         if (result.failure.empty()) result.failure = "step " + step.text() + ": " + error.what();
       }
     }
-    if (finest) set_floors(result, *finest, precision);
+    if (finest) {
+      result.resolved = finest->method;
+      set_floors(result, *finest, precision);
+    }
     for (std::size_t part = 0; part < result.rates.size(); ++part) {
       result.rates[part] = convergence_rate(result.rungs[part]);
       if (result.rates[part] && !std::isfinite(result.rates[part]->uncertainty)) result.rates[part].reset();
@@ -124,7 +127,7 @@ std::vector<MeasuredConvergence> measure_convergence(const ConvergenceWork& work
   LadderOfSteps ladder(work, exact);
   std::vector<MeasuredConvergence> result;
   for (const Precision& precision : work.precisions)
-    for (const MethodPtr& method : work.methods)
+    for (const NamedMethod& method : work.methods)
       result.push_back(ladder.measured(method, precision, [&](long made, long of) {
         if (work.progress) work.progress(done + made, all);
         if (made == of) done += of;

@@ -8,6 +8,7 @@
 
 #include "audit/convergence.hpp"
 #include "run/run_request.hpp"
+#include "step/registry.hpp"
 
 namespace hbvm::core {
 
@@ -18,7 +19,7 @@ inline constexpr std::array<const char*, 3> end_part_names{"q", "p", "lambda"};
 
 struct ConvergenceWork {
   RunRequest request;  ///< method, step and precision are those of the lists
-  std::vector<MethodPtr> methods;
+  std::vector<NamedMethod> methods;
   std::vector<Precision> precisions;
   std::vector<Expression> steps;                  ///< from coarse to fine
   bool propagated = false;                        ///< p and lambda as they are carried on, not the output state's
@@ -33,7 +34,8 @@ struct ConvergenceStep {
 
 /// A method's errors against the step in one precision.
 struct MeasuredConvergence {
-  std::string method, precision;
+  std::string method, resolved;  ///< as it was asked for, and what that is
+  std::string precision;
   std::vector<ConvergenceStep> steps;  ///< that came to the end
   std::array<std::vector<Rung>, 3> rungs;
   std::array<std::optional<Rate>, 3> rates;  ///< none where too few errors are above round-off

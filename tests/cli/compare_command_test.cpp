@@ -18,7 +18,7 @@ TEST(CompareCommand, PrintsJson) {
   const nlohmann::ordered_json json = json_of(kepler + Arguments{"--precision", "50", "--step", "1/16"});
   EXPECT_EQ(json["precision"], "mpfr:50");
   EXPECT_EQ(json["runs"].size(), 3u);
-  EXPECT_EQ(keys_of(json["runs"][0]), words_of("method e_H e_g e_hid cpu_seconds"));
+  EXPECT_EQ(keys_of(json["runs"][0]), words_of("method resolved e_H e_g e_hid cpu_seconds warnings"));
 }
 
 TEST(CompareCommand, DrawsAFigureAndAPage) {

@@ -10,13 +10,13 @@ const Arguments orders_of_kepler{"convergence", "kepler", "--methods", "rk4", "v
 
 TEST(ConvergenceCommand, PrintsATableOfOrders) {
   const Outcome outcome = ended_with(0, orders_of_kepler + Arguments{"--precision", "30", "double"});
-  expect_words(outcome.out, {"order of q", "rk4", "rattle", "mpfr:30", "double", "+-"});
+  expect_words(outcome.out, {"order of q", "rk4", "verlet (rattle)", "1/128", "mpfr:30", "double", "+-"});
   EXPECT_EQ(outcome.err, "");
 }
 
 TEST(ConvergenceCommand, PrintsJson) {
   const nlohmann::ordered_json json = json_of(orders_of_kepler);
-  EXPECT_EQ(keys_of(json["methods"][0]), words_of("method precision orders points"));
+  EXPECT_EQ(keys_of(json["methods"][0]), words_of("method resolved precision orders points"));
   EXPECT_EQ(json["methods"][0]["points"].size(), 5u);
 }
 

@@ -11,9 +11,7 @@ namespace hbvm::core {
 namespace {
 
 std::vector<RecordedMethod> runs_of(const RunRequest& request, const std::vector<const char*>& names) {
-  std::vector<MethodPtr> methods;
-  for (const char* const name : names) methods.push_back(parse_method(name));
-  return run_methods(request, methods, {});
+  return run_methods(request, named_methods({names.begin(), names.end()}), {});
 }
 
 /// Each has the numbers of a run by itself.
@@ -74,7 +72,7 @@ TEST(CompareMethods, SaysWhyThereAreNoDigits) {
 TEST(CompareMethods, CountsTheStepsOfAll) {
   const RunRequest request = request_of(load_scene("kepler"), "rattle", "1/16", "1");
   long last = 0, all = 0;
-  run_methods(request, {parse_method("rattle"), parse_method("rk4")}, [&](long done, long of) {
+  run_methods(request, named_methods({"rattle", "rk4"}), [&](long done, long of) {
     EXPECT_GE(done, last);
     last = done;
     all = of;

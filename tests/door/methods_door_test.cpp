@@ -43,6 +43,32 @@ TEST(DoorMethods, MakePicturesIfAsked) {
   EXPECT_TRUE(comparison.page.starts_with("<!DOCTYPE html>"));
 }
 
+/// As run() tells them, method by method.
+TEST(DoorMethods, TellWarningsOfEachRun) {
+  const MethodComparison comparison = compare_methods(
+      {.scene = load_scene("simple_pendulum"), .methods = {"rk4", "hbvm:auto,3"}, .step = "1/8", .until = 100});
+  const hbvm::Run alone = run({.scene = load_scene("simple_pendulum"), .method = "rk4", .step = "1/8", .until = 100});
+  const nlohmann::json runs = nlohmann::json::parse(to_json(comparison))["runs"];
+  EXPECT_EQ(runs[0]["warnings"], nlohmann::json::parse(to_json(alone))["health"]["warnings"]);
+  ASSERT_EQ(runs[0]["warnings"].size(), 2u);
+  EXPECT_EQ(runs[1]["warnings"].size(), 0u);
+  const std::string text = to_text(comparison);
+  core::expect_words(text, {"rk4: WARNING energy_changed: H is off", "rk4: WARNING constraint_drift: "});
+  EXPECT_EQ(text.find("hbvm:auto,3: WARNING"), std::string::npos);
+}
+
+/// The name that was asked for, and beside it what it is.
+TEST(DoorMethods, KeepTheNamesTheyWereGiven) {
+  const MethodComparison comparison = compare_methods(kepler());
+  EXPECT_EQ(comparison.runs[0].resolved, "rk4");
+  EXPECT_EQ(comparison.runs[1].resolved, "rattle");
+  EXPECT_NE(comparison.runs[2].resolved, "hbvm:auto,3");
+  const std::string text = to_text(comparison);
+  core::expect_words(text, {"verlet: this is rattle\n", "hbvm:auto,3: this is hbvm:"});
+  EXPECT_EQ(text.find("rk4: this is"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(to_json(comparison))["runs"][1]["resolved"], "rattle");
+}
+
 TEST(DoorMethods, TellOfOneThatFails) {
   const MethodComparison comparison = compare_methods(
       {.scene = load_scene("double_pendulum"), .methods = {"rattle", "rk4"}, .step = "2", .until = "40"});

@@ -14,8 +14,10 @@ namespace {
 
 ConvergenceWork work_of(const std::string& scene, const std::vector<const char*>& methods, const char* steps,
                         const std::vector<const char*>& precisions = {"mpfr:40"}) {
-  ConvergenceWork work{request_of(load_scene(scene), "rattle", "1", "1"), {}, {}, halved_steps(steps, {})};
-  for (const char* const method : methods) work.methods.push_back(parse_method(method));
+  ConvergenceWork work{request_of(load_scene(scene), "rattle", "1", "1"),
+                       named_methods({methods.begin(), methods.end()}),
+                       {},
+                       halved_steps(steps, {})};
   for (const char* const precision : precisions) work.precisions.push_back(Precision::parse(precision));
   return work;
 }
@@ -31,7 +33,7 @@ TEST(ConvergenceStudy, FindsTheOrdersOfThePaper) {
       EXPECT_NEAR(measured[m].rates[part]->value, expected[m][part], 0.1) << measured[m].method << part;
       EXPECT_LE(std::abs(measured[m].rates[part]->value - expected[m][part]), measured[m].rates[part]->uncertainty);
     }
-  work.methods = {parse_method("hbvm:4,2")};
+  work.methods = named_methods({"hbvm:4,2"});
   work.propagated = true;
   const MeasuredConvergence propagated = measure_convergence(work).front();
   for (std::size_t part = 0; part < 3; ++part) EXPECT_NEAR(propagated.rates[part]->value, carried[part], 0.15) << part;
