@@ -617,7 +617,8 @@ TEST(RunError, SaysWhatTheRunWasComparedWith) {
   const Arguments run{"run", "modified_pendulum", "--method", "hbvm:4,2", "--step", "1/16", "--error", "--until"};
   const ordered_json stored = json_of(run + Arguments{"10"})["error"],
                      computed = json_of(run + Arguments{"1"})["error"];
-  expect_members(stored, {{"reference", "stored reference, 50 digits"}, {"method", nullptr}, {"precision", nullptr}});
+  expect_members(stored,
+                 {{"reference", "stored reference, 50 digits, proved"}, {"method", nullptr}, {"precision", nullptr}});
   expect_members(computed, {{"reference", "computed now"}, {"method", "taylor"}});
   expect_words(hbvm(run + Arguments{"1"}).out, {"against taylor, mpfr:32, computed now\n"});
 }
@@ -628,8 +629,8 @@ TEST(RunError, PrintsTheDigitsThatAreRight) {
   const Outcome with = ended_with(0, run + Arguments{"--error"});
   EXPECT_EQ(with.out.find("not assessed"), std::string::npos);
   const ordered_json j = json_of(run + Arguments{"--error"});
-  EXPECT_EQ(j["error"]["reference"], "stored reference, 100 digits");
-  expect_words(with.out, {"against the stored reference, 100 digits\n"});
+  EXPECT_EQ(j["error"]["reference"], "stored reference, 100 digits, proved");
+  expect_words(with.out, {"against the stored reference, 100 digits, proved\n"});
   EXPECT_EQ(keys_of(j["error"]),
             (Texts{"reference", "method", "precision", "q", "p", "lambda", "digits", "lambda_digits"}));
   ASSERT_EQ(j["error"]["digits"].size(), 4u);
