@@ -227,8 +227,7 @@ Part<Findings> sweep_study(const Experiment& experiment, TomlTable& top) {
     reader.finish();
   }
   std::vector<SweptNumber> swept;
-  for (const toml::table* table : sweeps)
-    swept.push_back(read_swept(TomlTable(top.source(), *table, "sweep")));
+  for (const toml::table* table : sweeps) swept.push_back(read_swept(TomlTable(top.source(), *table, "sweep")));
   if (swept.empty()) top.fail("a sweep has a table [[sweep]] for each number that it changes");
   Sweep sweep{{}, {}, points_of(request, swept), {}};
   for (const SweptNumber& number : swept) sweep.swept.push_back(number.name);
