@@ -28,6 +28,7 @@ ELSEWHERE = {
     "studies/speed/before": "builds an older commit",
     "studies/reference/run": "makes all references of the store: many minutes",
     "studies/reference/run --verify": "computes all references of the store: many minutes",
+    "studies/reference/run --prove": "proves all references of the store: many minutes",
     "studies/reference/run --costs": "measures for many minutes",
     "studies/stability/run": "all hard cases: an hour",
     "studies/what_accuracy_costs/run": "measures for half an hour",
