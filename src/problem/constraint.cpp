@@ -47,6 +47,22 @@ int degree(const std::vector<Constraint<S>>& constraints) {
 }
 
 template <Scalar S>
+std::map<Index, std::map<Index, S>> second_derivatives(const Constraint<S>& constraint, Index dimension) {
+  std::map<Index, std::map<Index, S>> found;
+  std::visit(
+      [&]<class Form>(const Form& form) {
+        if constexpr (ConstraintForm<Form, S>)
+          form.second_derivatives(dimension, [&](Index i, Index j, const S& h) {
+            const auto [entry, is_new] = found[i].emplace(j, h);
+            if (!is_new) entry->second += h;
+          });
+      },
+      constraint.form);
+  for (auto& [i, row] : found) std::erase_if(row, [](const auto& entry) { return entry.second == 0; });
+  return found;
+}
+
+template <Scalar S>
 S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& q, const Vector<S>& v) {
   return std::visit(
       [&]<class Form>(const Form& form) {
@@ -77,14 +93,15 @@ Constraint<double> in_double(const Constraint<S>& constraint) {
           std::visit([](const auto& form) -> ConstraintForms<double> { return form.in_double(); }, constraint.form)};
 }
 
-#define HBVM_DEFINE(S)                                                                           \
-  template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                       \
-  template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);           \
-  template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);                    \
-  template int degree<S>(const Constraint<S>&);                                                  \
-  template int degree<S>(const std::vector<Constraint<S>>&);                                     \
-  template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);      \
-  template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&); \
+#define HBVM_DEFINE(S)                                                                             \
+  template std::vector<Index> coordinates<S>(const Constraint<S>&, Index);                         \
+  template ConstraintValue<S> value<S>(const Constraint<S>&, Index, const Vector<S>&);             \
+  template S gradient_size<S>(const Constraint<S>&, Index, const Vector<S>&);                      \
+  template int degree<S>(const Constraint<S>&);                                                    \
+  template int degree<S>(const std::vector<Constraint<S>>&);                                       \
+  template S curvature<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);        \
+  template S curvature_size<S>(const Constraint<S>&, Index, const Vector<S>&, const Vector<S>&);   \
+  template std::map<Index, std::map<Index, S>> second_derivatives<S>(const Constraint<S>&, Index); \
   template Constraint<double> in_double<S>(const Constraint<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

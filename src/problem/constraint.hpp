@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ S curvature(const Constraint<S>& constraint, Index dimension, const Vector<S>& q
 /// The sum of the magnitudes of its terms in the coordinates of v.
 template <Scalar S>
 S curvature_size(const Constraint<S>& constraint, Index dimension, const Vector<S>& q, const Vector<S>& v);
+
+/// The second derivatives of a quadratic g that are not 0, row by row; none of a formula, whose depend on q.
+template <Scalar S>
+std::map<Index, std::map<Index, S>> second_derivatives(const Constraint<S>& constraint, Index dimension);
 
 /// The constraint with all numbers rounded to double.
 template <Scalar S>

@@ -102,21 +102,11 @@ std::vector<TaylorMotion::Form> TaylorMotion::affine_forms(Index a) const {
   const Index d = problem_.dimension, m = problem_.m();
   const auto digits = static_cast<unsigned>(digits10<Mpfr>());
   const Constraint<Mpfr>& constraint = problem_.constraints[static_cast<std::size_t>(a)];
-  std::map<Index, std::map<Index, Mpfr>> second;
-  std::visit(
-      [&]<class Of>(const Of& form) {
-        if constexpr (ConstraintForm<Of, Mpfr>)
-          form.second_derivatives(d, [&](Index i, Index j, const Mpfr& h) {
-            const auto [entry, is_new] = second[i].emplace(j, h);
-            if (!is_new) entry->second += h;
-          });
-      },
-      constraint.form);
+  std::map<Index, std::map<Index, Mpfr>> second = second_derivatives(constraint, d);
   std::vector<Form> own;
   for (const Index j : coordinates(constraint, d)) {
     Form form(a, j, order_ + 2);
-    std::copy_if(second[j].begin(), second[j].end(), std::back_inserter(form.terms),
-                 [](const auto& term) { return term.second != 0; });
+    form.terms.assign(second[j].begin(), second[j].end());
     {
       // What q_j takes g to, less its square: exact with twice the digits and some.
       const PrecisionScope more(2 * digits + 20);

@@ -26,6 +26,29 @@ TYPED_TEST(ConstraintTest, CurvatureIsTheSecondDifference) {
   }
 }
 
+/// v^T H v with its entries, none of which is 0, is the curvature, and they are the same across the diagonal.
+TYPED_TEST(ConstraintTest, SecondDerivativesAreThoseOfTheCurvature) {
+  for (const Index d : {2, 3}) {
+    const Problem<TypeParam> problem = constrained_problem<TypeParam>(d);
+    const auto q = this->random.vector(problem.m()), v = this->random.vector(problem.m());
+    std::size_t entries = 0;
+    for (const auto& constraint : problem.constraints) {
+      if (degree(constraint) != 2) continue;
+      auto rows = second_derivatives(constraint, d);
+      TypeParam sum = 0;
+      for (const auto& [i, row] : rows)
+        for (const auto& [j, h] : row) {
+          ++entries;
+          EXPECT_NE(h, 0);
+          EXPECT_EQ(h, rows[j][i]);
+          sum += v[i] * h * v[j];
+        }
+      EXPECT_LE(magnitude(TypeParam(sum - curvature(constraint, d, q, v))), 512 * epsilon<TypeParam>());
+    }
+    EXPECT_GT(entries, 0u);
+  }
+}
+
 TYPED_TEST(ConstraintTest, SizeBoundsTheRoundOff) {
   for (const Index d : {2, 3}) {
     const Problem<TypeParam> problem = constrained_problem<TypeParam>(d);

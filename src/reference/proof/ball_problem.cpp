@@ -15,18 +15,9 @@ std::vector<Mpfr> row(const Matrix<Mpfr>& coefficients, Index instance) {
 
 BallConstraint quadratic(const Constraint<Mpfr>& constraint, Index dimension, Index m) {
   BallConstraint result;
-  std::map<std::pair<Index, Index>, Mpfr> second;
-  std::visit(
-      [&]<class Of>(const Of& form) {
-        if constexpr (ConstraintForm<Of, Mpfr>)
-          form.second_derivatives(dimension, [&](Index i, Index j, const Mpfr& h) {
-            const auto [entry, is_new] = second.emplace(std::pair(i, j), h);
-            if (!is_new) entry->second += h;
-          });
-      },
-      constraint.form);
-  for (const auto& [at, h] : second)
-    if (h != 0) result.second.push_back({at.first, at.second, believed(h)});
+  std::map<Index, std::map<Index, Mpfr>> second = second_derivatives(constraint, dimension);
+  for (const auto& [i, row_of] : second)
+    for (const auto& [j, h] : row_of) result.second.push_back({i, j, believed(h)});
   const Vector<Mpfr> origin = Vector<Mpfr>::Zero(m);
   const Mpfr at_origin = value(constraint, dimension, origin).g;
   for (const Index j : coordinates(constraint, dimension)) {
@@ -34,7 +25,7 @@ BallConstraint quadratic(const Constraint<Mpfr>& constraint, Index dimension, In
     unit[j] = 1;
     // g(e_j) - g(0) - H_jj / 2. Each of its numbers is believed by itself, so that nothing that cancels is.
     RealBall slope = believed(value(constraint, dimension, unit).g) - believed(at_origin);
-    if (const auto curved = second.find({j, j}); curved != second.end())
+    if (const auto curved = second[j].find(j); curved != second[j].end())
       slope -= believed(curved->second) / RealBall(2);
     result.coordinates.push_back(j);
     result.slopes.push_back(slope);
