@@ -28,12 +28,6 @@ bool is_column(const std::string& name) {
   return name.size() > 1 && name[0] == 'c' && name.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
-/// Whether it is a decimal. What is not may be another number, as 1/3.
-bool is_plain_number(const std::string& cell) {
-  return !cell.empty() && cell.find_first_not_of("0123456789+-.eE") == std::string::npos &&
-         cell.find_first_of("0123456789") != std::string::npos;
-}
-
 /// A column's name in an expression of the map is replaced where it stands as a whole word.
 /// \throws InputError for a word that would be taken for a column
 std::string with_columns(const std::string& expression, const std::vector<std::string>& names,
@@ -74,7 +68,7 @@ ResultsTable::ResultsTable(const ResultsFile& file) {
     if (names.empty()) {
       if (row.size() == 1 && row[0].find_first_of("; \t") != std::string::npos)
         throw InputError(fmt::format("{}:{}: the names are not separated by commas: '{}'", file.name, number, row[0]));
-      if (std::ranges::all_of(row, is_plain_number))
+      if (std::ranges::all_of(row, is_decimal))
         throw InputError(fmt::format("{}:{}: numbers stand where the names of columns are expected, as t,{}", file.name,
                                      number, "q_1,q_2"));
       names = std::move(row);
@@ -152,7 +146,7 @@ void ResultsColumns::check_numbers() const {
     for (const std::string& name : reading.expression.names()) columns.insert(column_of(name));
   for (std::size_t row = 0; row < rows_.cells.size(); ++row)
     for (const std::size_t column : columns)
-      if (!is_plain_number(rows_.cells[row][column])) number(row, column);
+      if (!is_decimal(rows_.cells[row][column])) number(row, column);
 }
 
 Mpfr ResultsColumns::value(const Reading& reading, std::size_t row) const {

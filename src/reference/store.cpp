@@ -28,20 +28,6 @@ std::string list(const char* key, const std::vector<std::string>& texts) {
   return result + (texts.empty() ? "]\n" : "\n]\n");
 }
 
-/// A decimal of a sign, digits with at most one point, and an exponent.
-bool is_decimal(const std::string& text) {
-  std::size_t i = text.starts_with('-') ? 1 : 0, digits = 0, points = 0;
-  for (; i < text.size() && (std::isdigit(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.'); ++i)
-    (text[i] == '.' ? points : digits) += 1;
-  if (digits == 0 || points > 1) return false;
-  if (i == text.size()) return true;
-  if (text[i] != 'e' && text[i] != 'E') return false;
-  ++i;
-  if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
-  return i < text.size() && std::all_of(text.begin() + static_cast<std::ptrdiff_t>(i), text.end(),
-                                        [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
 std::vector<std::string> decimals(TomlTable& table, const char* key) {
   std::vector<std::string> result = table.strings(key);
   for (const std::string& text : result)

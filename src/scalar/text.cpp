@@ -133,6 +133,19 @@ std::string to_scientific(const std::string& decimal, int digits) {
   return scientific(number_of(decimal, digits), digits);
 }
 
+bool is_decimal(const std::string& text) {
+  std::size_t i = text.starts_with('-') ? 1 : 0, digits = 0, points = 0;
+  for (; i < text.size() && (std::isdigit(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.'); ++i)
+    (text[i] == '.' ? points : digits) += 1;
+  if (digits == 0 || points > 1) return false;
+  if (i == text.size()) return true;
+  if (text[i] != 'e' && text[i] != 'E') return false;
+  ++i;
+  if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
+  return i < text.size() && std::all_of(text.begin() + static_cast<std::ptrdiff_t>(i), text.end(),
+                                        [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 std::string rounded_text(const std::string& decimal, int digits) {
   const BigFloat x = number_of(decimal, digits);
   if (!mpfr_regular_p(raw(x))) return special(x);

@@ -18,6 +18,9 @@ std::string to_scientific(const Mpfr& x, int digits);
 /// The same of a number that is a text already, of any length.
 std::string to_scientific(const std::string& decimal, int digits);
 
+/// Whether it is a decimal: a sign -, digits with at most one point, and an exponent.
+bool is_decimal(const std::string& text);
+
 /// A decimal rounded to so many significant digits, trailing zeros kept: "0.1230", "-12.5"; with an exponent where
 /// there would be more zeros than digits.
 std::string rounded_text(const std::string& decimal, int digits);

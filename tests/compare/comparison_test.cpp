@@ -107,6 +107,8 @@ TEST(Comparison, LooksAtEveryLineAndColumn) {
   for (int n = 1; n <= 200; ++n) csv += fmt::format("{}/64,{},1,2\n", n, n == 7 ? "nan" : "1/3");
   expect_words(message_of([&] { compare_with_reference(request_of(csv)); }),
                {"theirs.csv:8: column 'bob.x' holds 'nan'"});
+  const std::string cut = csv.replace(csv.find("nan"), 3, "1.2.3");
+  expect_words(message_of([&] { compare_with_reference(request_of(cut)); }), {"theirs.csv:8: column 'bob.x' holds"});
   const Comparison against = compare_with_reference(request_of("t,bob.x,lambda1,bob.ux\n1,0,nan,2\n"));
   EXPECT_EQ(against.files[0].unused, std::vector<std::string>{"columns lambda1, bob.ux"});
 }

@@ -195,5 +195,11 @@ TEST(Text, OfADecimalIsRounded) {
   EXPECT_EQ(to_scientific(std::string("1.5e-9000"), 2), "1.5e-9000");
 }
 
+TEST(Text, TellsADecimal) {
+  for (const char* text : {"0", "-1.5", ".5", "5.", "1e5", "1.25E-30", "-2.e+7"}) EXPECT_TRUE(is_decimal(text)) << text;
+  for (const char* text : {"", "-", ".", "1-2", "1.2.3", "1e", "1e+", "e5", "+1", "nan", "inf", "1/3", "1 ", "0x1"})
+    EXPECT_FALSE(is_decimal(text)) << text;
+}
+
 }  // namespace
 }  // namespace hbvm::core
