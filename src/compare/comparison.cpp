@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "hbvm/error.hpp"
+#include "listed.hpp"
 #include "problem/energy_terms.hpp"
 #include "problem/state_evaluator.hpp"
 #include "reference/compute_reference.hpp"
@@ -46,14 +47,6 @@ int digits_of(const ResultsTable& rows) {
       if (leading != std::string::npos) most = std::max(most, digits.size() - leading);
     }
   return static_cast<int>(most);
-}
-
-/// Not to the end of a long list.
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 8;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i > 0 ? ", " : "") + names[i];
-  return text + (names.size() > most ? fmt::format(", and {} more", names.size() - most) : "");
 }
 
 /// The rows to be compared: those after the start.

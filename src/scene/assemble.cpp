@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "listed.hpp"
 #include "problem/constraint_gradient.hpp"
 #include "problem/effect/input.hpp"
 #include "problem/formula/quadratic.hpp"
@@ -25,15 +26,6 @@
 
 namespace hbvm::core {
 namespace {
-
-/// Not to the end of a long list.
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 8;
-  const std::size_t shown = names.size() > most + 1 ? most : names.size();
-  std::string text;
-  for (std::size_t i = 0; i < shown; ++i) text += (i > 0 ? ", " : "") + names[i];
-  return text + (shown < names.size() ? fmt::format(", and {} more", names.size() - shown) : "");
-}
 
 template <Scalar S>
 class Assembler {
