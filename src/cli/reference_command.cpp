@@ -170,6 +170,7 @@ void show_references(const std::string& scene) {
 }
 
 void verify(const ReferenceArguments& o) {
+  if (o.out && !o.prove) throw InputError("reference --verify: --out writes the file with what is proved, by --prove");
   const StoredReference stored = stored_reference(*o.verify);
   const Reference& r = stored.reference;
   ReferenceRequest request;
@@ -192,7 +193,6 @@ void verify(const ReferenceArguments& o) {
   }
   fmt::print("{}: all digits of {} times are {}\n", *o.verify, r.times.size(), o.prove ? "proved" : "found again");
   if (!o.out) return;
-  if (!o.prove) throw InputError("reference --verify: --out writes the file with what is proved, by --prove");
   StoredReference kept = stored;
   kept.reference.proved = again.proved;
   for (std::size_t n = 0; n < r.times.size(); ++n) kept.reference.times[n].radius = again.times[n].radius;
@@ -217,6 +217,8 @@ void reference_command(const ReferenceArguments& o) {
     return compare_results(scene(), o.json, o.against);
   }
   o.against.refuse_alone();
+  if (o.prove && (o.route || o.checkpoint))
+    throw InputError("reference: --prove takes neither --route nor --checkpoint");
   if (o.list) return list_references();
   if (o.show) return show_references(*o.show);
   if (o.verify) return verify(o);
@@ -230,8 +232,6 @@ void reference_command(const ReferenceArguments& o) {
   for (const std::string& text : o.at) request.times.push_back(time_of(text));
   if (o.at.empty()) request.times.push_back(time_of(*o.until));
   if (o.route) request.only = parse_route(*o.route);
-  if (o.prove && (o.route || o.checkpoint))
-    throw InputError("reference: --prove takes neither --route nor --checkpoint");
   std::string command = "hbvm reference " + *o.scene + settings_in_command(request.scene);
   if (o.until) command += " --until " + *o.until;
   for (std::size_t i = 0; i < o.at.size(); ++i) command += (i == 0 ? " --at " : ",") + o.at[i];

@@ -70,6 +70,10 @@ effect = [{ kind = "central_gravity", center = "sun", strength = 1 }]
   EXPECT_EQ(ended.code, 3);
   expect_words(hbvm({"reference", "kepler", "--until", "1", "--prove", "--route", "taylor"}).err,
                {"--prove takes neither --route nor --checkpoint"});
+  // Before any work.
+  expect_words(ended_with(2, {"reference", "--verify", file, "--prove", "--route", "taylor"}).err, {"--prove takes"});
+  expect_words(ended_with(2, {"reference", "--verify", file, "--out", proved}).err,
+               {"--out writes the file with what"});
 }
 
 /// The bob of length 1: its height is that of its angle, and the tension follows from the energy. The digits are all
