@@ -15,8 +15,7 @@ namespace {
 double size_of(const BallMatrix& x) {
   double size = 0;
   for (Index i = 0; i < x.rows(); ++i)
-    for (Index j = 0; j < x.columns(); ++j)
-      size = std::max(size, std::abs(arf_get_d(arb_midref(x(i, j)), ARF_RND_NEAR)));
+    for (Index j = 0; j < x.columns(); ++j) size = std::max(size, std::abs(centre_of(x(i, j))));
   return size;
 }
 

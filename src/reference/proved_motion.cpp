@@ -25,14 +25,6 @@ std::vector<RealBall> all_believed(const Vector<Mpfr>& x) {
   return result;
 }
 
-RealBall exact(double x) {
-  RealBall result;
-  arb_set_d(raw(result), x);
-  return result;
-}
-
-double centre(const RealBall& x) { return arf_get_d(arb_midref(raw(x)), ARF_RND_NEAR); }
-
 double upper(const RealBall& x) {
   RealBall bound;
   arb_get_ubound_arf(arb_midref(raw(bound)), raw(x), few_bits);
@@ -43,7 +35,7 @@ double upper(const RealBall& x) {
 
 ProvedMotion::Distance ProvedMotion::Distance::measured_by(double other) const {
   if (other <= omega) return {length, other};
-  return {greatest_magnitude(length * exact(other) / exact(omega)), other};
+  return {greatest_magnitude(length * exact_ball(other) / exact_ball(omega)), other};
 }
 
 ProvedMotion::ProvedMotion(const Assembled<Mpfr>& exact, const Assembled<Mpfr>& rounded, const Mpfr& until,
@@ -62,9 +54,10 @@ ProvedMotion::ProvedMotion(const Assembled<Mpfr>& exact, const Assembled<Mpfr>& 
       omega_(std::move(omega)),
       bits_(significand_bits<Mpfr>() + 32),
       until_(until),
-      motion_(rounded.problem, rounded.q0, rounded.p0, std::move(while_working)) {
+      while_working_(while_working ? std::move(while_working) : [] {}),
+      motion_(rounded.problem, rounded.q0, rounded.p0, while_working_) {
   const BallScope scope(bits_);
-  step_ = step_of(motion_, balls_);
+  begin_step();
   const RealBall zero;
   distance_.omega = omega_(0);
   distance_.length =
@@ -74,20 +67,20 @@ ProvedMotion::ProvedMotion(const Assembled<Mpfr>& exact, const Assembled<Mpfr>& 
 }
 
 RealBall ProvedMotion::length(const std::vector<RealBall>& dq, const std::vector<RealBall>& dv, double omega) const {
-  return growth_in_.length(dq, dv, exact(omega));
+  return growth_in_.length(dq, dv, exact_ball(omega));
 }
 
-double ProvedMotion::time_at(const RealBall& s) const { return centre(start_ + s * step_->unit()); }
+double ProvedMotion::time_at(const RealBall& s) const { return centre_of(raw(start_ + s * step_->unit())); }
 
 std::string ProvedMotion::beyond(const std::string& why) const {
-  return fmt::format("nothing can be proved beyond t = {:.10g}: {}", centre(start_), why);
+  return fmt::format("nothing can be proved beyond t = {:.10g}: {}", centre_of(raw(start_)), why);
 }
 
 void ProvedMotion::refuse(const std::string& why) const { throw IntegrationError(beyond(why)); }
 
 PathBox ProvedMotion::box(const SeriesStep& step, const RealBall& s, const Distance& distance) const {
   PathBox result{step.positions(s), step.velocities(s), step.accelerations(s)};
-  const RealBall of_q = distance.length / exact(distance.omega);
+  const RealBall of_q = distance.length / exact_ball(distance.omega);
   for (Index j = 0; j < balls_.m(); ++j) {
     const auto i = static_cast<std::size_t>(j);
     result.q[i] = widened(std::move(result.q[i]), growth_in_.velocity_reach(j) * of_q);
@@ -103,6 +96,7 @@ std::vector<ProvedMotion::Piece> ProvedMotion::pieces(const Defect& defect, cons
   total = 0;
   Distance wide = tube;
   for (int i = 0; i < count; ++i) {
+    while_working_();
     const RealBall parts = count;
     const RealBall from = step_->end() * RealBall(i) / parts, to = step_->end() * RealBall(i + 1) / parts;
     RealBall both, middle;
@@ -112,7 +106,7 @@ std::vector<ProvedMotion::Piece> ProvedMotion::pieces(const Defect& defect, cons
     total += std::max(double{0}, std::log(omega / wide.omega));
     wide = wide.measured_by(omega);
     const ErrorGrowth growth = growth_in_(box(step, middle, wide), box(step, both, wide), both * step.unit());
-    Piece& piece = result.emplace_back(Piece{to, omega, exact(growth.rate(omega)), {}, wide.length});
+    Piece& piece = result.emplace_back(Piece{to, omega, exact_ball(growth.rate(omega)), {}, wide.length});
     // The part of the defect along grad g is g'' over the gradient; the rest is e without its part along grad g.
     RealBall square;
     for (Index a = 0; a < balls_.nu(); ++a)
@@ -138,9 +132,10 @@ ProvedMotion::Distance ProvedMotion::passed(Distance distance, const Piece& piec
 ProvedMotion::Distance ProvedMotion::distance_at(const RealBall& s) const {
   Distance distance = distance_;
   RealBall from;
+  const RealBall latest = greatest_magnitude(s);
   for (const Piece& piece : pieces_) {
-    const bool last = !piece.end.is_below(s);
-    distance = passed(distance, piece, greatest_magnitude(((last ? s : piece.end) - from) * step_->unit()));
+    const bool last = !piece.end.is_below(latest);
+    distance = passed(distance, piece, ((last ? s : piece.end) - from) * step_->unit());
     if (last) break;
     from = piece.end;
   }
@@ -152,7 +147,7 @@ bool ProvedMotion::stays_in_tube() const {
   RealBall from;
   for (const Piece& piece : pieces_) {
     // Between its ends it is no more than at one of them, and what the defect adds.
-    const RealBall time = greatest_magnitude((piece.end - from) * step_->unit());
+    const RealBall time = (piece.end - from) * step_->unit();
     const RealBall before = distance.measured_by(piece.omega).length;
     distance = passed(distance, piece, time);
     const RealBall most = greater(before, distance.length) + piece.defect * time;
@@ -160,6 +155,13 @@ bool ProvedMotion::stays_in_tube() const {
     from = piece.end;
   }
   return true;
+}
+
+void ProvedMotion::begin_step() {
+  // What lies beyond the last time is of no concern, but for a little, so that this time is within the step.
+  constexpr int parts = 8;
+  motion_.shorten((until_ - motion_.start()) * (parts + 1) / parts);
+  step_ = step_of(motion_, balls_);
 }
 
 Defect ProvedMotion::defect_of_step() {
@@ -170,18 +172,13 @@ Defect ProvedMotion::defect_of_step() {
     v[j] = motion_.position(j)[1] / motion_.unit();
   }
   const Vector<Mpfr> p = problem_.mass.momentum(v);
-  // What lies beyond the last time is of no concern, but for a little, so that this time is within the step.
   constexpr int attempts = 24, parts = 8;
-  const auto shorten = [&](const Mpfr& most) {
-    motion_.shorten(most);
-    step_ = step_of(motion_, balls_);
-  };
-  shorten((until_ - motion_.start()) * (parts + 1) / parts);
   for (int attempt = 1;; ++attempt) try {
       return bound_.of(*step_, q, p);
     } catch (const IntegrationError& error) {
       if (attempt == attempts) refuse(error.what());
-      shorten(motion_.length() * (parts - 1) / parts);
+      motion_.shorten(motion_.length() * (parts - 1) / parts);
+      step_ = step_of(motion_, balls_);
     }
 }
 
@@ -234,7 +231,7 @@ ProvedState ProvedMotion::at(const RealBall& t, const std::function<void(double)
   for (;;) {
     const RealBall s = (t - start_) / step_->unit();
     if (s.is_below(step_->end())) {
-      const Distance distance = distance_at(greatest_magnitude(s));
+      const Distance distance = distance_at(s);
       const PathBox here = box(*step_, s, distance);
       ProvedState state{here.q, balls_.momentum(step_->velocities(s)), growth_in_.multipliers(here), {}};
       for (Index j = 0; j < balls_.m(); ++j) {
@@ -249,13 +246,13 @@ ProvedState ProvedMotion::at(const RealBall& t, const std::function<void(double)
     distance_ = distance_at(step_->end());
     start_ += step_->end() * step_->unit();
     motion_.next_step();
-    step_ = step_of(motion_, balls_);
+    begin_step();
     const RealBall zero;
     distance_.length =
         greatest_magnitude(distance_.length + length(differences(q, step_->positions(zero)),
                                                      differences(v, step_->velocities(zero)), distance_.omega));
     take_up();
-    if (after_step) after_step(centre(start_));
+    if (after_step) after_step(centre_of(raw(start_)));
   }
 }
 

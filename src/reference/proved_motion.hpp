@@ -42,6 +42,7 @@ class ProvedMotion {
   /// The motion from the start of the scene until a time, in the digits of the scope.
   /// \param exact  the scene assembled with at least twice the digits; it and `problem` outlive this
   /// \param omega  the rate by which to measure errors at a time: any positive numbers serve
+  /// \param while_working is called many times a step, and may throw to end the work
   ProvedMotion(const Assembled<Mpfr>& exact, const Assembled<Mpfr>& rounded, const Mpfr& until,
                std::function<double(double)> omega, std::function<void()> while_working = {});
 
@@ -69,6 +70,8 @@ class ProvedMotion {
 
     Distance measured_by(double other) const;
   };
+  /// Polynomials of the step that TaylorMotion has begun, no longer than is asked for.
+  void begin_step();
   void take_up();
   /// The step's defect, of as much of the step as has bounds.
   Defect defect_of_step();
@@ -76,7 +79,7 @@ class ProvedMotion {
   std::vector<Piece> pieces(const Defect& defect, const Distance& tube, int count, double& total) const;
   /// Whether the distance is less than the tube's radius all the time.
   bool stays_in_tube() const;
-  /// The distance after so long a time in a piece.
+  /// The distance after so long a time in a piece, at any of the times in a ball.
   static Distance passed(Distance distance, const Piece& piece, const RealBall& time);
   /// The distance at s of the step, from what it is at the start.
   Distance distance_at(const RealBall& s) const;
@@ -96,6 +99,7 @@ class ProvedMotion {
   std::function<double(double)> omega_;
   slong bits_;
   Mpfr until_;
+  std::function<void()> while_working_;
   TaylorMotion motion_;
   std::optional<SeriesStep> step_;
   std::vector<Piece> pieces_;

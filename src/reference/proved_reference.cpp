@@ -35,9 +35,7 @@ Vector<Mpfr> centres(const std::vector<RealBall>& x) {
 Mpfr radius_of(const std::vector<RealBall>& x) {
   Mpfr radius = 0;
   for (const RealBall& component : x) {
-    RealBall off, centre;
-    arf_set_mpfr(arb_midref(raw(centre)), raw(centre_of(component)));
-    off = greatest_magnitude(component - centre);
+    const RealBall off = greatest_magnitude(component - exact_ball(raw(centre_of(component))));
     Mpfr of_component;
     arf_get_mpfr(raw(of_component), arb_midref(raw(off)), MPFR_RNDU);
     raise_to(radius, of_component);
@@ -108,11 +106,12 @@ Proof prove(const ReferenceRequest& request, const GrowthSurvey& survey, const s
                      ": there is no exact start of which to prove anything; write its numbers exactly, as sqrt(1/2)");
   Proof proof{assemble<Mpfr>(request.scene), {}};
   const Mpfr last = evaluate<Mpfr>(request.times.back(), constants);
+  double done = 0;
   ProvedMotion motion(
-      exact, proof.scene, last, [&](double t) { return survey.omega_at(t); }, [&] { progress(0); });
+      exact, proof.scene, last, [&](double t) { return survey.omega_at(t); }, [&] { progress(done); });
   for (const Expression& time : request.times) {
     const RealBall t = with_twice([&] { return believed(evaluate<Mpfr>(time, constants)); });
-    proof.states.push_back(motion.at(t, [&](double now) { progress(now / approximately(last)); }));
+    proof.states.push_back(motion.at(t, [&](double now) { done = now / approximately(last); }));
     const ProvedState& state = proof.states.back();
     proof.run.run.points.push_back({centres(state.q), centres(state.p), centres(state.lambda)});
   }

@@ -3,12 +3,6 @@
 namespace hbvm::core {
 namespace {
 
-RealBall exact_ball(const Mpfr& x) {
-  RealBall ball;
-  arf_set_mpfr(arb_midref(raw(ball)), raw(x));
-  return ball;
-}
-
 /// So many series of so many terms.
 template <class Series>
 std::vector<BallSeries> exact_series(Index count, Index terms, Series series) {
@@ -21,10 +15,10 @@ std::vector<BallSeries> exact_series(Index count, Index terms, Series series) {
 
 SeriesStep step_of(const TaylorMotion& motion, const BallProblem& problem) {
   const Index order = motion.order() - 1;
-  const RealBall unit = exact_ball(motion.unit());
+  const RealBall unit = exact_ball(raw(motion.unit()));
   return {exact_series(problem.m(), order + 2, [&](Index j) { return motion.position(j); }),
           exact_series(problem.nu(), order, [&](Index a) { return motion.multiplier(a); }), unit,
-          exact_ball(motion.length()) / unit, order};
+          exact_ball(raw(motion.length())) / unit, order};
 }
 
 }  // namespace hbvm::core

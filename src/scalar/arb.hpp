@@ -92,6 +92,20 @@ inline RealBall operator-(RealBall a) {
   arb_neg(raw(a), raw(a));
   return a;
 }
+/// The number itself, without a radius.
+inline RealBall exact_ball(mpfr_srcptr x) {
+  RealBall ball;
+  arf_set_mpfr(arb_midref(raw(ball)), x);
+  return ball;
+}
+inline RealBall exact_ball(double x) {
+  RealBall ball;
+  arb_set_d(raw(ball), x);
+  return ball;
+}
+/// The double next to its centre.
+inline double centre_of(arb_srcptr x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
+
 inline RealBall square_root(RealBall a) {
   arb_sqrt(raw(a), raw(a), BallScope::bits());
   return a;
@@ -106,9 +120,8 @@ inline RealBall power(RealBall a, unsigned long n) {
 }
 /// 2^x.
 inline RealBall power_of_two_of(double x) {
-  RealBall a;
-  arb_set_d(raw(a), x);
-  RealBall two = 2;
+  const RealBall two = 2;
+  RealBall a = exact_ball(x);
   arb_pow(raw(a), raw(two), raw(a), BallScope::bits());
   return a;
 }

@@ -122,6 +122,28 @@ TEST(ProvedMotion, LooksAtAllOfItsTube) {
   EXPECT_LT(radius_of(state.q[0]), 0.5);
 }
 
+/// Long work can be ended on the way: its caller is asked at each coefficient and at each piece of a step.
+TEST(ProvedMotion, AsksManyTimesAStep) {
+  struct Ended {};
+  const PrecisionScope digits(40);
+  const ProvedScene scene(load_scene("double_pendulum"));
+  long of_taylor = 0, of_proof = 0;
+  TaylorMotion taylor(scene.rounded.problem, scene.rounded.q0, scene.rounded.p0, [&] { ++of_taylor; });
+  ProvedMotion proof(
+      scene.exact, scene.rounded, Mpfr(1), [](double) { return 2.0; }, [&] { ++of_proof; });
+  EXPECT_GT(of_proof, of_taylor);
+  const auto end_after = [&](long calls) {
+    ProvedMotion(
+        scene.exact, scene.rounded, Mpfr(1), [](double) { return 2.0; },
+        [&] {
+          if (calls-- == 0) throw Ended();
+        });
+  };
+  EXPECT_THROW(end_after(0), Ended);
+  EXPECT_THROW(end_after(of_proof - 1), Ended);
+  EXPECT_NO_THROW(end_after(of_proof));
+}
+
 /// Where the motion ends, or two constraints become one, nothing is said beyond.
 TEST(ProvedMotion, IsRefusedWhereTheMotionEnds) {
   const PrecisionScope digits(30);

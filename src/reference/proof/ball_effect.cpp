@@ -75,9 +75,8 @@ BallSeries applied(Op op, const BallSeries& a, Index length) {
 }  // namespace
 
 RealBall believed(const Mpfr& x) {
-  RealBall ball;
-  arf_set_mpfr(arb_midref(raw(ball)), raw(x));
-  if (arf_is_zero(arb_midref(raw(ball)))) return ball;
+  RealBall ball = exact_ball(raw(x));
+  if (mpfr_zero_p(raw(x)) != 0) return ball;
   RealBall unsure = greatest_magnitude(ball);
   arb_mul_2exp_si(raw(unsure), raw(unsure), -3 * static_cast<slong>(mpfr_get_prec(raw(x))) / 4);
   return widened(std::move(ball), unsure);

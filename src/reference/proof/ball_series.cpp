@@ -5,11 +5,7 @@ namespace hbvm::core {
 BallSeries BallSeries::exactly(const Mpfr* coefficients, Index count) {
   BallSeries result;
   arb_poly_fit_length(result.value_, count);
-  RealBall a;
-  for (Index n = 0; n < count; ++n) {
-    arf_set_mpfr(arb_midref(raw(a)), raw(coefficients[n]));
-    result.set(n, a);
-  }
+  for (Index n = 0; n < count; ++n) result.set(n, exact_ball(raw(coefficients[n])));
   return result;
 }
 

@@ -24,10 +24,8 @@ Bounded in_double(const BallMatrix& x) {
   Bounded result{Doubles(x.rows(), x.columns()), Doubles(x.rows(), x.columns())};
   for (Index j = 0; j < x.columns(); ++j)
     for (Index i = 0; i < x.rows(); ++i) {
-      const double centre = arf_get_d(arb_midref(x(i, j)), ARF_RND_NEAR);
-      RealBall off = x.at(i, j), about;
-      arb_set_d(raw(about), centre);
-      off = greatest_magnitude(off - about);
+      const double centre = centre_of(x(i, j));
+      const RealBall off = greatest_magnitude(x.at(i, j) - exact_ball(centre));
       result.centre(i, j) = centre;
       result.radius(i, j) = arf_get_d(arb_midref(raw(off)), ARF_RND_UP);
     }

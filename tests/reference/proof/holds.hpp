@@ -6,11 +6,7 @@
 namespace hbvm::core {
 
 /// Whether a number is in a ball.
-inline bool holds(const RealBall& ball, const Mpfr& x) {
-  RealBall number;
-  arf_set_mpfr(arb_midref(raw(number)), raw(x));
-  return arb_contains(raw(ball), raw(number)) != 0;
-}
+inline bool holds(const RealBall& ball, const Mpfr& x) { return arb_contains(raw(ball), raw(exact_ball(raw(x)))) != 0; }
 
 inline double radius_of(const RealBall& ball) { return mag_get_d(arb_radref(raw(ball))); }
 
