@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <string>
 
 namespace hbvm::core {
 
@@ -16,6 +17,15 @@ inline double thread_seconds() {
 /// Elapsed time in seconds, cheap enough to read around every part of a sweep.
 inline double elapsed_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The day in UTC, as "2026-11-28".
+inline std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm date{};
+  gmtime_r(&now, &date);
+  char text[sizeof "2026-11-28"];
+  return {text, std::strftime(text, sizeof text, "%F", &date)};
 }
 
 /// While one lives, the time of each part of this thread's steps is measured. It costs two readings of the clock a

@@ -4,7 +4,7 @@
 build_packages="g++ cmake ninja-build libboost-dev>=1.81|libboost1.[0-9][0-9]-dev>=1.81 libeigen3-dev libmpfr-dev
   libflint-dev libflint-dev>=3|libflint-arb-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev
   libmd4c-dev libjs-dygraphs gnuplot-nox"
-test_packages="libgtest-dev pkg-config doxygen python3 clang-tidy-14|clang-tidy clang-format-14? chromium?"
+test_packages="libgtest-dev pkg-config doxygen python3 python3-mpmath clang-tidy-14|clang-tidy clang-format-14? chromium?"
 clang_packages="clang libclang-rt-dev"
 speed_packages="libbenchmark-dev"
 

@@ -14,11 +14,12 @@ namespace hbvm {
 /// one. Or its digits are proved.
 struct ReferenceRequest {
   Scene scene;
-  Numbers times;           ///< positive, ascending
-  int digits = 30;         ///< after the leading one of each vector's greatest component, 1 to 5000
-  std::string route = {};  ///< "taylor", "hbvm" or "closed_form" alone: nothing is confirmed then
-  bool force = false;      ///< do also what is expected to take more than a day, or 16 GB
-  bool prove = false;      ///< by bounds of the motion, step by step, instead of two routes that agree
+  Numbers times;            ///< positive, ascending
+  int digits = 30;          ///< after the leading one of each vector's greatest component, 1 to 5000
+  std::string route = {};   ///< "taylor", "hbvm" or "closed_form" alone: nothing is confirmed then
+  bool force = false;       ///< do also what is expected to take more than a day, or 16 GB
+  bool prove = false;       ///< by bounds of the motion, step by step, instead of two routes that agree
+  bool keep_proof = false;  ///< give out what proves it, too
   std::function<void(double part)> progress = {};  ///< called now and then, from any thread
   std::stop_token stop = {};
 };
@@ -53,6 +54,7 @@ struct Reference {
   std::vector<RouteReport> routes;
   double digits_lost = 0;  ///< by which the motion magnifies an error of the start, in decimal digits
   int proved = 0;          ///< digits that are proved; 0 if they are agreed on
+  std::string proof = {};  ///< what proves them, as the text of a file, if it was asked for: check_proof() takes it
 };
 
 /// \throws InputError for digits or times out of range, for what would take too long, for a closed form that is not
@@ -60,6 +62,21 @@ struct Reference {
 /// \throws IntegrationError where the motion ends, the routes do not agree, with both values, or nothing can be proved
 /// \throws Interrupted
 Reference reference(const ReferenceRequest& request);
+
+/// A proof to be gone through again.
+struct ProofRequest {
+  std::string text;            ///< Reference::proof, or a file that `hbvm reference --prove --out FILE.proof` wrote
+  std::string name = "proof";  ///< for messages
+  std::function<void(double part)> progress = {};  ///< called now and then, from any thread
+  std::stop_token stop = {};
+};
+
+/// Checks a proof, each step by itself: that from the bounds at its start those at its end follow, and that steps join.
+/// \return the reference that is proved, to the digits of Reference::proved
+/// \throws InputError for what is no proof, or was changed
+/// \throws IntegrationError with the step that does not hold
+/// \throws Interrupted
+Reference check_proof(const ProofRequest& request);
 
 /// One JSON object, as `hbvm reference --json` prints it. \param command that made it, of the program
 std::string to_json(const Reference& reference, const std::string& command = {});

@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <iostream>
 #include <memory>
 #include <mutex>
 #include <optional>
 
+#include "clock.hpp"
 #include "commands.hpp"
 #include "compare_results.hpp"
 #include "door/door.hpp"
@@ -18,6 +17,7 @@
 #include "output_files.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
+#include "reference/check_proof.hpp"
 #include "reference/compute_reference.hpp"
 #include "reference/store.hpp"
 #include "scene/coordinate_names.hpp"
@@ -29,7 +29,7 @@ namespace hbvm::core {
 namespace {
 
 struct ReferenceArguments {
-  std::optional<std::string> scene, until, route, out, verify, show, checkpoint;
+  std::optional<std::string> scene, until, route, out, verify, check, show, checkpoint;
   SceneArgument settings;  ///< what is set in the scene
   std::vector<std::string> at;
   ComparisonArguments against;
@@ -39,13 +39,6 @@ struct ReferenceArguments {
 };
 
 Expression time_of(const std::string& text) { return expression_of(text, "a time of the reference:"); }
-
-std::string today() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm date{};
-  gmtime_r(&now, &date);
-  return fmt::format("{:04}-{:02}-{:02}", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
-}
 
 /// What `file`, if any, keeps of the way.
 Reference compute(ReferenceRequest request, const std::optional<std::string>& file = {}) {
@@ -201,6 +194,27 @@ void verify(const ReferenceArguments& o) {
   write_and_say(*o.out, to_toml(kept));
 }
 
+/// Goes through a proof again. The last line is what was proved.
+void check(const ReferenceArguments& o) {
+  if (o.scene || o.out) throw InputError("reference --check: scene, times and digits are those of the proof");
+  const std::string text = read_file(*o.check);
+  ProgressBar bar("check");
+  end_runs_on_signals();
+  const ProofFile file = read_proof(text, *o.check);
+  const Reference r = check_proof(file, bar.part_done("the proof was not checked to its end"));
+  if (o.json) {
+    std::cout << to_json(r, "hbvm reference --check " + *o.check) << std::endl;
+    return;
+  }
+  print(read_scene(file.proof.scene, r.scene), r);
+  std::string times;
+  for (const ReferenceState& state : r.times) times += (times.empty() ? "" : ", ") + state.t;
+  fmt::print("\n{}: {} steps hold, each by itself\nproved: q, p, lambda and H of {} at t = {} to {} digits\n", *o.check,
+             file.proof.steps.size(), r.scene, times, r.proved);
+}
+
+bool is_proof(const std::string& file) { return file.ends_with(".proof"); }
+
 void reference_command(const ReferenceArguments& o) {
   const auto scene = [&] {
     return scene_of(SceneArgument{*o.scene, o.settings.settings, o.settings.observations}.load());
@@ -219,9 +233,12 @@ void reference_command(const ReferenceArguments& o) {
   o.against.refuse_alone();
   if (o.prove && (o.route || o.checkpoint))
     throw InputError("reference: --prove takes neither --route nor --checkpoint");
+  if (o.out && is_proof(*o.out) && !o.prove)
+    throw InputError("reference --out " + *o.out + ": a proof is made by --prove");
   if (o.list) return list_references();
   if (o.show) return show_references(*o.show);
   if (o.verify) return verify(o);
+  if (o.check) return check(o);
   if (!o.scene) throw InputError("reference: a scene is missing (see hbvm reference --help)");
   if (!o.until && o.at.empty()) throw InputError("reference: --until or --at is missing");
   ReferenceRequest request;
@@ -238,10 +255,13 @@ void reference_command(const ReferenceArguments& o) {
   command += fmt::format(" --digits {}", o.digits);
   if (o.route) command += " --route " + *o.route;
   if (o.prove) command += " --prove";
+  ProofFile file;
+  if (o.out && is_proof(*o.out)) request.proof = &file.proof;
   const Reference reference = compute(request, o.checkpoint);
   if (o.out) {
     if (o.route) throw InputError("--out: what one route found alone is no reference");
-    write_and_say(*o.out, to_toml({reference, version(), today()}));
+    file.claim = {reference, version(), today()};
+    write_and_say(*o.out, is_proof(*o.out) ? to_text(file) : to_toml(file.claim));
   }
   if (o.json)
     std::cout << to_json(reference, command) << std::endl;
@@ -265,7 +285,8 @@ void add_reference_command(CLI::App& app) {
   command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")
       ->capture_default_str();
   command->add_option("--route", o->route, "taylor, hbvm or closed_form alone, which confirms nothing");
-  command->add_option("--out", o->out, "Write it to this file, in TOML");
+  command->add_option("--out", o->out,
+                      "Write it to this file, in TOML; with --prove to FILE.proof, with what proves it");
   command->add_option("--checkpoint", o->checkpoint,
                       "Keep what is done in this file, some hundred steps at a time: the same command goes on from it");
   command->add_flag("--prove", o->prove,
@@ -275,6 +296,7 @@ void add_reference_command(CLI::App& app) {
   command->add_flag("--list", o->list, "List the references that are shipped");
   command->add_option("--show", o->show, "Print those of a scene, and how to load them elsewhere");
   command->add_option("--verify", o->verify, "Compute the reference of this file again, and compare digit by digit");
+  command->add_option("--check", o->check, "Go through the proof in this file again, each step by itself");
   add_comparison_options(*command, o->against);
   command->footer("Example: hbvm reference tethered_satellites --until 10 --digits 50");
   command->callback([o, command] {

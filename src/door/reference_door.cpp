@@ -1,7 +1,9 @@
+#include "clock.hpp"
 #include "door/door.hpp"
 #include "hbvm/reference.hpp"
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
+#include "reference/check_proof.hpp"
 #include "reference/compute_reference.hpp"
 
 namespace hbvm {
@@ -17,7 +19,19 @@ Reference reference(const ReferenceRequest& door) {
   request.force = door.force;
   request.prove = door.prove;
   request.progress = core::watched(door.progress);
-  return core::compute_reference(request);
+  if (!door.keep_proof) return core::compute_reference(request);
+  if (!door.prove) throw InputError("a reference without proof has none to keep");
+  core::ProofFile file;
+  request.proof = &file.proof;
+  Reference result = core::compute_reference(request);
+  file.claim = {result, version(), core::today()};
+  result.proof = core::to_text(file);
+  return result;
+}
+
+Reference check_proof(const ProofRequest& request) {
+  const core::Admitted admitted(request.stop);
+  return core::check_proof(core::read_proof(request.text, request.name), core::watched(request.progress));
 }
 
 std::string to_json(const Reference& r, const std::string& command) {

@@ -13,6 +13,8 @@
 
 namespace hbvm::core {
 
+struct KeptProof;
+
 /// The ways to a reference solution that share nothing but the scene. They are the Taylor series of TaylorMotion,
 /// HBVM(s,s) of high order with its output state, and the closed form where one is known.
 enum class Route { taylor, hbvm, closed_form };
@@ -31,8 +33,9 @@ struct ReferenceRequest {
   LegKeeper keeper = {};  ///< where legs of the routes are found and kept
   /// Called with what each route will take, before it begins.
   std::function<void(const Effort&)> estimate = {};
-  bool force = false;  ///< do also what will take more than a day, or more memory than most machines have
-  bool prove = false;  ///< by bounds of the motion instead of two routes
+  bool force = false;          ///< do also what will take more than a day, or more memory than most machines have
+  bool prove = false;          ///< by bounds of the motion instead of two routes
+  KeptProof* proof = nullptr;  ///< is given what proves it
 };
 
 /// What a route finds in the digits of the scope, of which so many are to be right. Nothing if it does not serve a

@@ -16,9 +16,12 @@ std::vector<BallSeries> exact_series(Index count, Index terms, Series series) {
 SeriesStep step_of(const TaylorMotion& motion, const BallProblem& problem) {
   const Index order = motion.order() - 1;
   const RealBall unit = exact_ball(raw(motion.unit()));
+  // Any end serves that is about there.
+  const BallScope bits(2 * static_cast<slong>(mpfr_get_prec(raw(motion.length()))));
+  RealBall end = exact_ball(raw(motion.length())) / unit;
+  arb_get_mid_arb(raw(end), raw(end));
   return {exact_series(problem.m(), order + 2, [&](Index j) { return motion.position(j); }),
-          exact_series(problem.nu(), order, [&](Index a) { return motion.multiplier(a); }), unit,
-          exact_ball(raw(motion.length())) / unit, order};
+          exact_series(problem.nu(), order, [&](Index a) { return motion.multiplier(a); }), unit, end, order};
 }
 
 }  // namespace hbvm::core

@@ -76,6 +76,27 @@ effect = [{ kind = "central_gravity", center = "sun", strength = 1 }]
                {"--out writes the file with what"});
 }
 
+/// A proof is a file that is gone through again. Its last line is what was proved.
+TEST(ReferenceCommand, KeepsAProofAndChecksIt) {
+  const Folder folder;
+  const std::string file = folder / "pendulum.proof";
+  ended_with(0, {"reference", "simple_pendulum", "--until", "2", "--digits", "12", "--prove", "--out", file});
+  const std::string said = ended_with(0, {"reference", "--check", file}).out;
+  const std::string last = "proved: q, p, lambda and H of simple_pendulum at t = 2 to 12 digits\n";
+  EXPECT_EQ(said.substr(said.size() - last.size()), last);
+  EXPECT_EQ(json_of({"reference", "--check", file})["proved"], 12);
+  std::string text = text_of(file);
+  const std::size_t digit = text.find("[[step]]") + 100;
+  text[digit] = text[digit] == '1' ? '2' : '1';
+  const std::string changed = folder.write("changed.proof", text);
+  expect_words(ended_with(2, {"reference", "--check", changed}).err, {"it was changed"});
+  expect_words(ended_with(2, {"reference", "--check", folder.write("other.proof", "proof")}).err,
+               {"does not begin with format"});
+  expect_words(ended_with(2, {"reference", "simple_pendulum", "--check", file}).err, {"are those of the proof"});
+  expect_words(ended_with(2, {"reference", "simple_pendulum", "--until", "2", "--out", file}).err,
+               {"a proof is made by --prove"});
+}
+
 /// The bob of length 1: its height is that of its angle, and the tension follows from the energy. The digits are all
 /// those asked for.
 TEST(ReferenceCommand, TellsWhatIsObserved) {

@@ -26,6 +26,22 @@ TEST(DoorReference, HasTheDigitsOfTheCosine) {
   EXPECT_EQ(json.at("times").at(1).at("q"), found.times[1].q);
 }
 
+TEST(DoorReference, GivesOutAProofThatHolds) {
+  const Reference found =
+      reference({.scene = oscillator(), .times = {1}, .digits = 12, .prove = true, .keep_proof = true});
+  EXPECT_EQ(found.proved, 12);
+  double done = 0;
+  const Reference checked = check_proof({.text = found.proof, .progress = [&](double part) { done = part; }});
+  EXPECT_EQ(checked.times[0].q, found.times[0].q);
+  EXPECT_EQ(checked.proved, 12);
+  EXPECT_LE(done, 1);
+  std::string changed = found.proof;
+  changed.back() = ' ';
+  EXPECT_THROW(check_proof({.text = changed}), InputError);
+  EXPECT_THROW(reference({.scene = oscillator(), .times = {1}, .keep_proof = true}), InputError);
+  EXPECT_TRUE(reference({.scene = oscillator(), .times = {1}, .digits = 12, .prove = true}).proof.empty());
+}
+
 TEST(DoorReference, RefusesTimesThatAreNone) {
   EXPECT_THROW(reference({.scene = oscillator(), .times = {}}), InputError);
   EXPECT_THROW(reference({.scene = oscillator(), .times = {"-1"}}), InputError);

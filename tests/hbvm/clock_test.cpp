@@ -14,6 +14,14 @@ TEST(Clocks, GoForwardWithWork) {
   EXPECT_GE(elapsed_seconds() - elapsed, 1 / double{2000}) << "seconds, both";
 }
 
+TEST(Clocks, HaveADate) {
+  const std::string day = today();
+  ASSERT_EQ(day.size(), 10u);
+  EXPECT_EQ(day.substr(0, 2), "20");
+  EXPECT_EQ(day[4], '-');
+  EXPECT_EQ(day[7], '-');
+}
+
 TEST(Clocks, OfAThreadCountNoOther) {
   const double before = thread_seconds();
   double others = 0;

@@ -54,6 +54,23 @@ RealBall BallSeries::at(const RealBall& time) const {
   return result;
 }
 
+BallSeries BallSeries::rounded_within(const RealBall& r) const {
+  RealBall little = size_within(r), tail,
+           power_of_r = power(greatest_magnitude(r), static_cast<unsigned long>(length()));
+  arb_mul_2exp_si(raw(little), raw(little), -BallScope::bits());
+  Index kept = length();
+  for (; kept > 1; --kept) {
+    power_of_r = power_of_r / greatest_magnitude(r);
+    const RealBall more = greatest_magnitude(tail + greatest_magnitude((*this)[kept - 1]) * power_of_r);
+    if (!more.is_below(little)) break;
+    tail = more;
+  }
+  BallSeries result = shortened(kept);
+  arb_poly_set_round(result.value_, result.value_, BallScope::bits());
+  if (kept > 0) result.set(0, widened(result[0], tail));
+  return result;
+}
+
 RealBall BallSeries::size_within(const RealBall& r) const {
   RealBall sum, radius = greatest_magnitude(r);
   for (Index n = length(); n-- > 0;) {

@@ -48,6 +48,9 @@ class BallSeries {
 
   /// The values on a ball of times.
   RealBall at(const RealBall& time) const;
+  /// A series with as many bits as the scope has, that holds this one's values for 0 <= s <= r. What its last terms add
+  /// up to is in the radius of its first, where that is round-off.
+  BallSeries rounded_within(const RealBall& r) const;
   /// A bound of sum |x_n| r^n, and so of what the series is in the complex disc |s| <= r.
   RealBall size_within(const RealBall& r) const;
 

@@ -7,7 +7,8 @@
 namespace hbvm::core {
 
 /// An approximate motion over one step: polynomials with exact coefficients for the positions and the multipliers, in
-/// the time s = (t - start) / h. The velocities are the derivatives of the positions, exactly.
+/// the time s = (t - start) / h. The velocities are the derivatives of the positions, exactly. The unit h and the end
+/// of the step are exact, too.
 class SeriesStep {
  public:
   /// \param end  in units
@@ -21,13 +22,15 @@ class SeriesStep {
   /// The unit of time h, and the end of the step in units.
   const RealBall& unit() const { return unit_; }
   const RealBall& end() const { return end_; }
+  /// The time of the end, exactly, from that of the start.
+  RealBall end_time(RealBall start) const;
   /// So many coefficients of a force along the positions balance those of the acceleration.
   Index order() const { return order_; }
 
   std::vector<RealBall> positions(const RealBall& s) const { return at(q_, s); }
   std::vector<RealBall> velocities(const RealBall& s) const;
   std::vector<RealBall> accelerations(const RealBall& s) const;
-  /// The same step with as many bits as the scope has.
+  /// The same step with as many bits as the scope has, for times from its start to its end.
   SeriesStep rounded() const;
 
  private:
