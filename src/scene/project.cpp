@@ -15,6 +15,19 @@
 namespace hbvm::core {
 namespace {
 
+constexpr const char* hold_of = "the hold of ";
+
+/// Whether a constraint that was set aside is fulfilled. A coordinate that is held at 0, but for rounding, has no terms
+/// of its own. It is measured by the others of its vector, by which it was rounded.
+template <Scalar S>
+bool is_fulfilled(const Constraint<S>& constraint, Index dimension, const Vector<S>& q) {
+  ConstraintValue<S> at = value(constraint, dimension, q);
+  if (constraint.name.starts_with(hold_of))
+    for (const Index i : coordinates(constraint, dimension))
+      raise_to(at.size, max_norm(Vector<S>(q.segment(i - i % dimension, dimension))));
+  return at.vanishes();
+}
+
 /// nearest_position, which says of which scene it is.
 template <Scalar S>
 Vector<S> nearest_of(const Scene& scene, const Problem<S>& problem, const Vector<S>& target) {
@@ -23,7 +36,7 @@ Vector<S> nearest_of(const Scene& scene, const Problem<S>& problem, const Vector
   try {
     if (problem.nu() > 0) q = nearest_position(problem, target);
     for (const auto& redundant : problem.redundant)
-      if (!value(redundant.constraint, problem.dimension, q).vanishes())
+      if (!is_fulfilled(redundant.constraint, problem.dimension, q))
         flaw = "no consistent position was found near the given one; " + redundant.constraint.name +
                " contradicts the others";
   } catch (const InputError& error) {
@@ -140,7 +153,7 @@ class Projection {
   static void hold(Problem<S>& problem, const HeldPart& part, Index i, const S& at) {
     const Index d = problem.dimension;
     problem.constraints.push_back(
-        {"the hold of " + part.name, Plane<S>{{i - i % d}, Vector<S>(Vector<S>::Unit(d, i % d)), at}});
+        {hold_of + part.name, Plane<S>{{i - i % d}, Vector<S>(Vector<S>::Unit(d, i % d)), at}});
   }
 
   /// Directors whose turning is held turn at q as the body does.

@@ -1,6 +1,7 @@
 #include "scene/project.hpp"
 
 #include "scene/assembled.hpp"
+#include "scene/hold.hpp"
 #include "scene/joined_bodies.hpp"
 #include "scene/mechanism.hpp"
 
@@ -224,6 +225,34 @@ TYPED_TEST(Project, OfAMechanismIsOne) {
   const Assembled<S> again = assemble<S>(project<S>(scene));
   EXPECT_LE(distance(start.q0, again.q0), 64 * epsilon<S>());
   EXPECT_LE(distance(start.p0, again.p0), 256 * epsilon<S>());
+}
+
+/// A director of a door that turns about x has a component that is 0 but for rounding. Its hold holds.
+TYPED_TEST(Project, HoldsAnAngleInSpace) {
+  using S = TypeParam;
+  const Scene scene = read_scene(R"(
+dimension = 3
+point = [{ name = "A", position = [0, 0, 0] }]
+effect = [{ kind = "uniform_gravity", acceleration = [0, 0, -9.81] }]
+[[rigid_body]]
+name = "door"
+position = ["1/100", 0, 0]
+velocity = [0, 0, 0]
+angular_velocity = [0, 0, 0]
+mass = 2
+center = [0, 0.2, 0]
+inertia = [0.05, 0.04, 0.08]
+orientation = { axis = [1, 0, 0], angle = "-15*pi/180" }
+[[constraint]]
+kind = "hinge"
+between = [{ of = "door", at = [0, 0, 0] }, "A"]
+axis = [1, 0, 0]
+)",
+                                 "door.toml");
+  const Assembled<S> sketch = assemble<S>(scene, Consistency::unchecked),
+                     start = assemble<S>(project<S>(scene, held_parts(scene, {"door.angle"})));
+  EXPECT_LE(max_norm(Vector<S>(start.q0.head(3))), 64 * epsilon<S>());
+  EXPECT_LE(distance(Vector<S>(sketch.q0.tail(9)), Vector<S>(start.q0.tail(9))), 64 * epsilon<S>());
 }
 
 }  // namespace
