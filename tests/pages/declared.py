@@ -30,6 +30,7 @@ ELSEWHERE = {
     "studies/reference/run --verify": "computes all references of the store: many minutes",
     "studies/reference/run --prove": "proves all references of the store: many minutes",
     "studies/reference/run --costs": "measures for many minutes",
+    "studies/proof/run": "builds the program, and measures for a minute",
     "studies/stability/run": "all hard cases: an hour",
     "studies/what_accuracy_costs/run": "measures for half an hour",
     "studies/what_accuracy_costs/compare": "compares two measurements of half an hour",
