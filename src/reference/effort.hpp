@@ -19,6 +19,9 @@ Effort effort_of_taylor(const Problem<Mpfr>& problem, const MotionNature& nature
 /// The effort of HBVM(s,s) with so many digits.
 Effort effort_of_hbvm(const Problem<Mpfr>& problem, const MotionNature& nature, unsigned digits);
 
+/// The effort of a proof, whose series have so many digits.
+Effort effort_of_proof(const Problem<Mpfr>& problem, const MotionNature& nature, unsigned digits);
+
 /// "3 minutes", "2.5 days", "4e+06 years".
 std::string duration_text(double seconds);
 

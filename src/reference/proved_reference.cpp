@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "clock.hpp"
@@ -41,7 +42,25 @@ ProvedStates prove(const ReferenceRequest& request, const GrowthSurvey& survey,
   return proof;
 }
 
+/// Digits to begin with.
+double first_digits(const ReferenceRequest& request, const GrowthSurvey& survey) {
+  constexpr int guard = 14;
+  return request.digits + std::ceil(survey.growth + std::log10(survey.steps + 1)) + guard;
+}
+
+constexpr double most_digits = 50'000;
+
 }  // namespace
+
+Effort proof_effort(const ReferenceRequest& request, const MotionNature& nature) {
+  const GrowthSurvey survey = survey_growth(request.scene, request.times.back(), [&](double) {
+    if (request.progress) request.progress(0);
+  });
+  const double digits = first_digits(request, survey);
+  if (!(digits < most_digits)) return {"proof", std::numeric_limits<double>::infinity(), 0};
+  const PrecisionScope scope(static_cast<unsigned>(digits));
+  return effort_of_proof(assemble<Mpfr>(request.scene).problem, nature, static_cast<unsigned>(digits));
+}
 
 void add_proved_states(Reference& reference, const ReferenceRequest& request) {
   constexpr double part_of_survey = double{1} / 10;
@@ -50,11 +69,10 @@ void add_proved_states(Reference& reference, const ReferenceRequest& request) {
   };
   const GrowthSurvey survey =
       survey_growth(request.scene, request.times.back(), [&](double part) { progress(part_of_survey * part); });
-  constexpr int guard = 14, attempts = 6;
-  constexpr double most = 50'000;
-  double digits = request.digits + std::ceil(survey.growth + std::log10(survey.steps + 1)) + guard;
+  constexpr int attempts = 6;
+  double digits = first_digits(request, survey);
   for (int attempt = 1;; ++attempt) {
-    if (!(digits < most) && !request.force)
+    if (!(digits < most_digits) && !request.force)
       throw InputError(
           fmt::format("bounds of errors grow by a factor of 10^{:.0f} until t = {}: a proof takes {:.0f} "
                       "digits; ask for a shorter time, or say --force",

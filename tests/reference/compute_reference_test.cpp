@@ -5,6 +5,7 @@
 #include "reference/closed_form/rigid_scenes.hpp"
 #include "reference/known_motion.hpp"
 #include "reference/request_of.hpp"
+#include "reference/store.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -195,6 +196,20 @@ TEST(ReferenceSolution, RefusesWhatCannotEnd) {
   one_route.only = Route::taylor;
   for (const ReferenceRequest& request : {both_routes, one_route})
     expect_words(message_of([&] { compute_reference(request); }), {"would take about", "--force"});
+}
+
+/// With very many digits HBVM takes longer than a proof, which is made instead: of what has no closed form, and starts
+/// exactly.
+TEST(ComputeReference, ProvesByItselfWhatThatMakesCheaper) {
+  const Reference found = compute_reference(request_of("double_pendulum", {"1/4"}, 220));
+  EXPECT_EQ(found.proved, 220);
+  ASSERT_EQ(found.routes.size(), 1u);
+  EXPECT_EQ(found.routes[0].name, "proof");
+  ReferenceRequest alone = request_of("double_pendulum", {"1/4"}, 220);
+  alone.only = Route::taylor;
+  EXPECT_EQ(differences(found, compute_reference(alone)).size(), 0u);
+  EXPECT_EQ(compute_reference(request_of("double_pendulum", {"1/4"}, 60)).proved, 0);
+  EXPECT_EQ(compute_reference(request_of("simple_pendulum", {"1/4"}, 220)).proved, 0);
 }
 
 }  // namespace

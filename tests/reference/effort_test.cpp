@@ -10,7 +10,7 @@ TEST(Effort, GrowsWithDigitsAndSteps) {
   const PrecisionScope scope(30);
   const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("tethered_satellites"));
   const MotionNature nature{1, -1, 50}, longer{1, -1, 5000};
-  for (const auto effort : {effort_of_taylor, effort_of_hbvm}) {
+  for (const auto effort : {effort_of_taylor, effort_of_hbvm, effort_of_proof}) {
     double seconds = 0, bytes = 0;
     for (const unsigned digits : {50u, 500u, 5000u}) {
       const Effort found = effort(scene.problem, nature, digits);
