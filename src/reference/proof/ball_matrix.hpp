@@ -55,6 +55,16 @@ class BallMatrix {
     r = BallMatrix(rows(), rows());
     return arb_mat_inv(r.value_, value_, BallScope::bits()) != 0;
   }
+  /// r = a matrix without radii that is near the inverse, of which nothing is known. \return whether one was found
+  bool invert_approximately(BallMatrix& r) const {
+    r = BallMatrix(rows(), rows());
+    return arb_mat_approx_inv(r.value_, value_, BallScope::bits()) != 0;
+  }
+  /// x = the inverse times b. \return whether each matrix between the bounds is known to have one
+  bool solve(const BallMatrix& b, BallMatrix& x) const {
+    x = BallMatrix(b.rows(), b.columns());
+    return arb_mat_solve(x.value_, value_, b.value_, BallScope::bits()) != 0;
+  }
   /// r = the lower triangle L with L L^T equal to this. \return whether this is known to be positive definite
   bool factor(BallMatrix& r) const {
     r = BallMatrix(rows(), rows());

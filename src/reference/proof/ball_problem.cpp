@@ -13,18 +13,23 @@ std::vector<Mpfr> row(const Matrix<Mpfr>& coefficients, Index instance) {
   return result;
 }
 
+/// A sum whose terms are believed as far as each is by itself, also where they cancel.
+RealBall believed_sum(const ConstraintValue<Mpfr>& sum) {
+  return exact_ball(raw(sum.g)) + (believed(sum.size) - exact_ball(raw(sum.size)));
+}
+
 BallConstraint quadratic(const Constraint<Mpfr>& constraint, Index dimension, Index m) {
   BallConstraint result;
   std::map<Index, std::map<Index, Mpfr>> second = second_derivatives(constraint, dimension);
   for (const auto& [i, row_of] : second)
     for (const auto& [j, h] : row_of) result.second.push_back({i, j, believed(h)});
   const Vector<Mpfr> origin = Vector<Mpfr>::Zero(m);
-  const Mpfr at_origin = value(constraint, dimension, origin).g;
+  result.at_origin = believed_sum(value(constraint, dimension, origin));
   for (const Index j : coordinates(constraint, dimension)) {
     Vector<Mpfr> unit = origin;
     unit[j] = 1;
-    // g(e_j) - g(0) - H_jj / 2. Each of its numbers is believed by itself, so that nothing that cancels is.
-    RealBall slope = believed(value(constraint, dimension, unit).g) - believed(at_origin);
+    // g(e_j) - g(0) - H_jj / 2.
+    RealBall slope = believed_sum(value(constraint, dimension, unit)) - result.at_origin;
     if (const auto curved = second[j].find(j); curved != second[j].end())
       slope -= believed(curved->second) / RealBall(2);
     result.coordinates.push_back(j);
@@ -126,6 +131,24 @@ std::vector<BallSlope> BallProblem::slopes(Index a, const std::vector<BallSeries
   for (std::size_t i = 0; i < result.size(); ++i) result[i].series = BallSeries(constraint.slopes[i]);
   for (const BallConstraint::Entry& entry : constraint.second)
     result[place.at(entry.i)].series += q[static_cast<std::size_t>(entry.j)].shortened(length) * entry.h;
+  return result;
+}
+
+std::vector<RealBall> BallProblem::constraint_values(const std::vector<RealBall>& q) const {
+  const std::vector<BallSeries> at = as_series(q);
+  std::vector<RealBall> result;
+  for (const BallConstraint& constraint : constraints_) {
+    if (constraint.formula) {
+      result.push_back(constraint.formula->value.outputs(constraint.formula->inputs(at), 1).front()[0]);
+      continue;
+    }
+    RealBall g = constraint.at_origin;
+    for (std::size_t i = 0; i < constraint.coordinates.size(); ++i)
+      g.add_product(constraint.slopes[i], q[static_cast<std::size_t>(constraint.coordinates[i])]);
+    for (const auto& [i, j, h] : constraint.second)
+      g.add_product(h / RealBall(2), q[static_cast<std::size_t>(i)] * q[static_cast<std::size_t>(j)]);
+    result.push_back(g);
+  }
   return result;
 }
 

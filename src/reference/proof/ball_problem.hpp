@@ -38,6 +38,7 @@ struct BallConstraint {
   std::vector<Index> coordinates;  ///< on which g depends
   std::vector<Entry> second;       ///< all that are not 0
   std::vector<RealBall> slopes;    ///< b, of each of `coordinates`
+  RealBall at_origin;              ///< c
   std::optional<BallForce> formula;
 };
 
@@ -65,6 +66,8 @@ class BallProblem {
   std::vector<BallSeries> force(const std::vector<BallSeries>& q, Index length) const;
   /// Column a of grad g along q, likewise.
   std::vector<BallSlope> slopes(Index a, const std::vector<BallSeries>& q, Index length) const;
+  /// g at q.
+  std::vector<RealBall> constraint_values(const std::vector<RealBall>& q) const;
   /// -U at q.
   RealBall potential_energy(const std::vector<RealBall>& q) const;
 

@@ -29,6 +29,8 @@ TEST(BallProblem, HoldsWhatTheSceneHas) {
     for (const BallSeries& x : balls.force(as_series(at), 1)) force.push_back(x[0]);
     expect_held(force, F, std::string(name) + ": the force");
     EXPECT_TRUE(holds(balls.potential_energy(at), point.energy(q, none))) << name;
+    expect_held(balls.constraint_values(at), point.constraints(q), std::string(name) + ": g");
+    for (const RealBall& g : balls.constraint_values(at)) EXPECT_LT(radius_of(g), 1e-40) << name;
     EXPECT_TRUE(holds(balls.potential_energy(at) - balls.potential_energy(at), Mpfr(0)));
     // M^-1 M v = v.
     std::vector<RealBall> v;
