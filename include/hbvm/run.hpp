@@ -28,6 +28,7 @@ struct RunRequest {
   bool account = false;              ///< tell where the time goes
   bool shadow = false;               ///< tell how many digits survived rounding
   bool error = false;                ///< tell how many digits are right
+  bool prove = false;                ///< prove, of HBVM(k,s), what its steps without rounding are
   std::string start = {};            ///< JSON with q and p, as to_json() of a run gives it; messages call it start.json
   bool picture = false;              ///< also make a figure and a page that moves
   bool frames = false;               ///< also make pictures one after another
@@ -106,6 +107,25 @@ struct ErrorEstimate {
   std::string failure;  ///< why the run beside did not reach the end, if it did not; nothing else is known
 };
 
+/// What is proved of the steps of HBVM(k,s) without any rounding, from the exact start of the scene. Krawczyk's test
+/// shows, in balls, that the equations of each step have one solution in a box. All that is said holds for it.
+struct ProvedSteps {
+  long steps = 0;
+  int digits = 0;          ///< of q, p and lambda at all mesh points, to half a unit of the last digit of the greatest
+  int working_digits = 0;  ///< that took
+  double growth = 0;       ///< the bounds of the state grew by 10^growth
+  /// No other solution of a step's equations is as near, in units of its momenta and of multipliers that would change
+  /// them so much.
+  std::string only_within;
+  std::vector<std::string> q, p, lambda;          ///< at the end, so many digits; lambda by (57)
+  std::vector<std::string> lambda_names;          ///< of the constraints that do not follow from others
+  std::string q_radius, p_radius, lambda_radius;  ///< the greatest bounds of what they are off by, at all mesh points
+  std::string e_H, e_g;                           ///< |H(y_n) - H_0| and |g(q_n)| are at most that at all mesh points
+  std::string e_H_least, e_g_least;               ///< at one point at least that; empty if both may be 0 at all
+  std::string off_q, off_p;                       ///< by which the end of the run itself is off at most: its rounding
+  double cpu_seconds = 0;
+};
+
 /// "multiply": how many of them; all there are, in one order.
 using OperationList = std::vector<std::pair<std::string, std::uint64_t>>;
 
@@ -156,6 +176,7 @@ struct Run {
   std::optional<HalvingReport> halving;  ///< if steps might be divided
   std::optional<Shadow> shadow;
   std::optional<ErrorEstimate> error;
+  std::optional<ProvedSteps> proved;
   bool observes = false;                  ///< whether the scene names quantities to be observed
   std::vector<Observed> observables;      ///< those of them that the motion conserves
   std::vector<Observation> observations;  ///< of the output state at the end
