@@ -39,7 +39,7 @@ struct RunArguments {
   std::optional<std::string> out, start, plot;
   std::vector<std::string> portraits;
   long every = 1;
-  bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false;
+  bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false, prove = false;
   bool states = false, state = false, linear_energy = false;
   std::optional<std::string> checkpoint, resume;
   double every_seconds = 60;
@@ -106,6 +106,7 @@ hbvm::RunRequest asked_of(const RunArguments& o, const RunIdentity& identity) {
           .account = o.account,
           .shadow = o.shadow,
           .error = o.error,
+          .prove = o.prove,
           .start = identity.start,
           .portraits = portraits,
           .linear_energy = o.linear_energy};
@@ -281,6 +282,9 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--error", o->error,
                     "Print the digits that are right, by a stored reference of this scene and time, or else by the "
                     "motion's Taylor series with 16 more digits");
+  command->add_flag("--prove", o->prove,
+                    "Prove of hbvm:K,S that each step's equations have one solution, and print bounds of what the "
+                    "motion without rounding is, and of its H and g");
   command->add_flag("--shadow", o->shadow,
                     "Repeat the run with 16 more digits and say how many of each component survived rounding");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");

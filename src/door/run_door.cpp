@@ -48,6 +48,7 @@ RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::st
                      asked.account,
                      asked.shadow,
                      asked.error,
+                     asked.prove,
                      parse_on_failure(asked.on_failure),
                      asked.reverse ? Direction::backward : Direction::forward};
   request.linear_energy = asked.linear_energy;

@@ -62,6 +62,28 @@ core::OrderedJson json_of(const Shadow& shadow) {
             {"every", shadow.every}}}};
 }
 
+core::OrderedJson json_of(const ProvedSteps& proved) {
+  const auto or_null = [](const std::string& text) {
+    return text.empty() ? core::OrderedJson(nullptr) : core::OrderedJson(text);
+  };
+  return {{"steps", proved.steps},
+          {"digits", proved.digits},
+          {"working_digits", proved.working_digits},
+          {"growth", rounded({proved.growth}).front()},
+          {"only_within", proved.only_within},
+          {"q", proved.q},
+          {"p", proved.p},
+          {"lambda", proved.lambda},
+          {"lambda_names", proved.lambda_names},
+          {"radius", {{"q", proved.q_radius}, {"p", proved.p_radius}, {"lambda", or_null(proved.lambda_radius)}}},
+          {"e_H", proved.e_H},
+          {"e_H_least", or_null(proved.e_H_least)},
+          {"e_g", or_null(proved.e_g)},
+          {"e_g_least", or_null(proved.e_g_least)},
+          {"off", {{"q", proved.off_q}, {"p", proved.off_p}}},
+          {"cpu_seconds", proved.cpu_seconds}};
+}
+
 /// The mesh points, each with the output state as the end has it.
 core::OrderedJson states_of(const Run& run) {
   const std::size_t m = run.q.size(), nu = run.lambda.size();
@@ -116,6 +138,7 @@ std::string to_json(const Run& run, bool states) {
   j["health"] = json_of(run.health);
   if (run.shadow) j["shadow"] = json_of(*run.shadow);
   if (run.error) j["error"] = json_of(*run.error);
+  if (run.proved) j["proved"] = json_of(*run.proved);
   j["iterations_per_step"] = run.iterations_per_step;
   j["cpu_seconds"] = run.cpu_seconds;
   if (run.nodes) {

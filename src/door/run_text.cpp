@@ -180,6 +180,34 @@ std::string list_of(const std::string& heading, const Texts& names, const Texts&
   return text;
 }
 
+/// "H(y_n) = H_0 within 3e-31 at all 100 steps"; or that this is not so.
+std::string proved_of(const std::string& what, const std::string& most, const std::string& least, long steps) {
+  if (least.empty()) return fmt::format("  {} within {} at all {} steps\n", what, most, steps);
+  return fmt::format("  not {}: it is off by at most {}, and at one step by at least {}\n", what, most, least);
+}
+
+std::string proof_in(const Run& run, bool all_digits) {
+  const ProvedSteps& proved = *run.proved;
+  std::string text = fmt::format(
+      "\nproved of the method without rounding\n"
+      "  each of {} steps has a solution, and no other as near as {} of its momenta and multipliers\n"
+      "  so has each step back, and it leads to where the step began\n",
+      proved.steps, proved.only_within);
+  text += proved_of("H(y_n) = H_0", proved.e_H, proved.e_H_least, proved.steps);
+  if (!proved.lambda.empty()) text += proved_of("g(q_n) = 0", proved.e_g, proved.e_g_least, proved.steps);
+  text += fmt::format("  q is known within {}, p within {}{}\n", proved.q_radius, proved.p_radius,
+                      proved.lambda.empty() ? "" : ", lambda within " + proved.lambda_radius);
+  text +=
+      fmt::format("  rounding has moved the end of this run by at most {} in q, {} in p\n", proved.off_q, proved.off_p);
+  text += fmt::format("  bounds grew by 10^{:.1f}, with {} digits and {:.1f} s\n", proved.growth, proved.working_digits,
+                      proved.cpu_seconds);
+  if (!all_digits) return text;
+  text += list_of("q without rounding, proved", run.q_names, proved.q, {});
+  text += list_of("p without rounding, proved", run.p_names, proved.p, {});
+  if (proved.lambda.empty()) return text;
+  return text + list_of("lambda of the last step without rounding, proved", proved.lambda_names, proved.lambda, {});
+}
+
 std::string whole_state(const Run& run) {
   const ErrorEstimate error = is_assessed(run) ? *run.error : ErrorEstimate{};
   const Shadow shadow = run.shadow.value_or(Shadow{});
@@ -206,6 +234,7 @@ std::string to_text(const Run& run, bool state) {
                       run.step, run.t);
   text += verdict_of(run) + errors_of(run) + decisions_of(run) + observed_in(run, state);
   if (run.shadow) text += "\n" + core::to_text(*run.shadow);
+  if (run.proved) text += proof_in(run, state);
   text += state ? whole_state(run) : short_state(run);
   return text + fmt::format("\ncost: {:.2f} iterations per step, {:.3f} s of processor time\n", run.iterations_per_step,
                             run.cpu_seconds);

@@ -24,6 +24,7 @@ struct RunRequest {
   bool account = false;  ///< measure where the time goes
   bool shadow = false;   ///< repeat the run with 16 more digits
   bool error = false;    ///< repeat it with more stages, too
+  bool prove = false;    ///< prove what its steps are without rounding
   OnFailure on_failure = OnFailure::stop;
   Direction direction = Direction::forward;
   std::optional<StartState> start = {};                    ///< instead of that of the scene

@@ -7,6 +7,7 @@
 #include "integrate/trajectory.hpp"
 #include "run/error_estimate.hpp"
 #include "run/health.hpp"
+#include "run/proved_run.hpp"
 #include "run/shadow.hpp"
 #include "run/simulate.hpp"
 #include "run/vector_text.hpp"
@@ -131,6 +132,7 @@ Run told_of(const RunRequest& request) {
 
 template <Scalar S>
 Run run_in(const RunRequest& request, const RunHooks& hooks) {
+  if (request.prove) check_provable(request);
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants, request.direction);
   Assembled<S> scene = assemble<S>(request.scene);
   Course<S> course{{}, hooks.checkpoints};
@@ -220,6 +222,7 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
         {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +
                                       to_scientific(simulated.redundancy, 3) + " of their terms"});
   if (shadowed) result.shadow = shadowed->compare(request, method, course.start);
+  if (request.prove) result.proved = prove_run<S>(request, method, stepper.nodes(), simulated.state, hooks.progress);
   if (request.error) result.error = estimate_error(request, method, course.start, end.q, output.p, output_lambda);
   result.cpu_seconds = simulated.integration.cpu_seconds;
   result.account = entries_of(account);

@@ -164,6 +164,18 @@ TEST(RunShadow, IsInTheJsonAndTheTextIfAskedFor) {
   expect_words(hbvm(run + Arguments{"--shadow", "--state"}).out, {" digits\n", "against mpfr:32"});
 }
 
+TEST(RunProve, IsInTheJsonAndTheTextIfAskedFor) {
+  const Arguments run = run_of("double_pendulum", "hbvm:2,2", "1/16", "1") + Arguments{"--precision", "mpfr:30"};
+  EXPECT_FALSE(json_of(run).contains("proved"));
+  const ordered_json proved = json_of(run + Arguments{"--prove"})["proved"];
+  EXPECT_EQ(proved["steps"], 16);
+  EXPECT_EQ(proved["digits"], 30);
+  expect_words(hbvm(run + Arguments{"--prove"}).out,
+               {"proved of the method without rounding", "H(y_n) = H_0 within", "at all 16 steps"});
+  expect_words(ended_with(2, run_of("double_pendulum", "rk4", "1/16", "1") + Arguments{"--prove"}).err,
+               {"proof", "rk4", "hbvm:K,S"});
+}
+
 TEST(RunJson, WithoutConstraintsHasNoMultipliers) {
   const Folder folder;
   const std::string scene = folder.write("fall.toml", fall());

@@ -30,6 +30,28 @@ TEST(DoorRunJson, SaysWhatTheRunIs) {
   EXPECT_EQ(read_scene(json.at("scene_text")).toml(), made.scene_toml);
 }
 
+/// What is proved, with and without constraints.
+TEST(DoorRunJson, HoldsWhatIsProved) {
+  RunRequest request{.scene = load_scene("double_pendulum"), .method = "hbvm:3,2", .step = "1/4", .until = 1};
+  EXPECT_FALSE(nlohmann::json::parse(to_json(run(request))).contains("proved"));
+  request.prove = true;
+  const hbvm::Run made = run(request);
+  const nlohmann::json proved = nlohmann::json::parse(to_json(made)).at("proved");
+  EXPECT_EQ(proved.at("steps"), 4);
+  EXPECT_EQ(proved.at("digits"), 15);
+  EXPECT_EQ(proved.at("q"), made.proved->q);
+  EXPECT_EQ(proved.at("lambda_names"), made.lambda_names);
+  EXPECT_EQ(proved.at("radius").at("lambda"), made.proved->lambda_radius);
+  EXPECT_EQ(proved.at("e_H"), made.proved->e_H);
+  EXPECT_TRUE(proved.at("e_H_least").is_null());
+  EXPECT_EQ(proved.at("off").at("p"), made.proved->off_p);
+  request.scene = load_scene("kepler");
+  const nlohmann::json free = nlohmann::json::parse(to_json(run(request))).at("proved");
+  EXPECT_TRUE(free.at("e_g").is_null());
+  EXPECT_TRUE(free.at("radius").at("lambda").is_null());
+  EXPECT_TRUE(free.at("e_H_least").is_string());
+}
+
 /// Every other point of four steps, as the end is told, by names.
 TEST(DoorRunJson, HoldsTheStatesIfAsked) {
   RunRequest request{.scene = load_scene("double_pendulum"), .method = "hbvm:3,2", .step = "1/4", .until = 1};

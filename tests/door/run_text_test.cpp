@@ -51,6 +51,38 @@ TEST(DoorRunText, TellsTheOutputStateOnceToSixDigits) {
   for (const char* other : {"1.5", "3.5", "0.123456789"}) EXPECT_EQ(text.find(other), std::string::npos) << text;
 }
 
+/// Claims are told as they are proved: what is kept, and what is not.
+TEST(DoorRunText, TellsWhatIsProved) {
+  hbvm::Run run = made_up_run();
+  EXPECT_EQ(to_text(run).find("proved"), std::string::npos);
+  ProvedSteps& proved = run.proved.emplace();
+  proved.steps = 320;
+  proved.working_digits = 40;
+  proved.growth = 3.25;
+  proved.only_within = "1.50e-02";
+  proved.q = {"0.1250", "-0.9500"};
+  proved.p = {"1.55", "2.55"};
+  proved.lambda = {"3.55"};
+  proved.lambda_names = {"rod pivot-bob"};
+  proved.q_radius = "1.11e-30";
+  proved.p_radius = "2.22e-30";
+  proved.lambda_radius = "3.33e-30";
+  proved.e_H = "4.44e-29";
+  proved.e_g = "5.55e-20";
+  proved.e_g_least = "5.54e-20";
+  proved.off_q = "6.66e-16";
+  proved.off_p = "7.77e-16";
+  core::expect_words(to_text(run),
+                     {"\nproved of the method without rounding\n", "each of 320 steps has a solution",
+                      "no other as near as 1.50e-02 of", "H(y_n) = H_0 within 4.44e-29 at all 320 steps\n",
+                      "not g(q_n) = 0: it is off by at most 5.55e-20, and at one step by at least 5.54e-20\n",
+                      "q is known within 1.11e-30, p within 2.22e-30, lambda within 3.33e-30\n",
+                      "at most 6.66e-16 in q, 7.77e-16 in p\n", "10^3.2"});
+  EXPECT_EQ(to_text(run).find("0.1250"), std::string::npos);
+  core::expect_words(to_text(run, true), {"q without rounding, proved\n  1   bob.x  0.1250\n", "2   bob.py  2.55\n",
+                                          "1   rod pivot-bob  3.55\n"});
+}
+
 TEST(DoorRunText, TellsAllDigitsOfBothStatesOnDemand) {
   core::expect_words(to_text(made_up_run(), true),
                      {"p, propagated\n  1   bob.px  1.5\n  2   bob.py  2.5\n", "q\n  1   bob.x  0.123456789\n",

@@ -44,6 +44,8 @@ passed = printed("passing.toml", "--method", "hbvm:auto,2", "--step", "1/4", "--
 assert passed["halved"]["steps"] > 0 and passed["chosen"]["raised"] and passed["observables"]
 printed("kepler", "--method", "hbvm:1,1", *steps, "--on-failure", "halve", "--error")
 printed("simple_pendulum", "--method", "rattle", *steps)
+for scene in ["double_pendulum", "kepler"]:
+    assert printed(scene, "--method", "hbvm:2,2", *steps, "--prove")["proved"]["steps"] == 16
 moved = printed("double_pendulum", *steps, "--states", "--every", "8", "--observe", "a.vx")
 assert [state["t"] for state in moved["states"]] == ["0", "0.5", "1"]
 
