@@ -62,9 +62,10 @@ TEST(ProvedCourse, HoldsTheMotionWithMoreDigits) {
 TEST(ProvedCourse, NoticesAWrongCoefficient) {
   using enum Perturbation::Part;
   const PrecisionScope digits(few_digits);
-  for (const Perturbation& wrong : {Perturbation{.part = X, .i = 1, .relative = Expression::parse("1e-25")},
-                                    Perturbation{.part = weight, .hat = true, .relative = Expression::parse("1e-25")},
-                                    Perturbation{.part = integral, .i = 2, .relative = Expression::parse("1e-25")}}) {
+  const auto wrong_by = [](Perturbation::Part part, bool hat, int i) {
+    return Perturbation{.part = part, .hat = hat, .i = i, .j = 0, .relative = Expression::parse("1e-25")};
+  };
+  for (const Perturbation& wrong : {wrong_by(X, false, 1), wrong_by(weight, true, 0), wrong_by(integral, false, 2)}) {
     CourseOf proved(load_scene("tethered_satellites"), {5, 3, 3}, "1/10");
     proved.course.step();
     DiscreteMotion motion(load_scene("tethered_satellites"), {5, 3, 3}, "1/10", wrong);
