@@ -9,6 +9,7 @@
 #include "clock.hpp"
 #include "integrate/step_error.hpp"
 #include "proved_course.hpp"
+#include "reference/proved_states.hpp"
 #include "scalar/text.hpp"
 #include "step/hbvm_method.hpp"
 
@@ -210,11 +211,7 @@ double attempt(const StepsToProve& asked, const State<Mpfr>& end, unsigned digit
     const PrecisionScope twice(2 * digits + 20);
     return work();
   };
-  Assembled<Mpfr> exact = with_twice([&] { return assemble<Mpfr>(asked.scene); });
-  if (!exact.settled.empty())
-    throw InputError("the start of '" + asked.scene.name + "' is " + exact.settled +
-                     ": there is no exact start from which steps could be proved; write its numbers exactly, as "
-                     "sqrt(1/2)");
+  Assembled<Mpfr> exact = assembled_for_proof(asked.scene);
   Assembled<Mpfr> rounded = assemble<Mpfr>(asked.scene);
   const TimeGrid<Mpfr> grid =
       with_twice([&] { return TimeGrid<Mpfr>(asked.step, asked.until, asked.scene.constants); });
