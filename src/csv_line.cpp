@@ -18,6 +18,15 @@ std::string csv_line(const std::vector<std::string>& cells) {
 std::vector<std::string> split_csv_line(const std::string& line) {
   std::vector<std::string> cells;
   if (line.empty()) return cells;
+  if (line.find('"') == std::string::npos) {
+    std::size_t begin = 0;
+    for (std::size_t end = line.find(','); end != std::string::npos; end = line.find(',', begin)) {
+      cells.push_back(line.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    cells.push_back(line.substr(begin));
+    return cells;
+  }
   cells.emplace_back();
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -22,6 +22,10 @@ class Number {
   std::string text_;
 };
 
+/// What the number is, rounded once in a precision: decimal text that reads back exactly.
+/// \throws InputError if it has no value
+std::string decimal(const Number& number, const std::string& precision = "double");
+
 using Numbers = std::vector<Number>;      ///< a vector
 using NumberRows = std::vector<Numbers>;  ///< a matrix, row by row
 

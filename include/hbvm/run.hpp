@@ -14,6 +14,19 @@
 
 namespace hbvm {
 
+/// The mesh points of a run. Every number is decimal text that reads back exactly.
+struct Trajectory {
+  /// "t"; "bob.x" ... of q; "bob.px" ... of p; "lambda1" ...; the same of the output state, as "output.bob.px";
+  /// "delta_H", "g" and "hidden"; and what the scene observes.
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+  /// \throws InputError, with the columns there are, for another name
+  std::vector<std::string> text(const std::string& column) const;
+  /// The same as doubles. \throws InputError likewise
+  std::vector<double> values(const std::string& column) const;
+};
+
 /// A run as it is asked for. What method, precision, solver and on_failure may be, methods() and the program's help
 /// say.
 struct RunRequest {
@@ -38,6 +51,8 @@ struct RunRequest {
   long every = 1;              ///< steps between two rows of the trajectory; 0: no trajectory is kept
   std::function<void(long done, long of)> progress = {};  ///< called now and then, with steps
   std::stop_token stop = {};                              ///< ends the run between two steps
+  /// Called before the error is thrown that ends a run on its way: with the mesh points until then.
+  std::function<void(Trajectory so_far)> cut_short = {};
 };
 
 /// A finding that a user should know of: "energy_lost", and what was seen, when, and what to do.
@@ -138,19 +153,6 @@ struct AccountEntry {
   OperationList operations;   ///< in all
   OperationList done_before;  ///< those that another effect had done already
   double seconds = 0;         ///< of the processor
-};
-
-/// The mesh points of a run. Every number is decimal text that reads back exactly.
-struct Trajectory {
-  /// "t"; "bob.x" ... of q; "bob.px" ... of p; "lambda1" ...; the same of the output state, as "output.bob.px";
-  /// "delta_H", "g" and "hidden"; and what the scene observes.
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-
-  /// \throws InputError, with the columns there are, for another name
-  std::vector<std::string> text(const std::string& column) const;
-  /// The same as doubles. \throws InputError likewise
-  std::vector<double> values(const std::string& column) const;
 };
 
 /// What came out. Every number of the working precision is decimal text that reads back exactly.

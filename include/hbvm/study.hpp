@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hbvm/figure.hpp"
+#include "hbvm/order.hpp"
 #include "hbvm/run.hpp"
 #include "hbvm/scene.hpp"
 
@@ -89,11 +90,6 @@ struct ConvergenceRequest {
   bool picture = false;
   std::function<void(long done, long of)> progress = {};  ///< called now and then, with steps of all runs
   std::stop_token stop = {};
-};
-
-/// A rate lies within value +- uncertainty, as the audit's judge has it from the slopes of five steps or more.
-struct MeasuredRate {
-  double value = 0, uncertainty = 0;
 };
 
 /// One method in one precision. Parts are q, p and lambda; without constraints there is no lambda.

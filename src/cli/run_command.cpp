@@ -7,10 +7,10 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 
 #include "commands.hpp"
 #include "door/run_of.hpp"
+#include "door/trajectory_lines.hpp"
 #include "hbvm/version.hpp"
 #include "integrate/time_grid.hpp"
 #include "interruption.hpp"
@@ -179,8 +179,9 @@ void run_command(const RunArguments& o, const CLI::App& command) {
       written = write_metadata(o, request, made_by, columns);
     };
   }
-  std::stringstream lines;
-  if (o.states) hooks.trajectory = &lines;
+  TrajectoryLines lines;
+  std::ostream states(&lines);
+  if (o.states) hooks.trajectory = &states;
   std::optional<Plot> plot;
   const auto show_files = [&] {
     std::for_each(written.begin(), written.end(), say_written);
@@ -203,7 +204,7 @@ void run_command(const RunArguments& o, const CLI::App& command) {
     }();
     show_files();
     result.command = made_by;
-    result.trajectory = trajectory_of(lines);
+    result.trajectory = lines.take();
     if (o.json)
       std::cout << to_json(result, o.states) << std::endl;
     else

@@ -27,7 +27,20 @@
 #include "scalar/text.hpp"
 #include "scene/assemble.hpp"
 
-namespace hbvm::core {
+namespace hbvm {
+
+double Comparison::least_digits() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const FileComparison& file : files)
+    for (const ComponentDigits& c : file.components) {
+      for (const double right : c.digits)
+        if (right < least) least = right;
+      if (c.off_zero > 0) least = std::min(least, -std::log10(c.off_zero));
+    }
+  return least;
+}
+
+namespace core {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -224,17 +237,6 @@ std::string step_stored(const std::string& csv, const std::string& metadata) {
   return {};
 }
 
-double Comparison::least_digits() const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const FileComparison& file : files)
-    for (const ComponentDigits& c : file.components) {
-      for (const double right : c.digits)
-        if (right < least) least = right;
-      if (c.off_zero > 0) least = std::min(least, -std::log10(c.off_zero));
-    }
-  return least;
-}
-
 Comparison compare_with_reference(const ComparisonRequest& request) {
   constexpr int more_digits = 4, least_digits = 20, greatest_digits = most_reference_digits;
   Comparison result;
@@ -371,4 +373,6 @@ Figure comparison_figure(const ComparisonRequest& request, const Comparison& aga
   return figure;
 }
 
-}  // namespace hbvm::core
+}  // namespace core
+
+}  // namespace hbvm

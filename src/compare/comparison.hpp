@@ -1,23 +1,15 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hbvm/figure.hpp"
+#include "hbvm/results.hpp"
 #include "scene/scene.hpp"
 
 namespace hbvm::core {
-
-/// A file of results of any program: names of columns, then a line a time.
-struct ResultsFile {
-  std::string name, csv;
-  /// The step it was made with, an expression; empty if it is not known. step_stored() finds it in what files store.
-  std::string step = {};
-  bool step_given = false;  ///< by a user: it must be a number; one that is stored may say anything
-};
 
 /// The step that a file of results says it was made with. It is "hbvm:step" of what describes it (JSON, as hbvm run
 /// writes it beside its CSV), or else a comment "# step = 1/64" of its own. Empty if there is none.
@@ -31,60 +23,6 @@ struct ComparisonRequest {
   /// "output.bob.px" of a trajectory of hbvm run the second, which is tangential, is taken.
   std::vector<std::pair<std::string, std::string>> map;
   std::function<void(double)> progress = {};
-};
-
-/// One component of one file: right digits at each time. If a vector is exactly 0, they are counted by the greatest one
-/// of its kind, q, p or v, at any of the times. Where all are 0 there are none to count: NaN.
-struct ComponentDigits {
-  std::string name;
-  std::vector<double> digits;
-  double off_zero = 0;  ///< the greatest error where there are no digits to count
-};
-
-/// A component of a file's row at t = 0 that is not what the scene starts with.
-struct StartDifference {
-  std::string name, theirs, ours;
-  double digits = 0;      ///< that are right
-  bool opposite = false;  ///< only the sign is another
-};
-
-struct FileComparison {
-  std::string name;
-  std::vector<std::string> times;   ///< those that were compared
-  std::vector<std::string> unused;  ///< "2 times before the start", one a reason
-  bool stored = false;              ///< the reference was found in the store, and not computed
-  std::vector<ComponentDigits> components;
-  /// log10 of what H and the constraints g are off by, over the size of their terms, at each time. Empty unless the
-  /// state is complete.
-  std::vector<double> H_drift, g_drift;
-  bool has_start = false;              ///< a row at t = 0
-  std::vector<StartDifference> start;  ///< what is another there, to more than the digits of the file explain
-  double step = 0;                     ///< as the file has it, or between its first two times; NaN if there is one time
-  std::string step_text;               ///< the same as a text; empty if it is from the times
-  double error = 0;  ///< log10 of the greatest error of a component at the last time, over its vector's size
-};
-
-/// The order between two files, as log of the errors' ratio over that of the steps. NaN where the steps are equal or
-/// unknown, or the last times are not the same.
-struct Convergence {
-  std::size_t coarse = 0, fine = 0;
-  double order = 0;
-};
-
-struct Comparison {
-  int digits = 0;  ///< of the reference
-  std::vector<FileComparison> files;
-  /// Digits that an error of the size of the first file's first would have left at its times by the growth of errors
-  /// alone.
-  std::vector<double> by_growth;
-  /// The order between each file and that of the next smaller step, whatever their names.
-  std::vector<Convergence> orders;
-
-  /// The least right digits of all files, components and times that were compared. A component without digits to count
-  /// has the place of its error after the point.
-  double least_digits() const;
-  /// The order of the two smallest steps; NaN if there is none.
-  double order() const { return orders.empty() ? std::numeric_limits<double>::quiet_NaN() : orders.back().order; }
 };
 
 /// Right digits of results beside the reference, which is found in the store or computed at their times. At most

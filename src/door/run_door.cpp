@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <sstream>
+#include <ostream>
 
-#include "csv_line.hpp"
 #include "door/door.hpp"
 #include "door/run_of.hpp"
+#include "door/trajectory_lines.hpp"
+#include "hbvm/error.hpp"
 #include "hbvm/run.hpp"
 #include "hbvm/version.hpp"
 #include "reference/usual_step.hpp"
@@ -20,16 +21,6 @@
 
 namespace hbvm {
 namespace core {
-
-hbvm::Trajectory trajectory_of(std::istream& lines) {
-  hbvm::Trajectory trajectory;
-  for (std::string line; std::getline(lines, line);)
-    if (trajectory.columns.empty())
-      trajectory.columns = split_csv_line(line);
-    else
-      trajectory.rows.push_back(split_csv_line(line));
-  return trajectory;
-}
 
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start) {
   Scene scene = scene_of(asked.scene);
@@ -90,18 +81,27 @@ Run run(const RunRequest& door) {
     throw InputError(fmt::format("a trajectory of every {} steps: it must not be negative", door.every));
   const auto start = door.start.empty() ? std::nullopt : std::optional<std::string>("start.json");
   const core::RunRequest request = core::request_of(door, start);
-  std::stringstream lines;
+  core::TrajectoryLines lines;
+  std::ostream kept(&lines);
   core::Recording recording;
   core::RunHooks hooks;
   hooks.progress = door.progress;
   if (door.every > 0) {
-    hooks.trajectory = &lines;
+    hooks.trajectory = &kept;
     hooks.every = door.every;
   }
   if (door.picture || door.frames) hooks.recording = &recording;
-  Run run = core::run(request, hooks);
+  Run run = [&] {
+    try {
+      return core::run(request, hooks);
+    } catch (const Error&) {
+      if (hbvm::Trajectory so_far = lines.take(); door.cut_short && !so_far.rows.empty())
+        door.cut_short(std::move(so_far));
+      throw;
+    }
+  }();
   run.command = core::command_of(door, request);
-  run.trajectory = core::trajectory_of(lines);
+  run.trajectory = lines.take();
   if (door.picture) {
     run.figure = core::figure_of(request, recording, run.command);
     run.page = core::run_page(request, recording, run.command);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <istream>
-
 #include "hbvm/run.hpp"
 #include "long_work/json.hpp"
 #include "run/scene_run.hpp"
@@ -13,9 +11,6 @@ namespace hbvm::core {
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start);
 /// The command of the program that makes the same motion.
 std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request);
-
-/// The trajectory whose CSV lines these are.
-hbvm::Trajectory trajectory_of(std::istream& lines);
 
 /// A list of a name and a text each.
 OrderedJson json_of(const std::vector<Warning>& warnings);

@@ -87,7 +87,7 @@ TEST(Comparison, FindsTheOrderOfConvergence) {
   }
   const Comparison against = compare_with_reference(request);
   ASSERT_EQ(against.orders.size(), 3u);
-  for (const Convergence& c : against.orders) EXPECT_NEAR(c.order, 2, 0.1);
+  for (const OrderBetween& c : against.orders) EXPECT_NEAR(c.order, 2, 0.1);
   EXPECT_EQ(against.files[3].times.size(), most_times);
   EXPECT_EQ(against.files[3].times.back(), "2");
   ASSERT_FALSE(against.files[3].unused.empty());

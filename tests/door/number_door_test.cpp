@@ -20,5 +20,13 @@ TEST(Number, IsFinite) {
   EXPECT_THROW(static_cast<void>(Number(std::numeric_limits<double>::infinity())), InputError);
 }
 
+TEST(Number, HasADecimalInEachPrecision) {
+  EXPECT_EQ(decimal("5/2"), "2.5");
+  EXPECT_EQ(decimal("pi"), "3.141592653589793");
+  EXPECT_EQ(decimal("1/3", "mpfr:30").substr(0, 32), "0.333333333333333333333333333333");
+  EXPECT_THROW(decimal("1/0"), InputError);
+  EXPECT_THROW(decimal("2*"), InputError);
+}
+
 }  // namespace
 }  // namespace hbvm

@@ -64,6 +64,23 @@ TEST(DoorRun, HasAMethodAndAStepOfItsOwn) {
   EXPECT_NE(made.command.find("--step '1/32'"), std::string::npos) << made.command;
 }
 
+/// What was computed before a run ended on its way is a part of what it would have been.
+TEST(DoorRun, HandsOutWhatItHasWhereItIsCutShort) {
+  const Run whole = run(pendulum());
+  RunRequest request = pendulum();
+  std::stop_source source;
+  request.stop = source.get_token();
+  request.progress = [&](long done, long) {
+    if (done == 7) source.request_stop();
+  };
+  Trajectory kept;
+  request.cut_short = [&](Trajectory so_far) { kept = std::move(so_far); };
+  EXPECT_THROW(run(request), Interrupted);
+  EXPECT_EQ(kept.columns, whole.trajectory.columns);
+  ASSERT_EQ(kept.rows.size(), 8u);
+  EXPECT_TRUE(std::equal(kept.rows.begin(), kept.rows.end(), whole.trajectory.rows.begin()));
+}
+
 TEST(DoorRun, NamesTheColumnsThereAre) {
   const hbvm::Run made = run(pendulum());
   core::expect_words(core::message_of([&] { return made.trajectory.values("bob.z"); }),

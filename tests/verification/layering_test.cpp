@@ -40,6 +40,7 @@ std::map<std::string, Folders> allowed() {
     both_chains.insert(folder);
     result[folder] = both_chains;
   }
+  result["python"] = {"", "python"};
   result["processes"] = {"", "report", "long_work", "processes"};
   result["folder_report"] = {"", "report", "folder_report"};
   both_chains.insert({"processes", "folder_report"});

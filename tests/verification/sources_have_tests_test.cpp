@@ -26,8 +26,10 @@ const std::map<std::string, std::string>& exceptions() {
   return reasons;
 }
 
-/// The commands are tested as a user has them, and the families of hard cases are cases themselves.
-bool is_tested_by_running(const std::string& folder) { return folder == "cli" || folder == "hard_cases/family"; }
+/// The commands and the Python module are tested as a user has them. The families of hard cases are cases themselves.
+bool is_tested_by_running(const std::string& folder) {
+  return folder == "cli" || folder == "hard_cases/family" || folder == "python/module";
+}
 
 /// The files below a folder of the project whose names end so: their paths there, without that ending.
 std::vector<fs::path> files(const char* root, const std::string& ending) {
