@@ -193,6 +193,10 @@ struct Run {
 /// \throws InputError, IntegrationError with the time where the run could not go on, Interrupted
 Run run(const RunRequest& request);
 
+/// The step of a run that asks for none, an exact number: at most an eighth of the radius of convergence of the
+/// motion's Taylor series. \throws InputError where there is no series
+std::string usual_step(const Scene& scene, const Number& until);
+
 /// Lines for people, as `hbvm run` prints them: a verdict, errors, warnings, and the output state. Its numbers have the
 /// digits that were found right, or six if none were looked for.
 /// \param state all digits instead, of the propagated state and of that of output

@@ -110,6 +110,10 @@ Run run(const RunRequest& door) {
   return run;
 }
 
+std::string usual_step(const Scene& scene, const Number& until) {
+  return core::usual_step(core::scene_of(scene), core::expression_of(until, "until")).text();
+}
+
 std::vector<std::string> Trajectory::text(const std::string& column) const {
   const auto found = std::find(columns.begin(), columns.end(), column);
   if (found == columns.end()) {

@@ -81,6 +81,12 @@ TEST(DoorRun, HandsOutWhatItHasWhereItIsCutShort) {
   EXPECT_TRUE(std::equal(kept.rows.begin(), kept.rows.end(), whole.trajectory.rows.begin()));
 }
 
+TEST(DoorRun, TellsTheStepThatItWouldTake) {
+  EXPECT_EQ(usual_step(load_scene("kepler"), 10), "1/32");
+  EXPECT_EQ(usual_step(load_scene("kepler"), "2*pi"), "(2*pi)/2^8");
+  EXPECT_THROW(usual_step(load_scene("kepler"), -1), InputError);
+}
+
 TEST(DoorRun, NamesTheColumnsThereAre) {
   const hbvm::Run made = run(pendulum());
   core::expect_words(core::message_of([&] { return made.trajectory.values("bob.z"); }),

@@ -21,6 +21,7 @@ from ._errors import Error, InputError, IntegrationError, Interrupted
 from ._facts import Nodes, methods, nodes, precision_of
 from ._hbvm import version as __version__
 from ._number import Exact, FloatWarning, Number
+from ._order import Order, Rung, verify_order
 from ._page import Page
 from ._record import Listing, Record
 from ._reference import Reference, reference
@@ -33,9 +34,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Against", "Audit", "Columns", "Comparison", "Convergence", "Error", "Exact", "FloatWarning", "InputError",
-    "IntegrationError", "Interrupted", "Listing", "Nodes", "Number", "Numbers", "Page", "Plan", "Record", "Reference",
-    "Run", "Scene", "SceneFacts", "Study", "audit", "compare", "convergence", "cost", "kept", "methods", "nodes",
-    "precision_of", "read_csv", "reference", "run", "scene", "scenes", "study",
+    "IntegrationError", "Interrupted", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Plan", "Record", "Reference",
+    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "compare", "convergence", "cost", "kept", "methods", "nodes",
+    "precision_of", "read_csv", "reference", "run", "scene", "scenes", "study", "verify_order",
 ]
 
 

@@ -1,6 +1,7 @@
 """Solutions with as many digits as asked for."""
 from __future__ import annotations
 
+import functools
 import json
 from typing import TYPE_CHECKING, Any, Sequence, Union
 
@@ -14,6 +15,8 @@ from ._scene import SceneLike
 from ._scene import scene as scene_of
 
 if TYPE_CHECKING:
+    from mpmath import mpf
+
     from ._arrays import Numbers
 
 
@@ -154,6 +157,13 @@ def reference(
             progress=callback,
         )
     return Reference(json.loads(made), (found.toml, found.name))
+
+
+@functools.lru_cache(maxsize=32)
+def exact_end(toml: str, name: str, until: str, digits: int) -> tuple[list[mpf], list[mpf], float]:
+    """q and p at the end of a motion, and by how many decimal digits it magnifies errors."""
+    found = reference(scene_of(toml, name), at=until, digits=digits)
+    return found.q[0].exact, found.p[0].exact, max(0.0, found.digits_lost)
 
 
 Reference.__module__ = "hbvm"

@@ -53,6 +53,7 @@ py::dict made_run(RunRequest request, py::list kept, py::object progress) {
 
 void add_run(py::module_& module) {
   add_trajectory(module);
+  module.def("usual_step", [](const Scene& scene, const std::string& until) { return usual_step(scene, until); });
   module.def(
       "run",
       [](const Scene& scene, const std::string& method, const std::optional<std::string>& step,
