@@ -3,8 +3,9 @@
 # A|B: the first that the system has. A>=N: of at least this version. A?: where the system has it.
 build_packages="g++ cmake ninja-build libboost-dev>=1.81|libboost1.[0-9][0-9]-dev>=1.81 libeigen3-dev libmpfr-dev
   libflint-dev libflint-dev>=3|libflint-arb-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev
-  libmd4c-dev libjs-dygraphs gnuplot-nox"
-test_packages="libgtest-dev pkg-config doxygen python3 python3-mpmath clang-tidy-14|clang-tidy clang-format-14? chromium?"
+  libmd4c-dev libjs-dygraphs gnuplot-nox python3-dev? pybind11-dev? python3-numpy? python3-mpmath?"
+test_packages="libgtest-dev pkg-config doxygen python3 clang-tidy-14|clang-tidy clang-format-14? chromium?
+  python3-pytest? python3-pandas? python3-matplotlib? python3-tqdm? python3-venv? python3-nbclient? python3-ipykernel?"
 clang_packages="clang libclang-rt-dev"
 speed_packages="libbenchmark-dev"
 

@@ -193,7 +193,7 @@ struct Run {
 /// \throws InputError, IntegrationError with the time where the run could not go on, Interrupted
 Run run(const RunRequest& request);
 
-/// The step of a run that asks for none, an exact number: at most an eighth of the radius of convergence of the
+/// The step of a run that asks for none, an exact number. It is at most an eighth of the radius of convergence of the
 /// motion's Taylor series. \throws InputError where there is no series
 std::string usual_step(const Scene& scene, const Number& until);
 

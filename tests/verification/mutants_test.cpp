@@ -67,10 +67,12 @@ TEST(Mutants, AHundredInAllFolders) {
   }
   EXPECT_GE(names.size(), 100U);
   EXPECT_LE(excused, 3);
-  for (const auto& entry : fs::directory_iterator(project / "src"))
-    if (entry.is_directory() && entry.path().filename() != "install") {
-      EXPECT_TRUE(folders.contains(entry.path().filename().string())) << entry.path();
-    }
+  // The changes are tried with the tests in C++; those of the Python module are in Python.
+  const std::set<std::string> left_out{"install", "python"};
+  for (const auto& entry : fs::directory_iterator(project / "src")) {
+    const std::string folder = entry.path().filename().string();
+    if (entry.is_directory() && !left_out.contains(folder)) EXPECT_TRUE(folders.contains(folder)) << folder;
+  }
 }
 
 }  // namespace
