@@ -1,5 +1,7 @@
 #include "csv_line.hpp"
 
+#include <algorithm>
+
 namespace hbvm::core {
 
 std::string csv_cell(const std::string& text) {
@@ -19,6 +21,7 @@ std::vector<std::string> split_csv_line(const std::string& line) {
   std::vector<std::string> cells;
   if (line.empty()) return cells;
   if (line.find('"') == std::string::npos) {
+    cells.reserve(1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')));
     std::size_t begin = 0;
     for (std::size_t end = line.find(','); end != std::string::npos; end = line.find(',', begin)) {
       cells.push_back(line.substr(begin, end - begin));

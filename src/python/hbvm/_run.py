@@ -26,7 +26,7 @@ _kept: Columns | None = None
 
 
 def kept() -> Columns | None:
-    """The mesh points of the last run that was interrupted or could not go on."""
+    """The mesh points of the last run, if it was interrupted or could not go on."""
     return _kept
 
 
@@ -165,6 +165,7 @@ def _made(asked: dict[str, Any], progress: Progress) -> dict[str, Any]:
     if isinstance(asked["scene"], _Pickled):
         asked = {**asked, "scene": asked["scene"].raw()}
     points: list[Any] = []
+    _kept = None
     with Bar(progress, asked["scene"].name) as callback:
         try:
             return _hbvm.run(**asked, kept=points, progress=callback)
