@@ -151,6 +151,7 @@ Reference check_proof(const ProofFile& file, const std::function<void(double)>& 
     throw IntegrationError("the bounds of the proof are wider than its digits");
   Reference found = claim;
   found.title = request.scene.title;
+  found.scene_toml = file.proof.scene;
   found.q_names = coordinate_names(request.scene);
   found.p_names = coordinate_names(request.scene, "p");
   found.routes.clear();

@@ -251,6 +251,7 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
                    .observed_names = {},
                    .routes = {},
                    .digits_lost = nature.digits_lost};
+  result.scene_toml = write_scene(request.scene);
   if (request.prove) {
     add_proved_states(result, request);
     return result;

@@ -116,6 +116,7 @@ def test_every_key_of_the_schema_is_an_attribute():
         hbvm.run(hbvm.scene("double_pendulum").project(), until=1, step="1/8", precision=40),
         hbvm.run(**PENDULUM),
         hbvm.run("bead_on_torus", until=1, step="1/4"),
+        hbvm.run("double_pendulum", "hbvm:2,2", until=1, step="1/8", precision=20, prove=True),
     ]
     for run in runs:
         walk(json.loads(run.json), run, [], seen)

@@ -24,7 +24,7 @@ from ._number import Exact, FloatWarning, Number
 from ._order import Order, Rung, verify_order
 from ._page import Page
 from ._record import Listing, Record
-from ._reference import Reference, reference
+from ._reference import Reference, check_proof, reference
 from ._run import Run, kept, run
 from ._scene import Scene, SceneFacts, scene, scenes
 from ._study import Comparison, Convergence, Study, compare, convergence, study
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Against", "Audit", "Columns", "Comparison", "Convergence", "Error", "Exact", "FloatWarning", "InputError",
     "IntegrationError", "Interrupted", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Plan", "Record", "Reference",
-    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "compare", "convergence", "cost", "kept", "methods", "nodes",
+    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "check_proof", "compare", "convergence", "cost", "kept", "methods", "nodes",
     "precision_of", "read_csv", "reference", "run", "scene", "scenes", "study", "verify_order",
 ]
 

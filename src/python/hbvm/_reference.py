@@ -3,10 +3,13 @@ from __future__ import annotations
 
 import functools
 import json
+import os
+import pathlib
 from typing import TYPE_CHECKING, Any, Sequence, Union
 
 from . import _hbvm
 from ._against import Against, Names, Results, against
+from ._errors import InputError
 from ._facts import precision_of
 from ._number import Exact, exact_text
 from ._progress import Bar, Progress
@@ -35,9 +38,15 @@ class Reference(Record):
     -1.205725352376450721580365884623
     """
 
-    def __init__(self, facts: dict[str, Any], scene: tuple[str, str]) -> None:
+    def __init__(self, facts: dict[str, Any], scene: tuple[str, str], proof: str = "") -> None:
         super().__init__(facts)
         self._scene = scene
+        self._proof = proof
+
+    @property
+    def proof(self) -> str:
+        """What proves the digits, as the text of a file for `check_proof`. Empty if they are not proved."""
+        return self._proof
 
     def _vectors(self, key: str) -> list[Numbers]:
         from ._arrays import Numbers
@@ -117,7 +126,7 @@ class Reference(Record):
         return self.table().rstrip("\n")
 
     def __reduce__(self) -> Any:
-        return Reference, (self._facts, self._scene)
+        return Reference, (self._facts, self._scene, self._proof)
 
 
 def _times(at: Any) -> list[str]:
@@ -147,7 +156,7 @@ def reference(
     """
     found = scene_of(scene)
     with Bar(progress, found.name) as callback:
-        made = _hbvm.reference(
+        made, proof = _hbvm.reference(
             scene=found._raw(),
             times=_times(at),
             digits=digits,
@@ -156,7 +165,29 @@ def reference(
             prove=prove,
             progress=callback,
         )
-    return Reference(json.loads(made), (found.toml, found.name))
+    return Reference(json.loads(made), (found.toml, found.name), proof)
+
+
+def check_proof(proof: str | os.PathLike[str], *, progress: Progress = None) -> Reference:
+    """Goes through a proof again, each step by itself, and returns the reference that it proves.
+
+    proof   a file, as `hbvm reference --prove --out FILE.proof` writes it, or its text, `Reference.proof`
+
+    >>> import hbvm
+    >>> ref = hbvm.reference("simple_pendulum", at=1, digits=12, prove=True)
+    >>> hbvm.check_proof(ref.proof).q[0].text == ref.q[0].text
+    True
+    """
+    text, name = str(proof), "proof"
+    if "\n" not in text:
+        name = text
+        try:
+            text = pathlib.Path(name).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise InputError(f"{name} cannot be read: {error}") from None
+    with Bar(progress, "check") as callback:
+        made, toml, scene_name = _hbvm.check_proof(text=text, name=name, progress=callback)
+    return Reference(json.loads(made), (toml, scene_name), text)
 
 
 @functools.lru_cache(maxsize=32)

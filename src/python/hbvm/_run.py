@@ -200,6 +200,7 @@ def run(
     account: bool = False,
     shadow: bool = False,
     error: bool = False,
+    prove: bool = False,
     start: Run | str | None = None,
     picture: bool = False,
     portraits: Sequence[tuple[str, str]] = (),
@@ -216,6 +217,7 @@ def run(
     account     tell where the time goes
     shadow      tell how many digits survived rounding
     error       tell how many digits are right
+    prove       prove what the method does without rounding, in `proved`
     start       a run, or its JSON, from whose end this one goes on
     picture     keep what plot() and animate() show
     portraits   pairs of what the picture draws against one another: ("a.x", "a.px")
@@ -241,6 +243,7 @@ def run(
         "account": account,
         "shadow": shadow,
         "error": error,
+        "prove": prove,
         "start": _start(start),
         "picture": picture,
         "portraits": list(portraits),

@@ -20,13 +20,24 @@ void add_exact_motion(py::module_& module) {
         ReferenceRequest request{.scene = scene, .times = {times.begin(), times.end()}, .digits = digits};
         request.route = route;
         request.force = force;
-        request.prove = prove;
+        request.prove = request.keep_proof = prove;
         request.progress = supervision.parts();
         request.stop = supervision.token();
-        return supervision.of([&] { return to_json(reference(request)); });
+        const Reference found = supervision.of([&] { return reference(request); });
+        return std::tuple(to_json(found), found.proof);
       },
       py::kw_only(), py::arg("scene"), py::arg("times"), py::arg("digits"), py::arg("route"), py::arg("force"),
       py::arg("prove"), py::arg("progress"));
+  module.def(
+      "check_proof",
+      [](const std::string& text, const std::string& name, py::object progress) {
+        Supervision supervision(std::move(progress));
+        const ProofRequest request{
+            .text = text, .name = name, .progress = supervision.parts(), .stop = supervision.token()};
+        const Reference found = supervision.of([&] { return check_proof(request); });
+        return std::tuple(to_json(found), found.scene_toml, found.scene);
+      },
+      py::kw_only(), py::arg("text"), py::arg("name"), py::arg("progress"));
 }
 
 void add_comparison(py::module_& module) {

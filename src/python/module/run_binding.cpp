@@ -58,9 +58,9 @@ void add_run(py::module_& module) {
       "run",
       [](const Scene& scene, const std::string& method, const std::optional<std::string>& step,
          const std::string& until, const std::string& precision, const std::string& solver,
-         const std::string& on_failure, bool reverse, bool account, bool shadow, bool error, const std::string& start,
-         bool picture, const std::vector<std::pair<std::string, std::string>>& portraits, bool linear_energy,
-         long every, py::list kept, py::object progress) {
+         const std::string& on_failure, bool reverse, bool account, bool shadow, bool error, bool prove,
+         const std::string& start, bool picture, const std::vector<std::pair<std::string, std::string>>& portraits,
+         bool linear_energy, long every, py::list kept, py::object progress) {
         RunRequest request{.scene = scene, .method = method, .step = {}, .until = until};
         if (step) request.step = *step;
         request.precision = precision;
@@ -69,6 +69,7 @@ void add_run(py::module_& module) {
         request.reverse = reverse;
         request.account = account;
         request.shadow = shadow;
+        request.prove = prove;
         request.error = error;
         request.start = start;
         request.picture = picture;
@@ -79,8 +80,8 @@ void add_run(py::module_& module) {
       },
       py::kw_only(), py::arg("scene"), py::arg("method"), py::arg("step"), py::arg("until"), py::arg("precision"),
       py::arg("solver"), py::arg("on_failure"), py::arg("reverse"), py::arg("account"), py::arg("shadow"),
-      py::arg("error"), py::arg("start"), py::arg("picture"), py::arg("portraits"), py::arg("linear_energy"),
-      py::arg("every"), py::arg("kept"), py::arg("progress"));
+      py::arg("error"), py::arg("prove"), py::arg("start"), py::arg("picture"), py::arg("portraits"),
+      py::arg("linear_energy"), py::arg("every"), py::arg("kept"), py::arg("progress"));
 }
 
 }  // namespace hbvm::python
