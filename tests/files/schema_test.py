@@ -32,6 +32,15 @@ body = [{ name = "a", mass = 1, position = [-16, "1/8"], velocity = [2, 0] }]
 effect = [{ kind = "central_gravity", center = "O", strength = 1 }]
 """)
 steps = ["--step", "1/16", "--until", "1"]
+with open("rounded.toml", "w") as file:
+    file.write("""
+dimension = 2
+point = [{ name = "O", position = [0, 0] }]
+body = [{ name = "a", mass = 1, position = ["0.70710678118654752", "-0.70710678118654752"], velocity = [0, 0] }]
+constraint = [{ kind = "rod", between = ["O", "a"], length = 1 }]
+effect = [{ kind = "uniform_gravity", acceleration = [0, -1] }]
+""")
+assert "moved" in printed("rounded.toml", "--method", "hbvm:3,2", *steps, "--precision", "mpfr:30")["start_settled"]
 result = printed("double_pendulum", "--method", "hbvm:3,2", *steps)
 with open("there.json", "w") as file:
     json.dump(result, file)
