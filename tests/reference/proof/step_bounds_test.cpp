@@ -25,8 +25,7 @@ TEST(StepBounds, OfAStepHoldAClosedForm) {
   const PrecisionScope digits(40);
   BoundsOf of("simple_pendulum");
   const BallScope few(64);
-  const ErrorDistance before{rounded_up(of.bounds.distance_of_start(of.step, 1)), 1},
-      tube{power_of_two_of(-100), 1};
+  const ErrorDistance before{rounded_up(of.bounds.distance_of_start(of.step, 1)), 1}, tube{power_of_two_of(-100), 1};
   RealBall half = of.step.end() / RealBall(2);
   arb_get_mid_arb(raw(half), raw(half));
   const StepCourse course = of.bounds.course(of.step, of.bounds.defect(of.step), tube, {{half, 1}, {of.step.end(), 1}});
