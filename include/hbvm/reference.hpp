@@ -52,8 +52,8 @@ struct Reference {
   std::vector<ReferenceState> times;
   std::vector<std::string> momentum_names, observed_names;
   std::vector<RouteReport> routes;
-  double digits_lost = 0;  ///< by which the motion magnifies an error of the start, in decimal digits
-  int proved = 0;          ///< digits that are proved; 0 if they are agreed on
+  double digits_lost = 0;       ///< by which the motion magnifies an error of the start, in decimal digits
+  int proved = 0;               ///< digits that are proved; 0 if they are agreed on
   std::string scene_toml = {};  ///< the scene's file
   std::string proof = {};  ///< what proves them, as the text of a file, if it was asked for: check_proof() takes it
 };
