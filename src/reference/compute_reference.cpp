@@ -81,8 +81,15 @@ bool proof_is_quicker(const ReferenceRequest& request, const MotionNature& natur
   const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
   if (!scene.settled.empty() || closed_form_of(scene) != nullptr) return false;
   const double by_hbvm = effort_of_hbvm(scene.problem, nature, digits).seconds;
-  return effort_of_proof(scene.problem, nature, digits).seconds < by_hbvm &&
-         proof_effort(request, nature).seconds < by_hbvm;
+  const auto serves = [&](const Effort& proof) {
+    return proof.seconds < by_hbvm &&
+           (request.force || (proof.seconds < longest_effort && proof.bytes < largest_effort));
+  };
+  if (!serves(effort_of_proof(scene.problem, nature, digits))) return false;
+  const Effort proof = proof_effort(request, nature);
+  if (!serves(proof)) return false;
+  if (request.estimate) request.estimate(proof);
+  return true;
 }
 
 /// Another route has failed, and nothing will be given out.

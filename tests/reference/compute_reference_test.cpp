@@ -191,7 +191,7 @@ TEST(ReferenceSolution, MeasuresWhatVanishesByItsVector) {
 
 /// What would take years is refused before it begins, with what it would take.
 TEST(ReferenceSolution, RefusesWhatCannotEnd) {
-  const ReferenceRequest both_routes = request_of("double_pendulum", {"5"}, 3000);
+  const ReferenceRequest both_routes = request_of("double_pendulum", {"50"}, 5000);
   ReferenceRequest one_route = request_of("double_pendulum", {"5000"}, 5000);
   one_route.only = Route::taylor;
   for (const ReferenceRequest& request : {both_routes, one_route})
