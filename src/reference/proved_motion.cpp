@@ -20,7 +20,7 @@ RealBall middle_of(RealBall x) {
 }  // namespace
 
 ProvedMotion::ProvedMotion(const Assembled<Mpfr>& exact, const Assembled<Mpfr>& rounded, const Mpfr& until,
-                           std::function<double(double)> omega, std::function<void()> while_working)
+                           std::function<double(double)> omega, const std::function<void()>& while_working)
     : bounds_(
           exact, while_working ? while_working : [] {}),
       omega_(std::move(omega)),

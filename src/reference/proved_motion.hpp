@@ -36,7 +36,7 @@ class ProvedMotion {
   /// \param omega  the rate by which to measure errors at a time: any positive numbers serve
   /// \param while_working is called many times a step, and may throw to end the work
   ProvedMotion(const Assembled<Mpfr>& exact, const Assembled<Mpfr>& rounded, const Mpfr& until,
-               std::function<double(double)> omega, std::function<void()> while_working = {});
+               std::function<double(double)> omega, const std::function<void()>& while_working = {});
 
   /// The state at t, not before the last. \throws BoundsTooWide, and IntegrationError where nothing can be proved
   /// \param after_step is called with the time after every step, and may throw to end the work
