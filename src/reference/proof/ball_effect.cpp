@@ -82,6 +82,12 @@ RealBall believed(const Mpfr& x) {
   return widened(std::move(ball), unsure);
 }
 
+std::vector<RealBall> believed(const Vector<Mpfr>& x) {
+  std::vector<RealBall> result;
+  for (const Mpfr& value : x) result.push_back(believed(value));
+  return result;
+}
+
 BallEffect::BallEffect(const Program<Mpfr>& program, const std::vector<Mpfr>& coefficients) : program_(program) {
   for (const Mpfr& x : coefficients) coefficients_.emplace_back(believed(x));
   for (const Mpfr& x : program.constants()) constants_.emplace_back(believed(x));

@@ -3,12 +3,14 @@
 #include <vector>
 
 #include "ball_series.hpp"
+#include "linear/matrix.hpp"
 #include "problem/effect/program.hpp"
 
 namespace hbvm::core {
 
 /// A number of the scene that was computed with so many bits, as a ball: its last quarter is not believed.
 RealBall believed(const Mpfr& x);
+std::vector<RealBall> believed(const Vector<Mpfr>& x);
 
 /// A program of an effect over power series of balls. Series of one term are ranges of its values. Series of two terms
 /// are ranges of values and of derivatives along a direction.

@@ -159,6 +159,12 @@ RealBall BallProblem::potential_energy(const std::vector<RealBall>& q) const {
   return sum;
 }
 
+BallProblem ball_problem_of(const Problem<Mpfr>& exact) {
+  const PrecisionScope all(2 * Mpfr::thread_default_precision());
+  const BallScope scope(significand_bits<Mpfr>());
+  return BallProblem(exact);
+}
+
 std::vector<BallSeries> as_series(const std::vector<RealBall>& x) {
   std::vector<BallSeries> result;
   for (const RealBall& value : x) result.emplace_back(value);

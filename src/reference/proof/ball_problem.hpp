@@ -98,6 +98,9 @@ class BallProblem {
   std::vector<BallConstraint> constraints_;
 };
 
+/// The problem in the bits of twice the digits of the scope, from one with at least as many, which outlives it.
+BallProblem ball_problem_of(const Problem<Mpfr>& exact);
+
 /// Each number as a series of one term.
 std::vector<BallSeries> as_series(const std::vector<RealBall>& x);
 

@@ -12,12 +12,6 @@ std::vector<RealBall> differences(std::vector<RealBall> a, const std::vector<Rea
   return a;
 }
 
-std::vector<RealBall> all_believed(const Vector<Mpfr>& x) {
-  std::vector<RealBall> result;
-  for (const Mpfr& value : x) result.push_back(believed(value));
-  return result;
-}
-
 Vector<Mpfr> rough(const std::vector<RealBall>& x) {
   Vector<Mpfr> result(static_cast<Index>(x.size()));
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -30,11 +24,7 @@ Vector<Mpfr> rough(const std::vector<RealBall>& x) {
 StepBounds::StepBounds(const Assembled<Mpfr>& exact, std::function<void()> while_working)
     : exact_(exact),
       bits_(significand_bits<Mpfr>() + 32),
-      balls_([&] {
-        const PrecisionScope all(2 * Mpfr::thread_default_precision());
-        const BallScope scope(significand_bits<Mpfr>());
-        return BallProblem(exact.problem);
-      }()),
+      balls_(ball_problem_of(exact.problem)),
       bound_(balls_, exact.problem),
       growth_in_([&] {
         const BallScope scope(2 * significand_bits<Mpfr>());
@@ -95,9 +85,8 @@ StepCourse StepBounds::course(const SeriesStep& step, const Defect& defect, cons
 RealBall StepBounds::distance_of_start(const SeriesStep& step, double omega) const {
   const BallScope scope(bits_);
   const RealBall zero;
-  return growth_in_.length(differences(all_believed(exact_.q0), step.positions(zero)),
-                           differences(balls_.velocity(all_believed(exact_.p0)), step.velocities(zero)),
-                           exact_ball(omega));
+  return growth_in_.length(differences(believed(exact_.q0), step.positions(zero)),
+                           differences(balls_.velocity(believed(exact_.p0)), step.velocities(zero)), exact_ball(omega));
 }
 
 RealBall StepBounds::jump(const SeriesStep& step, const SeriesStep& next, double omega) const {

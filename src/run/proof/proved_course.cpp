@@ -12,12 +12,6 @@ constexpr slong bits_of_errors = 128;
 
 std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 
-std::vector<RealBall> all_believed(const Vector<Mpfr>& x) {
-  std::vector<RealBall> result;
-  for (const Mpfr& value : x) result.push_back(believed(value));
-  return result;
-}
-
 /// A column of q above p.
 BallMatrix stacked(const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
   BallMatrix column(2 * q.size(), 1);
@@ -30,7 +24,7 @@ BallMatrix stacked(const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
 
 /// What the exact start is off by.
 BallMatrix start_error(const Assembled<Mpfr>& exact, const Assembled<Mpfr>& rounded) {
-  const std::vector<RealBall> q = all_believed(exact.q0), p = all_believed(exact.p0);
+  const std::vector<RealBall> q = believed(exact.q0), p = believed(exact.p0);
   const BallMatrix column = stacked(rounded.q0, rounded.p0);
   BallMatrix error(column.rows(), 1);
   const auto m = static_cast<Index>(q.size());
@@ -61,11 +55,7 @@ ProvedCourse::ProvedCourse(const Assembled<Mpfr>& exact, const Assembled<Mpfr>& 
     : problem_(rounded.problem),
       method_(method),
       bits_(significand_bits<Mpfr>() + 32),
-      balls_([&] {
-        const PrecisionScope all(2 * Mpfr::thread_default_precision());
-        const BallScope scope(significand_bits<Mpfr>());
-        return BallProblem(exact.problem);
-      }()),
+      balls_(ball_problem_of(exact.problem)),
       ball_method_([&] {
         const BallScope scope(bits_);
         return make_ball_method(method.k, method.s, method.r);
