@@ -24,6 +24,20 @@ struct BallForce {
   BallSeries input(std::size_t i, const std::vector<BallSeries>& q) const;
   std::vector<BallSeries> inputs(const std::vector<BallSeries>& q) const;
 
+  /// Calls visit(output, row, column, weight) for each entry to which an output of the Hessian adds itself, weighted.
+  template <class Visit>
+  void for_each_second(const Visit& visit) const {
+    std::size_t output = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (std::size_t l = 0; l <= i; ++l, ++output)
+        for (const BallPart& x : parts[i])
+          for (const BallPart& y : parts[l]) {
+            const RealBall weight = x.weight * y.weight;
+            visit(output, x.coordinate, y.coordinate, weight);
+            if (l < i) visit(output, y.coordinate, x.coordinate, weight);
+          }
+  }
+
   std::vector<std::vector<BallPart>> parts;  ///< of each input
   std::vector<RealBall> shifts;              ///< likewise
   BallEffect value, gradient, hessian;

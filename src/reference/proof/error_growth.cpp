@@ -111,22 +111,12 @@ MatrixAlong ErrorGrowthIn::hessian(const BallForce& force, const std::vector<Bal
   const Index m = problem_.m(), terms = rates != nullptr ? 3 : with_rate ? 2 : 1;
   const std::vector<BallSeries> h = force.hessian.outputs(force.inputs(q), terms);
   MatrixAlong result(m, m, with_rate);
-  std::size_t output = 0;
-  for (std::size_t i = 0; i < force.parts.size(); ++i)
-    for (std::size_t l = 0; l <= i; ++l, ++output) {
-      if (h[output].length() == 0) continue;
-      const RealBall first = h[output][0], second = h[output][1], third = h[output][2] * RealBall(2);
-      for (const BallPart& x : force.parts[i])
-        for (const BallPart& y : force.parts[l]) {
-          const RealBall weight = x.weight * y.weight;
-          for (const bool mirrored : {false, true}) {
-            if (mirrored && l == i) continue;
-            const Index row = mirrored ? y.coordinate : x.coordinate, column = mirrored ? x.coordinate : y.coordinate;
-            result.add(row, column, first * weight, second * weight);
-            if (rates != nullptr) rates->add(row, column, second * weight, third * weight);
-          }
-        }
-    }
+  force.for_each_second([&](std::size_t output, Index row, Index column, const RealBall& weight) {
+    if (h[output].length() == 0) return;
+    const RealBall rate = h[output][1] * weight;
+    result.add(row, column, h[output][0] * weight, rate);
+    if (rates != nullptr) rates->add(row, column, rate, h[output][2] * RealBall(2) * weight);
+  });
   return result;
 }
 

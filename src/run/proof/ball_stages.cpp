@@ -11,17 +11,9 @@ using Entry = BallConstraint::Entry;
 std::vector<Entry> second_derivatives(const BallForce& force, const std::vector<BallSeries>& q) {
   const std::vector<BallSeries> h = force.hessian.outputs(force.inputs(q), 1);
   std::vector<Entry> result;
-  std::size_t output = 0;
-  for (std::size_t i = 0; i < force.parts.size(); ++i)
-    for (std::size_t l = 0; l <= i; ++l, ++output) {
-      if (h[output].length() == 0) continue;
-      for (const BallPart& x : force.parts[i])
-        for (const BallPart& y : force.parts[l]) {
-          const RealBall second = h[output][0] * x.weight * y.weight;
-          result.push_back({x.coordinate, y.coordinate, second});
-          if (l < i) result.push_back({y.coordinate, x.coordinate, second});
-        }
-    }
+  force.for_each_second([&](std::size_t output, Index row, Index column, const RealBall& weight) {
+    if (h[output].length() > 0) result.push_back({row, column, h[output][0] * weight});
+  });
   return result;
 }
 
