@@ -73,6 +73,12 @@ struct Observed {
   std::string name, initial, drift;
 };
 
+/// The work that one effect, constraint or moving point has done over a run.
+struct Work {
+  std::string name;  ///< "effect 2 (drag)", "point 'pivot'"
+  std::string value;
+};
+
 /// What became of the k that hbvm:auto chose.
 struct NodesReport {
   struct Raise {
@@ -172,6 +178,10 @@ struct Run {
   std::vector<std::string> output_p, output_lambda;  ///< p projected to the tangent space, and the multiplier there
   std::string output_delta_H;                        ///< H(q, output_p) - H_0
   std::string e_H, e_g, e_hid;  ///< greatest errors at mesh points, of H, of g and of the hidden constraints
+  /// The greatest error of H - W, the work W done until the end, and whose it is. They are empty unless forces without
+  /// a potential act, or t stands in the scene.
+  std::string e_B, work;
+  std::vector<Work> works;
   double iterations_per_step = 0, cpu_seconds = 0;
   Health health;
   std::optional<NodesReport> nodes;      ///< if k was chosen

@@ -181,11 +181,13 @@ struct SceneFacts {
     std::string kind;
     std::optional<int> degree;                                ///< of its part of U
     bool constant_force = false;                              ///< it is evaluated once
+    bool has_potential = true;                                ///< or it is a force that has none
     std::vector<std::vector<std::string>> on;                 ///< bodies, pairs or groups, an entry for each value
     std::vector<std::pair<std::string, std::string>> not_on;  ///< bodies it leaves out, and why
     std::string remark;                                       ///< where on rigid bodies it acts, if on any
   };
   std::vector<Effect> effects;
+  std::vector<std::string> driven;  ///< moving points, and what depends on t or does work, each with its own account
   std::string energy, kinetic, potential;
   struct Momentum {
     std::string name, value;

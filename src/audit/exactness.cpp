@@ -104,7 +104,7 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
     degree = degree_of_U(scene.problem);
     constrained = scene.problem.nu() > 0;
-    of_g = hbvm::core::degree(scene.problem.constraints);
+    of_g = degree_of_g(scene.problem);
     if (hbvm) r = hbvm->constraint_nodes(scene.problem);
   }
   if (check && as_tableau(*claim.method) && !constrained) return proof_for_tableau(claim, *check, degree);

@@ -1,11 +1,15 @@
 #include "laboratory.hpp"
 
+#include "hbvm/error.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/rattle.hpp"
 
 namespace hbvm::core {
 
 Laboratory::Laboratory(const ClaimGroup& group) : assembled_(assemble<Mpfr>(load_scene(group.subject().problem))) {
+  if (!assembled_.problem.driven.empty())
+    throw InputError("'" + group.subject().problem +
+                     "': claims are about motions that conserve H; here work is done, or t stands in the scene");
   point_.emplace(assembled_.problem);
   walk(group);
 }
@@ -21,7 +25,7 @@ std::optional<ExactPoint> Laboratory::known(const Start& start, const Mpfr& t) c
 void Laboratory::walk(const ClaimGroup& group) {
   // Any point of a motion that keeps g = 0 will do, once its momentum is projected: it need not be the exact motion. If
   // g is quadratic HBVM keeps it whatever the step, and RATTLE any other.
-  const MethodPtr method = degree(assembled_.problem.constraints) == 2 ? hbvm_of({4, 4}) : rattle_method();
+  const MethodPtr method = degree_of_g(assembled_.problem) == 2 ? hbvm_of({4, 4}) : rattle_method();
   const std::unique_ptr<Stepper<Mpfr>> stepper = method->make_stepper(assembled_.problem, SolverKind::automatic);
   const Mpfr h = ldexp(Mpfr(1), group.log2_scale - 3);
   State<Mpfr> state(assembled_.q0, assembled_.p0);

@@ -178,7 +178,7 @@ class ClaimReader {
   /// Whether some constraint is not quadratic.
   static bool is_general(const std::string& problem) {
     const PrecisionScope digits(30);  // whose range holds whatever a scene may
-    return degree(assemble<Mpfr>(load_scene(problem)).problem.constraints) != 2;
+    return degree_of_g(assemble<Mpfr>(load_scene(problem)).problem) != 2;
   }
 
   TomlTable reader_;

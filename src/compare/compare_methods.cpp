@@ -59,10 +59,11 @@ std::string count_digits(const RunRequest& request, std::vector<RecordedMethod>&
   try {
     const ExactPoint end = exact_end(scene.problem, scene.q0, scene.p0, grid.until(), Route::taylor,
                                      [] { end_if_asked("the reference was interrupted"); });
-    const Mpfr size = max_norm(end.q);
+    const Vector<Mpfr> q = end.q.head(scene.problem.mass.of_bodies());
+    const Mpfr size = max_norm(q);
     for (RecordedMethod& run : runs) {
       if (run.q.empty()) continue;
-      const Mpfr error = distance(vector_of<Mpfr>(run.q), end.q);
+      const Mpfr error = distance(vector_of<Mpfr>(run.q), q);
       const double digits = error == 0 ? all : size == 0 ? 0 : -approximately(Mpfr(log10(Mpfr(error / size))));
       run.figures.digits = std::clamp(digits, double{0}, all);
     }

@@ -15,6 +15,7 @@
 
 #include "hbvm/error.hpp"
 #include "listed.hpp"
+#include "problem/driven_course.hpp"
 #include "problem/energy_terms.hpp"
 #include "problem/state_evaluator.hpp"
 #include "reference/compute_reference.hpp"
@@ -110,6 +111,18 @@ std::vector<ReferenceState> states_of(const ReferenceRequest& wanted, bool& stor
 double right_digits(const Mpfr& error, const Mpfr& size, double most) {
   if (error == 0) return most;
   return size == 0 ? unknown : std::clamp(log10_of(size) - log10_of(error), double{0}, most);
+}
+
+/// The coordinates of bodies, and driven ones as they are at t.
+Vector<Mpfr> with_driven(const Problem<Mpfr>& problem, const Vector<Mpfr>& of_bodies, const Mpfr& t) {
+  Vector<Mpfr> all = Vector<Mpfr>::Zero(problem.m());
+  all.head(of_bodies.size()) = of_bodies;
+  DrivenCourse<Mpfr> course(problem, 1);
+  if (course.empty()) return all;
+  course.time(0) = t;
+  course.evaluate();
+  course.set_positions(lanes(all));
+  return all;
 }
 
 /// A state of the scene, and where the quantities of a table stand in it.
@@ -246,7 +259,7 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
   result.digits = std::clamp(result.digits + more_digits, least_digits, greatest_digits);
   const PrecisionScope scope(static_cast<unsigned>(result.digits + 10));
   const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
-  const Index m = scene.problem.m();
+  const Index m = scene.problem.mass.of_bodies();
   EnergyTerms<Mpfr> energy(scene.problem);
   energy.evaluate(scene.q0, scene.p0);
   const Mpfr H0 = energy.H();
@@ -282,7 +295,10 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
     std::vector<Exact> exact;
     std::array<Mpfr, 3> greatest{};  // of each kind at any of the times
     for (const ReferenceState& state : reference) {
-      exact.emplace_back(scene.problem, vector_of<Mpfr>(state.q), vector_of<Mpfr>(state.p));
+      Vector<Mpfr> p = Vector<Mpfr>::Zero(scene.problem.m());
+      p.head(m) = vector_of<Mpfr>(state.p);
+      const Mpfr t = evaluate<Mpfr>(Expression::parse(state.t), request.scene.constants);
+      exact.emplace_back(scene.problem, with_driven(scene.problem, vector_of<Mpfr>(state.q), t), std::move(p));
       for (const auto kind : {Exact::position, Exact::momentum, Exact::velocity})
         raise_to(greatest[kind], max_norm(exact.back().all(kind)));
     }
@@ -309,7 +325,8 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
       out.error = worst;
       if (known[Exact::momentum] != m && known[Exact::velocity] == m)
         scene.problem.mass.momentum(theirs_of[Exact::velocity], theirs_of[Exact::momentum]);
-      if (known[Exact::position] == m && (known[Exact::momentum] == m || known[Exact::velocity] == m)) {
+      if (known[Exact::position] == m && (known[Exact::momentum] == m || known[Exact::velocity] == m) &&
+          scene.problem.is_conservative()) {
         energy.evaluate(theirs_of[Exact::position], theirs_of[Exact::momentum]);
         out.H_drift.push_back(log10_of(Mpfr(energy.H() - H0)) - log10_of(energy.size()));
       }
@@ -329,14 +346,16 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
     for (const ComponentDigits& c : first.components)
       if (c.digits.front() < most) most = c.digits.front();
     const Mpfr delta = literal<Mpfr>("1e-" + std::to_string(result.digits / 2));
-    TaylorMotion motion(scene.problem, scene.q0, scene.p0),
-        other(scene.problem, Vector<Mpfr>(scene.q0 * (1 + delta)), Vector<Mpfr>(scene.p0 * (1 - delta)));
+    Vector<Mpfr> q0 = scene.q0, p0 = scene.p0;
+    q0.head(m) *= 1 + delta;
+    p0.head(m) *= 1 - delta;
+    TaylorMotion motion(scene.problem, scene.q0, scene.p0), other(scene.problem, q0, p0);
     double grown_first = unknown;
     for (const std::string& time : first.times) {
       const Mpfr t = literal<Mpfr>(time);
       motion.advance_to(t);
       other.advance_to(t);
-      const double grown = log10_of(distance(motion.q(), other.q()));
+      const double grown = log10_of(distance(Vector<Mpfr>(motion.q().head(m)), Vector<Mpfr>(other.q().head(m))));
       if (std::isnan(grown_first)) grown_first = grown;
       result.by_growth.push_back(
           std::clamp(most - (grown - grown_first), double{0}, static_cast<double>(result.digits)));

@@ -48,8 +48,9 @@ CostJudge::CostJudge(const Scene& scene, const ReferenceState& state, int digits
   const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
   StateEvaluator<Mpfr> point(assembled.problem);
   const Index dimension = assembled.problem.dimension;
-  q_ = component(state.q, assembled.q0, dimension, resolution_.q);
-  p_ = component(state.p, assembled.p0, dimension, resolution_.p);
+  const Index bodies = assembled.problem.mass.of_bodies();
+  q_ = component(state.q, assembled.q0.head(bodies), dimension, resolution_.q);
+  p_ = component(state.p, assembled.p0.head(bodies), dimension, resolution_.p);
   lambda_ = component(state.lambda, point.multiplier(assembled.q0, assembled.p0), 1, resolution_.lambda);
 }
 
@@ -84,7 +85,7 @@ template <Scalar S>
 double CostJudge::error(const Component& component, const Vector<S>& found, double resolution) const {
   if (component.exact.size() == 0) return std::numeric_limits<double>::quiet_NaN();
   Mpfr greatest = 0;
-  for (Index i = 0; i < found.size(); ++i) {
+  for (Index i = 0; i < component.exact.size(); ++i) {
     const Mpfr x = rounded_to<Mpfr>(raw(exactly(found[i])));
     raise_to(greatest, Mpfr(magnitude(Mpfr(x - component.exact[i])) / component.scale[i]));
   }

@@ -72,12 +72,14 @@ void add_effects(FactLines& lines, const SceneFacts& facts) {
   if (facts.effects.empty()) lines.add("effects", "none");
   for (const SceneFacts::Effect& effect : facts.effects) {
     const std::string degree = effect.degree ? fmt::format("degree {}", *effect.degree) : "not a polynomial";
-    lines.add("effect", fmt::format("{}, {} in all, {}{}", effect.kind, effect.on.size(), degree,
+    lines.add("effect", fmt::format("{}, {} in all, {}{}", effect.kind, effect.on.size(),
+                                    effect.has_potential ? degree : std::string("a force without a potential"),
                                     effect.constant_force ? ", constant force: evaluated once" : ""));
     lines.add("  on", to_text(core::EffectReach{effect.on}));
     if (!effect.remark.empty()) lines.add("", effect.remark);
     if (!effect.not_on.empty()) lines.add("  not on", left_out_text(effect.not_on));
   }
+  for (const std::string& account : facts.driven) lines.add("work of", account);
   if (!facts.degree_of_U)
     lines.add("U",
               "not a polynomial: energy is conserved to O(h^(2k)); hbvm:auto,S takes the k that reaches round-off");
@@ -95,6 +97,7 @@ core::OrderedJson json_of(const SceneFacts::Effect& effect) {
   for (const auto& [body, why] : effect.not_on) not_on[body] = why;
   return {{"kind", effect.kind},
           {"degree", number_or_null(effect.degree)},
+          {"has_potential", effect.has_potential},
           {"constant_force", effect.constant_force},
           {"on", effect.on},
           {"not_on", not_on}};

@@ -135,6 +135,11 @@ std::string to_json(const Run& run, bool states) {
   j["e_H"] = run.e_H;
   j["e_g"] = run.e_g;
   j["e_hid"] = run.e_hid;
+  if (!run.work.empty()) {
+    j["e_B"] = run.e_B;
+    j["work"] = {{"total", run.work}, {"by", core::OrderedJson::object()}};
+    for (const Work& work : run.works) j["work"]["by"][work.name] = work.value;
+  }
   j["health"] = json_of(run.health);
   if (run.shadow) j["shadow"] = json_of(*run.shadow);
   if (run.error) j["error"] = json_of(*run.error);

@@ -39,7 +39,7 @@ std::string verdict_of(const Run& run) {
   } else {
     parts.emplace_back(run.error ? "digits unknown" : "digits not assessed (--error)");
   }
-  parts.push_back(fmt::format("H off by {} of its terms{}", run.health.worst_e_H,
+  parts.push_back(fmt::format("{} off by {} of its terms{}", run.work.empty() ? "H" : "H - W", run.health.worst_e_H,
                               run.lambda.empty() ? "" : ", constraints by " + short_text(run.e_g)));
   Texts warnings;
   for (const Warning& warning : run.health.warnings) warnings.push_back(warning.name);
@@ -55,7 +55,12 @@ std::string errors_of(const Run& run) {
     text += fmt::format("  {:<24}{:<9}{:<11}{}\n", what, symbol, value, besides);
     text.erase(text.find_last_not_of(" \n") + 1) += '\n';
   };
-  line("energy", "e_H", short_text(run.e_H), run.health.worst_e_H + " of H's greatest term");
+  if (run.work.empty()) {
+    line("energy", "e_H", short_text(run.e_H), run.health.worst_e_H + " of H's greatest term");
+  } else {
+    line("energy less work", "e_B", short_text(run.e_B), run.health.worst_e_H + " of its greatest term");
+    line("energy", "e_H", short_text(run.e_H), "work is done");
+  }
   if (!run.lambda.empty()) {
     line("constraints", "e_g", short_text(run.e_g), "condition of the Gram matrix " + run.health.condition);
     line("hidden constraints", "e_hid", short_text(run.e_hid),
@@ -108,6 +113,15 @@ std::string observed_in(const Run& run, bool all_digits) {
   for (const Observation& o : run.observations)
     text += fmt::format("  {:<20} {}, from {} (t = {}) to {} (t = {})\n", o.name, shown(o.value), shown(o.least),
                         o.least_t, shown(o.greatest), o.greatest_t);
+  return text;
+}
+
+/// The work done, and by whom.
+std::string works_of(const Run& run) {
+  if (run.work.empty()) return {};
+  std::string text = fmt::format("\nwork done until the end: {}\n", core::rounded_text(run.work, unassessed_digits));
+  for (const Work& work : run.works)
+    text += fmt::format("  {:<32} {}\n", work.name, core::rounded_text(work.value, unassessed_digits));
   return text;
 }
 
@@ -232,7 +246,7 @@ std::string to_text(const Run& run, bool state) {
   std::string text = fmt::format("{}: {}\n", run.scene, run.title);
   text += fmt::format("{}, {}, solver {}, {} steps of {} to t = {}\n", run.method, run.precision, run.solver, run.steps,
                       run.step, run.t);
-  text += verdict_of(run) + errors_of(run) + decisions_of(run) + observed_in(run, state);
+  text += verdict_of(run) + errors_of(run) + decisions_of(run) + works_of(run) + observed_in(run, state);
   if (run.shadow) text += "\n" + core::to_text(*run.shadow);
   if (run.proved) text += proof_in(run, state);
   text += state ? whole_state(run) : short_state(run);

@@ -10,7 +10,7 @@ CoefficientDecay<S>::CoefficientDecay(const Problem<S>& problem, int s, const S&
       dimension_(problem.dimension),
       s_(s),
       h_(step),
-      bodies_(static_cast<std::size_t>(problem.m() / problem.dimension)),
+      bodies_(static_cast<std::size_t>(problem.mass.of_bodies() / problem.dimension)),
       before_(Vector<S>::Zero(problem.m())) {
   using std::sqrt;
   for (int j = 0; j <= s; ++j) P_at_1_.push_back(sqrt(S(2 * j + 1)));

@@ -9,10 +9,13 @@ void Drift<S>::observe(const Snapshot<S>& snapshot) {
   const S H = point_.energy(snapshot.q, snapshot.p);
   if (snapshot.n == 0) H0_ = H;
   raise_to(e_H_, magnitude(S(H - H0_)));
+  const S balance = H + point_.account(snapshot.p);
+  if (snapshot.n == 0) B0_ = balance;
+  raise_to(e_B_, magnitude(S(balance - B0_)));
   raise_to(e_g_, max_norm(point_.constraints(snapshot.q)));
   raise_to(e_hid_, max_norm(point_.hidden_constraints(snapshot.q, snapshot.p)));
   if (!redundant_.empty()) watch_redundant(snapshot);
-  if (!is_finite(S(e_H_ + e_g_ + e_hid_)))
+  if (!is_finite(S(e_H_ + e_B_ + e_g_ + e_hid_)))
     throw NotFinite("step " + std::to_string(snapshot.n) + ", t = " + to_text(snapshot.t));
 }
 

@@ -41,9 +41,11 @@ class Drift final : public Observer<S> {
   /// \throws RedundancyLost if a redundant constraint is violated by more than the root of epsilon of its terms;
   /// NotFinite
   void observe(const Snapshot<S>& snapshot) override;
-  void remember(Archive& archive) override { archive(H0_, e_H_, e_g_, e_hid_, redundancy_); }
+  void remember(Archive& archive) override { archive(H0_, B0_, e_H_, e_B_, e_g_, e_hid_, redundancy_); }
 
   const S& e_H() const { return e_H_; }
+  /// The same of H - W, which is H where forces have a potential and no point is driven.
+  const S& e_B() const { return e_B_; }
   const S& e_g() const { return e_g_; }
   const S& e_hid() const { return e_hid_; }
   const S& H0() const { return H0_; }
@@ -55,7 +57,7 @@ class Drift final : public Observer<S> {
 
   StateEvaluator<S> point_;
   RedundantConstraints<S> redundant_;
-  S H0_ = 0, e_H_ = 0, e_g_ = 0, e_hid_ = 0, redundancy_ = 0;
+  S H0_ = 0, B0_ = 0, e_H_ = 0, e_B_ = 0, e_g_ = 0, e_hid_ = 0, redundancy_ = 0;
 };
 
 }  // namespace hbvm::core

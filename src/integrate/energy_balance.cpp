@@ -26,6 +26,10 @@ void EnergyBalance<S>::observe(const Vector<S>& v, const Snapshot<S>& snapshot) 
     raise_magnitude(size_, U_[0]);
     set_difference(H_, H_, U_[0]);
   }
+  for (Index j = problem_.clock(); j < snapshot.p.size(); ++j) {
+    raise_magnitude(size_, snapshot.p[j]);
+    set_sum(H_, H_, snapshot.p[j]);
+  }
   if (snapshot.n == 0) {
     set(H0_, H_);
     q_ = snapshot.q;

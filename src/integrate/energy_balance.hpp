@@ -7,8 +7,8 @@
 
 namespace hbvm::core {
 
-/// The greatest |H_n - H_0| over the mesh, and what it is to be compared with. That is the greatest of the terms of H
-/// along the path, |T| and each effect's |U|.
+/// The greatest |H_n - H_0| over the mesh, of H less the work done, and what it is to be compared with. That is the
+/// greatest of the terms of H along the path, |T| and each effect's |U|.
 template <Scalar S>
 class EnergyBalance {
  public:

@@ -27,6 +27,7 @@ HiddenCosines<S>::HiddenCosines(const Problem<S>& problem, long steps)
     std::vector<Part>& parts = of_[static_cast<std::size_t>(a)].parts;
     Index column = pattern.first;
     for (const Index coordinate : pattern.coordinates) {
+      if (coordinate >= problem.mass.of_bodies()) continue;
       const Index body = coordinate / dimension_ * dimension_;
       if (parts.empty() || parts.back().coordinate != body) parts.push_back({column, 0, body});
       ++parts.back().count;
@@ -65,13 +66,14 @@ void HiddenCosines<S>::measure(ConstraintGradient<S>& gradient, Index a, OfConst
   const auto& blocks = problem_.mass.blocks();
   set_zero(c.reach);
   S all = 0, of_body = 0;
-  for (std::size_t i = 0; i < pattern.coordinates.size(); ++i) {
+  const auto moving = static_cast<std::size_t>(
+      std::ranges::lower_bound(pattern.coordinates, problem_.mass.of_bodies()) - pattern.coordinates.begin());
+  for (std::size_t i = 0; i < moving; ++i) {
     const Index coordinate = pattern.coordinates[i];
     const std::size_t body = body_of_[static_cast<std::size_t>(coordinate)];
     add_product(of_body, gradient.values()(0, pattern.first + static_cast<Index>(i)),
                 gradient.weighted_values()(0, weighted.column(coordinate)), t_);
-    const bool last =
-        i + 1 == pattern.coordinates.size() || body_of_[static_cast<std::size_t>(pattern.coordinates[i + 1])] != body;
+    const bool last = i + 1 == moving || body_of_[static_cast<std::size_t>(pattern.coordinates[i + 1])] != body;
     if (!last) continue;
     c.reach += S(sqrt(S(of_body * mass_of<S>(blocks[body]))));
     all += of_body;

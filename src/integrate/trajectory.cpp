@@ -36,11 +36,12 @@ void Trajectory<S>::observe(const Snapshot<S>& s) {
   const S H = point_.energy(s.q, s.p);
   if (s.n == 0) H0_ = H;
   out_ << to_text(s.t);
-  write(out_, s.q);
-  write(out_, s.p);
+  const Index bodies = problem_.mass.of_bodies();
+  write(out_, Vector<S>(s.q.head(bodies)));
+  write(out_, Vector<S>(s.p.head(bodies)));
   write(out_, redundant_.multipliers(s.q, s.lambda));
   const OutputState<S> output = output_state(point_, s.q, s.p);
-  write(out_, output.p);
+  write(out_, Vector<S>(output.p.head(bodies)));
   write(out_, redundant_.multipliers(s.q, output.lambda));
   S g = max_norm(point_.constraints(s.q)), hidden = max_norm(point_.hidden_constraints(s.q, s.p));
   raise_to(g, max_norm(redundant_.values(s.q)));

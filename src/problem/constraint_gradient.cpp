@@ -24,10 +24,13 @@ ConstraintGradient<S>::ConstraintGradient(const Problem<S>& problem, Index lanes
     const std::vector<Index>& own = patterns_.back().coordinates;
     columns += static_cast<Index>(own.size());
     // M^-1 spreads a gradient over the whole of each full block that it touches.
-    std::set<Index> reached(own.begin(), own.end());
-    for (const Index coordinate : own)
+    std::set<Index> reached;
+    for (const Index coordinate : own) {
+      if (coordinate >= problem.mass.of_bodies()) continue;
+      reached.insert(coordinate);
       if (const auto& block = block_of(problem.mass, coordinate); block.full)
         for (Index j = 0; j < block.size; ++j) reached.insert(block.offset + j);
+    }
     weighted_patterns_.push_back({weighted_columns, std::vector<Index>(reached.begin(), reached.end())});
     weighted_columns += static_cast<Index>(reached.size());
     std::visit(
@@ -118,9 +121,10 @@ Index ConstraintGradient<S>::find_runs(std::vector<Pattern>& patterns, std::vect
 
 template <Scalar S>
 void ConstraintGradient<S>::prepare_weighing(const Pattern& from, const Pattern& to) {
-  for (auto first = from.coordinates.begin(); first != from.coordinates.end();) {
+  const auto end = std::lower_bound(from.coordinates.begin(), from.coordinates.end(), problem_.mass.of_bodies());
+  for (auto first = from.coordinates.begin(); first != end;) {
     const auto& block = block_of(problem_.mass, *first);
-    const auto last = std::lower_bound(first, from.coordinates.end(), block.offset + block.size);
+    const auto last = std::lower_bound(first, end, block.offset + block.size);
     if (!block.full)
       add_weighing({to.column(*first), from.column(*first), last - first, true,
                     block.mass == 1 ? nullptr : &block.inverse_mass});
@@ -186,6 +190,7 @@ OperationCounts ConstraintGradient<S>::weighing_operations() const {
   OperationCounts counts;
   for (const Pattern& pattern : patterns_)
     for (const Index coordinate : pattern.coordinates) {
+      if (coordinate >= problem_.mass.of_bodies()) continue;
       const auto& block = block_of(problem_.mass, coordinate);
       if (block.full)
         counts.add_products(block.size);

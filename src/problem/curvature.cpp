@@ -1,6 +1,7 @@
 #include "problem/curvature.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "linear/arrays.hpp"
 #include "scalar/in_place.hpp"
@@ -20,8 +21,8 @@ Curvature<S>::Term::Term(const EffectTerm<S>& term, Index dimension, Index nodes
         const Index high = std::max(i, j), low = std::min(i, j);
         for (const auto& a : term.displacement(n, i / d).blocks)
           for (const auto& b : term.displacement(n, j / d).blocks)
-            targets.push_back(
-                {column(a.offset + i % d, b.offset + j % d), high * (high + 1) / 2 + low, n, S(a.weight * b.weight)});
+            if (const std::optional<Index> at = column(a.offset + i % d, b.offset + j % d))
+              targets.push_back({*at, high * (high + 1) / 2 + low, n, S(a.weight * b.weight)});
       }
 }
 
@@ -45,7 +46,7 @@ Index Curvature<S>::pair(Index row, Index column) {
 
 template <Scalar S>
 void Curvature<S>::add(Index constraint, Index row, Index column, const S& value) {
-  if (value == 0) return;
+  if (value == 0 || column >= bodies_) return;
   const Index where = pair(row, column);
   for (auto entry = entries_.rbegin(); entry != entries_.rend() && entry->constraint == constraint; ++entry) {
     if (entry->pair != where) continue;
@@ -65,11 +66,14 @@ Index Curvature<S>::varying_entry(Index constraint, Index pair) {
 
 template <Scalar S>
 Curvature<S>::Curvature(const Problem<S>& problem, Index nodes, Index constraint_nodes)
-    : dimension_(problem.dimension) {
+    : dimension_(problem.dimension), bodies_(problem.mass.of_bodies()) {
   const Index d = dimension_;
   for (const EffectTerm<S>& effect : problem.potential.terms)
     if (!effect.constant_force)
-      terms_.emplace_back(effect, d, nodes, [&](Index row, Index column) { return pair(row, column); });
+      terms_.emplace_back(effect, d, nodes, [&](Index row, Index column) -> std::optional<Index> {
+        if (row >= bodies_ || column >= bodies_) return {};
+        return pair(row, column);
+      });
   for (Index c = 0; c < problem.nu(); ++c) {
     const auto add_entry = [&](Index row, Index column, const S& value) { add(c, row, column, value); };
     std::visit(
@@ -77,9 +81,11 @@ Curvature<S>::Curvature(const Problem<S>& problem, Index nodes, Index constraint
           if constexpr (ConstraintForm<Form, S>)
             form.second_derivatives(d, add_entry);
           else
-            constraint_terms_.emplace_back(form.term, d, constraint_nodes, [&](Index row, Index column) {
-              return varying_entry(c, pair(row, column));
-            });
+            constraint_terms_.emplace_back(form.term, d, constraint_nodes,
+                                           [&](Index row, Index column) -> std::optional<Index> {
+                                             if (column >= bodies_) return {};
+                                             return varying_entry(c, pair(row, column));
+                                           });
         },
         problem.constraints[static_cast<std::size_t>(c)].form);
   }

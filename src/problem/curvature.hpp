@@ -9,7 +9,8 @@
 
 namespace hbvm::core {
 
-/// The second derivatives of U and g of a problem, by the pairs of coordinates where they can be nonzero.
+/// The second derivatives of U and g of a problem by the pairs of coordinates where they can be nonzero. Columns are
+/// coordinates of bodies, and so are the rows of U; a row of g may be a driven one.
 /// Those of quadratic g are constant, those of other g and of U are evaluated at nodes. The problem must outlive it.
 template <Scalar S>
 class Curvature {
@@ -58,14 +59,14 @@ class Curvature {
       S weight;
     };
     std::vector<Target> targets;
-    /// \param column of the result, for a row and a column of the second derivative
+    /// \param column of the result, for a row and a column of the second derivative; none if it is not wanted
     template <class Column>
     Term(const EffectTerm<S>& term, Index dimension, Index nodes, Column column);
     /// values += the second derivative at q.
     void add_to(Matrix<S>& values, Index dimension, Lanes<const S> q, S& t);
   };
 
-  Index dimension_;
+  Index dimension_, bodies_;
   std::vector<Pair> pairs_;
   std::map<std::pair<Index, Index>, Index> known_;
   std::deque<Term> terms_, constraint_terms_;

@@ -50,6 +50,7 @@ void EnergyTerms<S>::evaluate_energy(const Vector<S>& q, const Vector<S>& p) {
   for (Index j = 0; j < p.size(); ++j) add_product(H_, p[j], v_[j], t_);
   set_product(H_, H_, half_);
   set_difference(H_, H_, U_);
+  for (Index j = problem_.mass.of_bodies(); j < p.size(); ++j) set_sum(H_, H_, p[j]);
 }
 
 template <Scalar S>
@@ -61,6 +62,7 @@ void EnergyTerms<S>::evaluate(const Vector<S>& q, const Vector<S>& p) {
     add_magnitude(round_off_size_, t_);
   }
   set_product(size_, round_off_size_, half_);
+  for (Index j = problem_.mass.of_bodies(); j < p.size(); ++j) add_magnitude(size_, p[j]);
   for (Work& work : work_) {
     work.gradient.run();
     for (Index n = 0; n < work.displacement.rows(); ++n) {

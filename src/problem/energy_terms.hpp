@@ -17,7 +17,7 @@ class EnergyTerms {
   /// H alone, at a third of the price; the sizes stay those of the last state evaluated.
   void evaluate_energy(const Vector<S>& q, const Vector<S>& p);
 
-  /// H = 1/2 p^T M^-1 p - U(q), (1).
+  /// H = 1/2 p^T M^-1 p - U(q), (1), less the work done: what StateEvaluator::balance is.
   const S& H() const { return H_; }
   /// The magnitudes of its terms: sum_j |p_j (M^-1 p)_j|/2 + sum |U| over the bodies and pairs of all effects.
   const S& size() const { return size_; }

@@ -16,6 +16,8 @@ Problem<double> in_double(const Problem<S>& problem) {
     else
       result.mass.add_scalar(block.size, approximately(block.mass));
   }
+  for (const auto& point : problem.driven) result.add(in_double(point));
+  for (const auto& force : problem.forces) result.forces.push_back(in_double(force));
   for (const auto& constraint : problem.constraints) result.constraints.push_back(in_double(constraint));
   result.potential.dimension = problem.potential.dimension;
   result.potential.m = problem.potential.m;

@@ -6,7 +6,7 @@
 
 namespace hbvm::core {
 
-/// The block of M that a coordinate is in.
+/// The block of M that a coordinate of a body is in.
 template <Scalar S>
 const typename MassMatrix<S>::Block& block_of(const MassMatrix<S>& mass, Index coordinate) {
   const auto& blocks = mass.blocks();

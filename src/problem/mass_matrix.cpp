@@ -70,6 +70,13 @@ void MassMatrix<S>::add_full(const Matrix<S>& M) {
 }
 
 template <Scalar S>
+void MassMatrix<S>::add_driven(Index size) {
+  spans_.push_back({m_, size, S(0), S(0)});
+  inverse_masses_.resize(static_cast<std::size_t>(m_ + size), S(0));
+  m_ += size;
+}
+
+template <Scalar S>
 void MassMatrix<S>::velocity(Lanes<const S> p, Lanes<S> v) const {
   for (const Span& span : spans_) {
     S* __restrict const out = v[span.offset];
@@ -111,6 +118,7 @@ void MassMatrix<S>::momentum(const Vector<S>& v, Vector<S>& p) const {
       for (Index l = 0; l < block.size; ++l) add_product(sum, block.M(j, l), v[block.offset + l], t);
     }
   }
+  for (Index j = of_bodies(); j < m_; ++j) set_zero(p[j]);
 }
 
 #define HBVM_DEFINE(S) template class MassMatrix<S>;

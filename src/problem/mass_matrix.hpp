@@ -23,9 +23,13 @@ class MassMatrix {
   void add_scalar(Index size, const S& mass);
   /// \throws InputError if M is not symmetric and positive definite
   void add_full(const Matrix<S>& M);
+  /// Coordinates that no force moves: M^-1 is 0 there, and they are in no block. They stand after all others.
+  void add_driven(Index size);
 
   /// Number of coordinates.
   Index m() const { return m_; }
+  /// Of those that have a mass; they come first.
+  Index of_bodies() const { return blocks_.empty() ? 0 : blocks_.back().offset + blocks_.back().size; }
   const std::vector<Block>& blocks() const { return blocks_; }
 
   /// v = M^-1 p in every lane, in double and MPFR with about one rounding; v must not be p. Along the motion of a rigid

@@ -127,6 +127,8 @@ std::vector<std::vector<BigFloat>> conserved_coefficients(const Problem<S>& prob
 
 template <Scalar S>
 std::vector<MomentumComponent<S>> conserved_momenta(const Problem<S>& problem) {
+  // Forces without a potential, and points that are moved, pull from outside.
+  if (!problem.is_conservative()) return {};
   const MomentumComponent<S> last = coordinate_momenta(problem).back();
   const bool translates = coordinate_momenta(problem).front().is_linear();
   const Index rotations = last.angular.size(), columns = rotations + last.linear.size();

@@ -33,6 +33,7 @@ RedundantConstraints<S>::RedundantConstraints(const Problem<S>& problem) {
       kept_.push_back(a);
   }
   gradient_.emplace(all_, 1);
+  course_.emplace(all_, 1);
   const auto count = static_cast<Index>(places_.size());
   values_ = sizes_ = hidden_ = Vector<S>::Zero(count);
   v_ = Vector<S>::Zero(all_.m());
@@ -54,6 +55,8 @@ const Vector<S>& RedundantConstraints<S>::hidden(const Vector<S>& q, const Vecto
   if (empty()) return hidden_;
   gradient_->update(lanes(q));
   all_.mass.velocity(lanes(p), lanes(v_));
+  place(*course_, all_, q);
+  course_->set_velocities(lanes(v_));
   for (Index r = 0; r < hidden_.size(); ++r)
     gradient_->transposed_times(places_[static_cast<std::size_t>(r)], lanes(std::as_const(v_)), &hidden_[r]);
   return hidden_;

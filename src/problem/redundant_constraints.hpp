@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "problem/constraint_gradient.hpp"
+#include "problem/driven_course.hpp"
 
 namespace hbvm::core {
 
@@ -37,6 +38,7 @@ class RedundantConstraints {
   std::vector<Index> kept_, places_;  // of the independent and the redundant ones
   std::optional<ConstraintGradient<S>> gradient_;
   Vector<S> values_, sizes_, hidden_, v_;
+  std::optional<DrivenCourse<S>> course_;
 };
 
 /// All constraints, redundant ones included, in order.

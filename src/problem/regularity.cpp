@@ -283,10 +283,12 @@ Entries exact_column(const ConstraintGradient<S>& gradient, Index a) {
 template <Scalar S>
 Entries weighted(const Problem<S>& problem, const Entries& column) {
   Entries result;
-  for (auto first = column.begin(); first != column.end();) {
+  const auto end = std::find_if(column.begin(), column.end(),
+                                [&](const Entry& entry) { return entry.at >= problem.mass.of_bodies(); });
+  for (auto first = column.begin(); first != end;) {
     const auto& block = block_of(problem.mass, first->at);
     auto last = first;
-    while (last != column.end() && last->at < block.offset + block.size) ++last;
+    while (last != end && last->at < block.offset + block.size) ++last;
     if (!block.full) {
       for (; first != last; ++first) result.push_back({first->at, Mpfr(exact(block.inverse_mass) * first->value)});
       continue;

@@ -10,6 +10,8 @@ template <Scalar S>
 StateEvaluator<S>::StateEvaluator(const Problem<S>& problem)
     : problem_(problem),
       potential_(problem.potential, 1),
+      without_potential_(problem, 1),
+      course_(problem, 1),
       gradient_(problem, 1),
       U_(1),
       v_(problem.m()),
@@ -26,6 +28,29 @@ S StateEvaluator<S>::energy(const Vector<S>& q, const Vector<S>& p) {
   problem_.mass.velocity(lanes(p), lanes(v_));
   potential_.values(lanes(q), U_);
   return dot(p, v_) / 2 - U_[0];
+}
+
+template <Scalar S>
+S StateEvaluator<S>::account(const Vector<S>& p) const {
+  S sum = 0;
+  for (Index j = problem_.mass.of_bodies(); j < p.size(); ++j) sum += p[j];
+  return sum;
+}
+
+template <Scalar S>
+void StateEvaluator<S>::set_velocity(const Vector<S>& q, const Vector<S>& p, Vector<S>& v) {
+  problem_.mass.velocity(lanes(p), lanes(v));
+  if (course_.empty()) return;
+  place(course_, problem_, q);
+  course_.set_velocities(lanes(v));
+}
+
+template <Scalar S>
+void StateEvaluator<S>::set_applied(const Vector<S>& q, const Vector<S>& p, Matrix<S>& force) {
+  potential_.force(lanes(q), force);
+  if (problem_.is_conservative()) return;
+  set_velocity(q, p, v_);
+  without_potential_.add(lanes(q), lanes(std::as_const(v_)), course_, force);
 }
 
 template <Scalar S>
@@ -53,7 +78,7 @@ template <Scalar S>
 const Vector<S>& StateEvaluator<S>::hidden_constraints(const Vector<S>& q, const Vector<S>& p) {
   if (problem_.nu() == 0) return hidden_;
   gradient_.update(lanes(q));
-  problem_.mass.velocity(lanes(p), lanes(v_));
+  set_velocity(q, p, v_);
   for (Index a = 0; a < problem_.nu(); ++a) gradient_.transposed_times(a, lanes(std::as_const(v_)), &hidden_[a]);
   return hidden_;
 }
@@ -88,6 +113,7 @@ const Vector<S>& StateEvaluator<S>::with_rates(const Vector<S>& q, const Vector<
   solve_gram(hidden_);
   for (Index a = 0; a < problem_.nu(); ++a) row_(0, a) = -hidden_[a];
   gradient_.add_times(row_, lanes(tangential_));
+  for (Index j = problem_.mass.of_bodies(); j < p.size(); ++j) set(tangential_[j], p[j]);
   return tangential_;
 }
 
@@ -96,7 +122,8 @@ void StateEvaluator<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, 
   // (17), where the curvature of g_a along v is v^T nabla^2 g_a v
   gradient_.update(lanes(q));
   problem_.mass.velocity(lanes(force), lanes(acceleration_));
-  problem_.mass.velocity(lanes(p), lanes(v_));
+  set_velocity(q, p, v_);
+  course_.set_accelerations(lanes(acceleration_));
   for (Index a = 0; a < problem_.nu(); ++a) {
     gradient_.transposed_times(a, lanes(std::as_const(acceleration_)), &multiplier_[a]);
     multiplier_[a] += curvature(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, q, v_);
@@ -107,7 +134,7 @@ void StateEvaluator<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, 
 template <Scalar S>
 const Vector<S>& StateEvaluator<S>::multiplier(const Vector<S>& q, const Vector<S>& p) {
   if (problem_.nu() == 0) return multiplier_;
-  potential_.force(lanes(q), force_);
+  set_applied(q, p, force_);
   find_multiplier(q, p, force_);
   return multiplier_;
 }
@@ -119,12 +146,13 @@ const Vector<S>& StateEvaluator<S>::constraint_force(const Vector<S>& q, const V
   find_multiplier(q, p, force);
   for (Index a = 0; a < problem_.nu(); ++a) row_(0, a) = -multiplier_[a];
   gradient_.add_times(row_, lanes(forces_.constraint));
+  course_.make_powers(lanes(forces_.constraint));
   return forces_.constraint;
 }
 
 template <Scalar S>
 const typename StateEvaluator<S>::Forces& StateEvaluator<S>::forces(const Vector<S>& q, const Vector<S>& p) {
-  potential_.force(lanes(q), force_);
+  set_applied(q, p, force_);
   forces_.applied = force_.transpose();
   constraint_force(q, p, force_);
   return forces_;

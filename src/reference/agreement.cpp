@@ -82,8 +82,9 @@ Agreement::Agreement(const Assembled<Mpfr>& scene, const std::vector<Expression>
         c.values.push_back(value);
         raise_to(c.natural, natural);
       };
-      add("q", at.q, Mpfr(0));
-      add("p", at.p, Mpfr(0));
+      const Index bodies = scene.problem.mass.of_bodies();
+      add("q", at.q.head(bodies), Mpfr(0));
+      add("p", at.p.head(bodies), Mpfr(0));
       add("lambda", at.lambda, Mpfr(0));
       add("H", single(point.energy(at.q, at.p)), point.energy_size(at.q, at.p));
       // A component that vanishes is measured by the others of its vector.
@@ -100,6 +101,7 @@ Agreement::Agreement(const Assembled<Mpfr>& scene, const std::vector<Expression>
   // What is conserved must be what it was at the start, too. Nothing that the routes' states are compared by is as
   // blind to a formula of H that does not belong to the forces.
   for (State& state : states_) {
+    if (!scene.problem.is_conservative()) break;
     const auto add = [&](std::size_t v, const Mpfr& value) {
       state.vectors[first_conserved + v].values.push_back(single(value));
     };

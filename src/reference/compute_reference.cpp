@@ -79,7 +79,7 @@ bool proof_is_quicker(const ReferenceRequest& request, const MotionNature& natur
   const auto digits = static_cast<unsigned>(request.digits + std::ceil(nature.digits_lost));
   const PrecisionScope scope(digits);
   const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
-  if (!scene.settled.empty() || closed_form_of(scene) != nullptr) return false;
+  if (!scene.settled.empty() || !scene.problem.is_conservative() || closed_form_of(scene) != nullptr) return false;
   const double by_hbvm = effort_of_hbvm(scene.problem, nature, digits).seconds;
   const auto serves = [&](const Effort& proof) {
     return proof.seconds < by_hbvm &&

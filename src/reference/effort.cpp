@@ -56,6 +56,8 @@ SeriesCount series_of(const Problem<Mpfr>& problem) {
     count.products += 2 * touched;
     count.series += 2 * touched;
   }
+  for (const ForceTerm<Mpfr>& term : problem.forces) count.add(term.force, static_cast<double>(term.instances()));
+  for (const DrivenPoint<Mpfr>& point : problem.driven) count.add(point.course, 1);
   count.series += 3 * static_cast<double>(problem.m());
   return count;
 }

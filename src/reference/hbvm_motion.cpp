@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hbvm/error.hpp"
+#include "linear/product.hpp"
 #include "scalar/log2_of.hpp"
 #include "scalar/text.hpp"
 
@@ -18,6 +19,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 HbvmMotion::HbvmMotion(const Problem<Mpfr>& problem, const Hbvm<Mpfr>& method, const Vector<Mpfr>& q,
                        const Vector<Mpfr>& p, double digits, const Mpfr& longest)
     : problem_(problem),
+      method_(method),
       stepper_(problem, method, SolverKind::newton),
       bounds_(problem),
       point_(problem),
@@ -77,23 +79,49 @@ double HbvmMotion::room(double log2_h) const {
   return least;
 }
 
-bool HbvmMotion::is_bounded(const Vector<Mpfr>& q0, const Mpfr& h, double log2_h, double log2_rho) {
-  const Matrix<Mpfr>& gamma = stepper_.solver().unknowns().gamma;
-  const Index d = problem_.dimension;
-  Matrix<Mpfr> v(gamma.rows(), gamma.cols());
-  problem_.mass.velocity(lanes(gamma), lanes(v));
-  return bounds_.hold(log2_h, [&](std::size_t force, Index input) {
-    const Displacement<Mpfr>& x = bounds_.forces()[force].displacement(input, d);
-    const Index component = input % d;
-    Mpfr start = x.shift.size() > 0 ? x.shift[component] : Mpfr(0);
-    std::vector<Mpfr> rates(static_cast<std::size_t>(gamma.rows()), Mpfr(0));
-    for (const auto& block : x.blocks) {
-      start += block.weight * q0[block.offset + component];
-      for (Index n = 0; n < gamma.rows(); ++n)
-        rates[static_cast<std::size_t>(n)] += block.weight * h * v(n, block.offset + component);
+void HbvmMotion::set_driven(const State<Mpfr>& from, const Mpfr& h, Matrix<Mpfr>& v) const {
+  DrivenCourse<Mpfr> course(problem_, method_.c.size());
+  if (course.empty()) return;
+  for (Index i = 0; i < method_.c.size(); ++i) course.time(i) = from.q[problem_.clock()] + method_.c[i] * h;
+  course.evaluate();
+  Matrix<Mpfr> at_nodes = Matrix<Mpfr>::Zero(method_.c.size(), problem_.m()), coefficients(v.rows(), v.cols());
+  course.set_velocities(lanes(at_nodes));
+  product<Mpfr>(coefficients, method_.projection, at_nodes);
+  for (Index j = problem_.clock(); j < v.cols(); ++j) v.col(j) = coefficients.col(j);
+}
+
+bool HbvmMotion::is_bounded(const State<Mpfr>& from, const Mpfr& h, double log2_h, double log2_rho) {
+  const StageUnknowns<Mpfr>& x = stepper_.solver().unknowns();
+  const Index d = problem_.dimension, s = x.gamma.rows();
+  Matrix<Mpfr> v(s, x.gamma.cols()), acceleration(v);
+  problem_.mass.velocity(lanes(x.gamma), lanes(v));
+  set_driven(from, h, v);
+  const auto along = [&](const Displacement<Mpfr>& of, Index component, const Vector<Mpfr>& start_of,
+                         const Matrix<Mpfr>& rates_of, bool shifted) {
+    Mpfr start = shifted && of.shift.size() > 0 ? of.shift[component] : Mpfr(0);
+    std::vector<Mpfr> rates(static_cast<std::size_t>(s), Mpfr(0));
+    for (const auto& block : of.blocks) {
+      start += block.weight * start_of[block.offset + component];
+      for (Index n = 0; n < s; ++n)
+        rates[static_cast<std::size_t>(n)] += block.weight * h * rates_of(n, block.offset + component);
     }
     return ellipse_of(start, rates, log2_rho);
-  });
+  };
+  const auto effects = [&](std::size_t force, Index input) {
+    return along(bounds_.forces()[force].displacement(input, d), input % d, from.q, v, true);
+  };
+  if (problem_.is_conservative()) return bounds_.hold(log2_h, effects);
+  Vector<Mpfr> v0(from.p.size());
+  problem_.mass.velocity(lanes(from.p), lanes(v0));
+  const Matrix<Mpfr> force = x.psi - x.zeta;
+  problem_.mass.velocity(lanes(force), lanes(acceleration));
+  const auto forces = [&](std::size_t number, Index input) {
+    const ForceBounds::Pull& pull = bounds_.pulls()[number];
+    const Index inputs = pull.term->arguments * d, component = input % d;
+    const Displacement<Mpfr>& of = pull.term->displacement(pull.instance, input % inputs / d);
+    return input < inputs ? along(of, component, from.q, v, true) : along(of, component, v0, acceleration, false);
+  };
+  return bounds_.hold(log2_h, effects, forces, [&] { return ellipse_of(from.q[problem_.clock()], {h}, log2_rho); });
 }
 
 void HbvmMotion::shorten(double by, const std::string& why) {
@@ -136,7 +164,7 @@ void HbvmMotion::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)
       again(std::min(usual_room - found, most_fall), "no step is short enough for its polynomial to be exact");
       continue;
     }
-    if (!is_bounded(before.q, h, log2_h, log2_ellipse)) {
+    if (!is_bounded(before, h, log2_h, log2_ellipse)) {
       again(fall, bounds_.obstacle());
       continue;
     }
@@ -148,7 +176,7 @@ void HbvmMotion::advance_to(const Mpfr& t, const std::function<void(const Mpfr&)
       log2_h_ = log2_h + expected - usual_room;
     } else if (expected > much_room && h == whole) {
       double rise = std::min(expected - usual_room, most_rise);
-      while (rise > least_room && !is_bounded(before.q, h, log2_h, log2_ellipse + rise)) rise /= 2;
+      while (rise > least_room && !is_bounded(before, h, log2_h, log2_ellipse + rise)) rise /= 2;
       if (rise > least_room) log2_h_ += rise;
     }
     now_ = h == left ? t : Mpfr(now_ + h);

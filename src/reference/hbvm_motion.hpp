@@ -40,11 +40,14 @@ class HbvmMotion {
   double first_length();
   /// log2 of how many times as long the last step might have been.
   double room(double log2_h) const;
-  /// Whether the forces are bounded along the ellipse of the step that began at q0.
-  bool is_bounded(const Vector<Mpfr>& q0, const Mpfr& h, double log2_h, double log2_rho);
+  /// Whether the forces are bounded along the ellipse of the step that began at this state.
+  bool is_bounded(const State<Mpfr>& from, const Mpfr& h, double log2_h, double log2_rho);
+  /// The coefficients of the velocities of the driven points over a step.
+  void set_driven(const State<Mpfr>& from, const Mpfr& h, Matrix<Mpfr>& v) const;
   void shorten(double by, const std::string& why);
 
   const Problem<Mpfr>& problem_;
+  const Hbvm<Mpfr>& method_;
   HbvmStepper<Mpfr> stepper_;
   ForceBounds bounds_;
   StateEvaluator<Mpfr> point_;

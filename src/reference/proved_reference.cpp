@@ -13,6 +13,7 @@
 #include "reference/proved_motion.hpp"
 #include "reference/proved_states.hpp"
 #include "scalar/literal.hpp"
+#include "scene/moving_point.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -63,6 +64,10 @@ Effort proof_effort(const ReferenceRequest& request, const MotionNature& nature)
 }
 
 void add_proved_states(Reference& reference, const ReferenceRequest& request) {
+  if (names_work(request.scene))
+    throw InputError("'" + request.scene.name +
+                     "': digits are proved of forces with a potential that does not depend on t, and of points at "
+                     "rest; without --prove two routes are compared");
   constexpr double part_of_survey = double{1} / 10;
   const auto progress = [&](double part) {
     if (request.progress) request.progress(std::min(double{1}, part));

@@ -151,7 +151,9 @@ MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times,
     const auto walked = [&](const Mpfr& now) { progress(approximately(Mpfr(now / end))); };
     motion.advance_to(t, walked);
     other.advance_to(t, walked);
-    const auto look = [&](const Vector<Mpfr>& x, const Vector<Mpfr>& changed, const Mpfr& scale) {
+    const auto look = [&](const Vector<Mpfr>& all, const Vector<Mpfr>& all_changed, const Mpfr& scale) {
+      const Index bodies = assembled.problem.mass.of_bodies();
+      const Vector<Mpfr> x = all.head(bodies), changed = all_changed.head(bodies);
       const Mpfr size = max_norm(x), difference = distance(x, changed);
       if (size == 0 || difference == 0) return;
       worst = std::max(worst, (log2_of(difference) - log2_of(size)) / std::log2(double{10}));

@@ -62,6 +62,17 @@ TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
   form_velocities_ = storage(static_cast<Index>(forms_.size()));
   for (const EffectTerm<Mpfr>& term : problem.potential.terms)
     for (Index n = 0; n < term.instances(); ++n) forces_.push_back(slope_of(term, n));
+  for (const ForceTerm<Mpfr>& term : problem.forces)
+    for (Index n = 0; n < term.instances(); ++n) {
+      std::vector<const Mpfr*> coefficients;
+      for (Index c = 0; c < term.force_coefficients.cols(); ++c) coefficients.push_back(&term.force_coefficients(n, c));
+      pulls_.push_back(
+          {term, n, ProgramSeries(term.force, 2 * term.arguments * problem.dimension, coefficients, order_)});
+    }
+  for (const DrivenPoint<Mpfr>& point : problem.driven)
+    courses_.emplace_back(point.course, 1, std::vector<const Mpfr*>{}, order_ + 2);
+  on_driven_.assign(static_cast<std::size_t>(driven()),
+                    std::vector<Mpfr>(static_cast<std::size_t>(order_ + 1), Mpfr(0)));
   aligned_lambda_.assign(static_cast<std::size_t>(problem.nu()), AlignedSeries(order_ + 1));
   bounds_ = std::make_unique<ForceBounds>(problem);
   next_log2_length_ = std::numeric_limits<double>::infinity();
@@ -165,7 +176,72 @@ void TaylorMotion::advance(Slope& slope, Index n) {
   slope.series.advance(n);
 }
 
+void TaylorMotion::advance(Pull& pull, Index n) {
+  const Index d = problem_.dimension, inputs = pull.term.arguments * d;
+  for (Index i = 0; i < inputs; ++i) {
+    const Displacement<Mpfr>& from = pull.term.displacement(pull.instance, i / d);
+    Mpfr &x = pull.series.input(i, n), &v = pull.series.input(inputs + i, n);
+    set_zero(v);
+    if (n == 0 && from.shift.size() > 0)
+      set(x, from.shift[i % d]);
+    else
+      set_zero(x);
+    for (const auto& block : from.blocks) {
+      add_weighted(&x, block.weight, q_series(block.offset + i % d) + n, Index{1}, t_);
+      add_weighted(&v, block.weight, v_series(block.offset + i % d) + n, Index{1}, t_);
+    }
+    set_quotient(v, v, unit_);
+  }
+  pull.series.advance(n);
+}
+
+void TaylorMotion::set_courses(Index n) {
+  for (; courses_known_ < n;) {
+    ++courses_known_;
+    for (ProgramSeries& series : courses_) {
+      Mpfr& t = series.input(0, courses_known_);
+      if (courses_known_ == 0)
+        set(t, q_series(problem_.clock())[0]);
+      else if (courses_known_ == 1)
+        set(t, unit_);
+      else
+        set_zero(t);
+      series.advance(courses_known_);
+    }
+  }
+}
+
+void TaylorMotion::set_accounts(Index n) {
+  const Index bodies = problem_.clock(), d = problem_.dimension;
+  const auto next = static_cast<unsigned long>(n + 1);
+  for (Index j = 0; j < driven(); ++j) {
+    std::vector<Mpfr>& force = on_driven_[static_cast<std::size_t>(j)];
+    set(force[static_cast<std::size_t>(n)], F_[bodies + j]);
+    Mpfr& p = p_series(bodies + j)[n + 1];
+    set_zero(p);
+    for (Index i = 0; i <= n; ++i) add_product(p, force[static_cast<std::size_t>(i)], v_series(bodies + j)[n - i], t_);
+  }
+  for (Pull& pull : pulls_) {
+    if (!pull.term.account) continue;
+    const Index inputs = pull.term.arguments * d;
+    Mpfr power = 0;
+    for (Index i = 0; i < pull.term.acting * d; ++i)
+      for (Index l = 0; l <= n; ++l)
+        add_product(power, pull.series.output(static_cast<std::size_t>(i), l), pull.series.input(inputs + i, n - l),
+                    t_);
+    set_product(power, power, unit_);
+    Mpfr& p = p_series(*pull.term.account)[n + 1];
+    set_difference(p, p, power);
+  }
+  for (Index j = bodies; j < problem_.m(); ++j)
+    mpfr_div_ui(raw(p_series(j)[n + 1]), raw(p_series(j)[n + 1]), next, MPFR_RNDN);
+}
+
 void TaylorMotion::set_velocity(Index n) {
+  if (driven() > 0) set_courses(n + 1);
+  for (Index j = 0; j < driven(); ++j)
+    mpfr_mul_ui(raw(v_series(problem_.clock() + j)[n]), raw(course(j, n + 1)), static_cast<unsigned long>(n + 1),
+                MPFR_RNDN);
   for (const auto& block : problem_.mass.blocks())
     for (Index j = 0; j < block.size; ++j) {
       Mpfr& v = v_series(block.offset + j)[n];
@@ -250,6 +326,7 @@ void TaylorMotion::project() {
   for (Index a = 0; a < nu; ++a) set_quotient(rhs_[a], rhs_[a], unit_);
   for (std::size_t l = 0; l < forms_.size(); ++l)
     for (const auto& [j, sign] : forms_[l].columns) {
+      if (j >= problem_.clock()) continue;
       set_product(t_, form_series(l)[0], rhs_[forms_[l].constraint]);
       add_signed(p_series(j)[0], t_, -sign);
     }
@@ -264,6 +341,13 @@ void TaylorMotion::set_force(Index n) {
     for (Index i = 0; i < force.term.arguments * d; ++i)
       for (const auto& block : force.term.displacement(force.instance, i / d).blocks)
         add_weighted(&F_[block.offset + i % d], block.weight, &force.series.output(static_cast<std::size_t>(i), n),
+                     Index{1}, t_);
+  }
+  for (Pull& pull : pulls_) {
+    advance(pull, n);
+    for (Index i = 0; i < pull.term.acting * d; ++i)
+      for (const auto& block : pull.term.displacement(pull.instance, i / d).blocks)
+        add_weighted(&F_[block.offset + i % d], block.weight, &pull.series.output(static_cast<std::size_t>(i), n),
                      Index{1}, t_);
   }
 }
@@ -294,6 +378,13 @@ void TaylorMotion::set_multipliers(Index n) {
     for (const auto& [j, sign] : form.columns) add_signed(F_[j], t_, -sign);
   }
   problem_.mass.velocity(lanes(std::as_const(F_)), lanes(weighted_));
+  // The accelerations of driven points.
+  if (driven() > 0) set_courses(n + 2);
+  for (Index j = 0; j < driven(); ++j) {
+    Mpfr& acceleration = weighted_[problem_.clock() + j];
+    mpfr_mul_ui(raw(acceleration), raw(course(j, n + 2)), static_cast<unsigned long>((n + 1) * (n + 2)), MPFR_RNDN);
+    set_product(acceleration, acceleration, per_square_);
+  }
   for (Index a = 0; a < nu; ++a) {
     mpfr_mul_ui(raw(rhs_[a]), raw(rhs_[a]), static_cast<unsigned long>(n + 1), MPFR_RNDN);
     set_product(rhs_[a], rhs_[a], per_square_);
@@ -321,6 +412,9 @@ void TaylorMotion::begin(const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
     set(q_series(j)[0], q[j]);
     set(p_series(j)[0], p[j]);
   }
+  courses_known_ = -1;
+  if (driven() > 0) set_courses(0);
+  for (Index j = 0; j < driven(); ++j) set(q_series(problem_.clock() + j)[0], course(j, 0));
   set_velocity(0);
   set_forms(0);
   factor_gram();
@@ -340,6 +434,7 @@ void TaylorMotion::expand(Index order) {
       set_product(p, F_[j], unit_);
       mpfr_div_ui(raw(p), raw(p), next, MPFR_RNDN);
     }
+    set_accounts(n);
     set_velocity(n + 1);
   }
 }
@@ -348,31 +443,33 @@ TaylorMotion::Extent TaylorMotion::extent(Index order) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const double bits = significand_bits<Mpfr>() + 2;
   Extent result{infinite, infinite, -infinite};
-  for (const auto& block : problem_.mass.blocks())
-    for (const auto series : {&TaylorMotion::q_series, &TaylorMotion::p_series}) {
-      const auto greatest = [&](Index n) {
-        double exponent = -infinite;
-        for (Index j = block.offset; j < block.offset + block.size; ++j)
-          exponent = std::max(exponent, log2_of((this->*series)(j)[n]));
-        return exponent;
-      };
-      // What it is and what it moves by.
-      const double size = std::max(greatest(0), greatest(1));
-      if (std::isinf(size)) continue;
-      for (const Index n : {order - 1, order}) {
-        const double tail = greatest(n);
-        if (std::isnan(tail)) continue;
-        result.step = std::min(result.step, (size - bits - tail) / static_cast<double>(n));
-        result.radius = std::min(result.radius, (size - tail) / static_cast<double>(n));
-      }
-      // Of an entire motion terms may grow before they fall: what they are larger than their sum they cancel of its
-      // digits.
-      for (Index n = 2; n < order - 1; ++n) {
-        const double term = greatest(n);
-        result.step = std::min(result.step, (size + 1 - term) / static_cast<double>(n));
-        result.growth = std::max(result.growth, term - size);
-      }
+  const auto look = [&](Index first, Index count, auto series) {
+    const auto greatest = [&](Index n) {
+      double exponent = -infinite;
+      for (Index j = first; j < first + count; ++j) exponent = std::max(exponent, log2_of((this->*series)(j)[n]));
+      return exponent;
+    };
+    // What it is and what it moves by.
+    const double size = std::max(greatest(0), greatest(1));
+    if (std::isinf(size)) return;
+    for (const Index n : {order - 1, order}) {
+      const double tail = greatest(n);
+      if (std::isnan(tail)) continue;
+      result.step = std::min(result.step, (size - bits - tail) / static_cast<double>(n));
+      result.radius = std::min(result.radius, (size - tail) / static_cast<double>(n));
     }
+    // Of an entire motion terms may grow before they fall: what they are larger than their sum they cancel of its
+    // digits.
+    for (Index n = 2; n < order - 1; ++n) {
+      const double term = greatest(n);
+      result.step = std::min(result.step, (size + 1 - term) / static_cast<double>(n));
+      result.growth = std::max(result.growth, term - size);
+    }
+  };
+  for (const auto& block : problem_.mass.blocks())
+    for (const auto series : {&TaylorMotion::q_series, &TaylorMotion::p_series}) look(block.offset, block.size, series);
+  for (std::size_t n = 0; n < courses_.size(); ++n)
+    look(problem_.clock() + static_cast<Index>(n) * problem_.dimension, problem_.dimension, &TaylorMotion::q_series);
   return result;
 }
 
@@ -439,12 +536,17 @@ double TaylorMotion::bounded_length(double most) {
     return n < forces_.size() ? forces_[n] : constraint_slopes_[n - forces_.size()];
   };
   double length = std::min(most, next_log2_length_);
+  const auto circle = [&](const auto& coefficient) {
+    return circle_of(coefficient, order_ - 1, length + log2_radii - log2_unit_);
+  };
   for (int tries = 0;; ++tries) {
-    if (bounds_->hold(length, [&](std::size_t force, Index input) {
-          const ProgramSeries& series = slope(force).series;
-          return circle_of([&](Index n) -> const Mpfr& { return series.input(input, n); }, order_ - 1,
-                           length + log2_radii - log2_unit_);
-        }))
+    const auto input_of = [&](const ProgramSeries& series, Index input) {
+      return circle([&](Index n) -> const Mpfr& { return series.input(input, n); });
+    };
+    if (bounds_->hold(
+            length, [&](std::size_t force, Index input) { return input_of(slope(force).series, input); },
+            [&](std::size_t pull, Index input) { return input_of(pulls_[pull].series, input); },
+            [&] { return input_of(courses_.front(), 0); }))
       break;
     constexpr int careful = 4;
     length -= tries < careful ? double{1} / 3 : 1;

@@ -31,6 +31,10 @@ class ForceBounds;
 /// which convolutions consist, AlignedSeries. After each step the state is moved to the constraints and their tangent
 /// space, by round-off.
 ///
+/// Forces without a potential are in F, by the program of F, whose inputs are the series of positions and of
+/// velocities. Driven points have the series of their courses, whose accelerations are beside M^-1 F. The momenta of
+/// their coordinates are accounts of work, whose series are convolutions of velocities and forces.
+///
 /// The coefficients tell only what is near the start of a step. So it is no longer than ForceBounds allow. They look at
 /// the forces on a circle of radius R about its start in complex time. With |F| <= M there, and F analytic inside, the
 /// terms of F from order N on add up to at most M (h/R)^N / (1 - h/R).
@@ -98,6 +102,21 @@ class TaylorMotion {
     Index instance;
     ProgramSeries series;
   };
+  /// A force without a potential, of one instance.
+  struct Pull {
+    const ForceTerm<Mpfr>& term;
+    Index instance;
+    ProgramSeries series;
+  };
+  /// Coefficients up to n of the driven points' courses.
+  void set_courses(Index n);
+  /// Coefficient n + 1 of the driven coordinates' momenta, from F_ and the velocities.
+  void set_accounts(Index n);
+  Index driven() const { return problem_.m() - problem_.mass.of_bodies(); }
+  const Mpfr& course(Index j, Index n) const {
+    const Index d = problem_.dimension;
+    return courses_[static_cast<std::size_t>(j / d)].output(static_cast<std::size_t>(j % d), n);
+  }
   Mpfr* q_series(Index j) { return &q_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
   Mpfr* p_series(Index j) { return &p_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
   Mpfr* v_series(Index j) { return &v_values_[static_cast<std::size_t>(j * (order_ + 2))]; }
@@ -112,6 +131,7 @@ class TaylorMotion {
   Slope slope_of(const EffectTerm<Mpfr>& term, Index instance) const;
   /// Coefficient n of a slope from those of q up to n.
   void advance(Slope& slope, Index n);
+  void advance(Pull& pull, Index n);
   void set_velocity(Index n);
   void set_forms(Index n);
   void factor_gram();
@@ -148,6 +168,10 @@ class TaylorMotion {
   Index order_;
   std::vector<Form> forms_;
   std::deque<Slope> forces_, constraint_slopes_;
+  std::deque<Pull> pulls_;
+  std::deque<ProgramSeries> courses_;
+  Index courses_known_ = -1;                  ///< the highest coefficient
+  std::vector<std::vector<Mpfr>> on_driven_;  ///< the series of the forces on driven coordinates
   std::vector<Mpfr> q_values_, p_values_, v_values_, form_values_, form_velocities_, lambda_values_;
   Lu<Mpfr> gram_;
   Vector<Mpfr> F_, weighted_, rhs_, powers_;  ///< grad U less sum G_i lambda, M^-1 of it

@@ -13,13 +13,17 @@ namespace {
 class TaylorStepper final : public CountingStepper<Mpfr> {
  public:
   explicit TaylorStepper(const Problem<Mpfr>& problem)
-      : problem_(problem), multiplier_(Vector<Mpfr>::Zero(problem.nu())), effects_(problem.potential.terms.size()) {}
+      : problem_(problem),
+        multiplier_(Vector<Mpfr>::Zero(problem.nu())),
+        effects_(problem.potential.terms.size() + problem.forces.size()) {}
 
   const Problem<Mpfr>& problem() const override { return problem_; }
 
   /// \return steps of the series
   StepResult<Mpfr> step(State<Mpfr>& state, const Mpfr& h) override {
     const PartCall counted(series_);
+    if (h < 0)
+      throw InputError("method taylor goes back in time where all forces have a potential, and t does not occur");
     try {
       TaylorMotion motion(problem_, state.q, state.p, [] { end_if_asked("a step is made of many"); });
       motion.advance_to(h);

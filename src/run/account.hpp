@@ -40,8 +40,8 @@ Account account_of(const Problem<S>& problem, const SolverCounts& counts) {
   Account account;
   std::size_t t = 0;
   for (const EffectCount& count : counts.effects)
-    account.lines.push_back({problem.potential.terms[t++].kind, AccountLine::Kind::effect, count.calls,
-                             count.evaluations, count.evaluations * count.per_evaluation, count.seconds,
+    account.lines.push_back({kind_of_effect(problem, t++), AccountLine::Kind::effect, count.calls, count.evaluations,
+                             count.evaluations * count.per_evaluation, count.seconds,
                              count.evaluations * count.done_before});
   add_parts(account, counts.parts);
   return account;

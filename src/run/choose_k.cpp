@@ -15,7 +15,9 @@ template <Scalar S>
 std::optional<int> degree_of_U(const Problem<S>& problem) {
   int degree = 0;
   for (const auto& term : problem.potential.terms) {
-    if (term.degree < 0) return std::nullopt;
+    std::set<Index> own;
+    for (const auto& x : term.displacements) own.merge(coordinates(x, problem.dimension));
+    if (term.degree < 0 || follows_course(problem, own)) return std::nullopt;
     degree = std::max(degree, term.degree);
   }
   return degree;
@@ -84,7 +86,7 @@ template <Scalar S>
 ChosenK choose_k(const Assembled<S>& scene, const HbvmName& name, const S& step, SolverKind solver) {
   const int s = name.s;
   const std::optional<int> of_U = degree_of_U(scene.problem);
-  const int of_g = degree(scene.problem.constraints);
+  const int of_g = degree_of_g(scene.problem);
   const bool general = of_g != 2, tries_r = of_g == Trace<S>::not_polynomial && name.r == 0;
   const auto nodes = [&](int n) {
     return HbvmName{of_U ? exact_nodes(*of_U, s) : n, s, name.r != 0 ? name.r : tries_r ? n : exact_nodes(of_g, s)};

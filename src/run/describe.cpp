@@ -32,7 +32,7 @@ SceneFacts::Effect whom_it_acts_on(const Scene& scene, const SceneEffect& effect
   const bool at_centers = std::any_of(reach.on.begin(), reach.on.end(), [&](const std::vector<std::string>& names) {
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return rigid.contains(name); });
   });
-  if (at_centers)
+  if (at_centers && effect.kind != "torque" && effect.kind != "rotating_frame")
     facts.remark = effect.kind == "uniform_gravity" || effect.kind == "spring"
                        ? "rigid bodies at the centre of mass"
                        : "rigid bodies at the centre of mass, the change of the field across them neglected";
@@ -65,10 +65,13 @@ void refuse_singular(const Scene& scene, const Assembled<S>& assembled) {
     for (Index n = 0; n < term.instances(); ++n)
       if (!is_finite(U.output(0, n)))
         throw InputError(fmt::format("{}:{}: effect {} ({}) has no value at the start on {}", scene.name,
-                                     scene.effects[i].line, i + 1, term.kind,
+                                     scene.effects[assembled.reach[i].effect].line, assembled.reach[i].effect + 1,
+                                     term.kind,
                                      to_text(EffectReach{{assembled.reach[i].on[static_cast<std::size_t>(n)]}})));
   }
 }
+
+bool is_force(const SceneEffect& effect) { return !effect.formulas.empty(); }
 
 std::optional<int> degree_or_none(int degree) {
   return degree == Trace<double>::not_polynomial ? std::nullopt : std::optional<int>(degree);
@@ -111,18 +114,26 @@ SceneFacts describe_in(const Scene& scene) {
   for (const RedundantConstraint<S>& redundant : problem.redundant)
     facts.redundant.push_back(static_cast<long>(redundant.place) + 1);
   for (const Redundancy& redundancy : assembled.redundant) facts.redundancies.push_back(to_text(redundancy));
-  facts.degrees_of_freedom = static_cast<long>(problem.m() - problem.nu());
-  facts.degree_of_g = degree_or_none(degree(problem.constraints));
+  facts.degrees_of_freedom = static_cast<long>(problem.mass.of_bodies() - problem.nu());
+  facts.degree_of_g = degree_or_none(degree_of_g(problem));
   facts.degree_of_U = degree_of_U(problem);
   facts.settled = assembled.settled;
   if (problem.nu() > 0) facts.gram_condition = static_cast<double>(gram_condition(problem, assembled.q0));
   for (std::size_t i = 0; i < problem.potential.terms.size(); ++i) {
     const EffectTerm<S>& term = problem.potential.terms[i];
-    SceneFacts::Effect effect = whom_it_acts_on(scene, scene.effects[i], assembled.reach[i]);
+    if (is_force(scene.effects[assembled.reach[i].effect])) continue;
+    SceneFacts::Effect effect = whom_it_acts_on(scene, scene.effects[assembled.reach[i].effect], assembled.reach[i]);
     if (term.degree >= 0) effect.degree = term.degree;
     effect.constant_force = term.constant_force;
     facts.effects.push_back(effect);
   }
+  for (const EffectReach& reach : assembled.force_reach) {
+    SceneFacts::Effect effect = whom_it_acts_on(scene, scene.effects[reach.effect], reach);
+    effect.has_potential = false;
+    facts.effects.push_back(effect);
+  }
+  for (const DrivenPoint<S>& point : problem.driven)
+    if (point.name != "t") facts.driven.push_back(point.name);
   StateEvaluator<S> point(problem);
   const S H = point.energy(assembled.q0, assembled.p0);
   const S U = point.energy(assembled.q0, Vector<S>::Zero(problem.m()));

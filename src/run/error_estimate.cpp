@@ -30,21 +30,22 @@ MethodPtr method_beside(const Method& method) {
 /// met is trusted with at most two digits more than its group, the entries of a vector in space.
 class Errors {
  public:
+  /// \param exact may have more entries, those of driven points
   /// \param unsure by which the exact values may be off
   template <Scalar S>
   Errors(const Vector<S>& found, const Vector<Mpfr>& exact, Index group, const Mpfr& unsure = Mpfr(0)) {
     const double all = significand_bits<S>() * std::log10(double{2});
     constexpr int trusted = 100;
-    for (Index i = 0; i < exact.size(); ++i) {
+    for (Index i = 0; i < found.size(); ++i) {
       const Mpfr x = rounded_to<Mpfr>(raw(exactly(found[i])));
       sizes_.push_back(magnitude(x));
       differences_.push_back(magnitude(Mpfr(x - exact[i])));
       raise_to(greatest, differences_.back());
     }
-    for (Index i = 0; i < exact.size(); ++i) {
+    for (Index i = 0; i < found.size(); ++i) {
       const Index first = i - i % group;
       Mpfr error = differences_[static_cast<std::size_t>(i)];
-      for (Index j = first; j < std::min(first + group, exact.size()); ++j)
+      for (Index j = first; j < std::min(first + group, found.size()); ++j)
         raise_to(error, Mpfr(differences_[static_cast<std::size_t>(j)] / trusted));
       // What is exactly 0, and was found so, has all its digits.
       if (sizes_[static_cast<std::size_t>(i)] == 0 && exact[i] == 0) error = 0;
@@ -97,6 +98,7 @@ std::optional<ErrorEstimate> estimate_by_store(const RunRequest& request, const 
   const unsigned digits = std::max(digits_of_a_run_beside<S>(), static_cast<unsigned>(found->digits)) + 10;
   const PrecisionScope more(digits);
   const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
+  if (!scene.problem.is_conservative() && !scene.problem.redundant.empty()) return std::nullopt;
   RedundantConstraints<Mpfr> redundant(scene.problem);
   const Stored exact_q(found->state.q, found->digits), exact_p(found->state.p, found->digits),
       lambda(found->state.lambda, found->digits);
@@ -139,6 +141,7 @@ std::optional<ErrorEstimate> estimate_by_motion(const RunRequest& request, Route
   constexpr int units = 64;
   if (start && distance(tangential, from.p) > units * Mpfr(epsilon<S>()) * max_norm(from.p)) return std::nullopt;
   const bool back = request.direction == Direction::backward;
+  if (back && !scene.problem.is_conservative()) return std::nullopt;
   const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
   try {
     ExactPoint end = exact_end(scene.problem, from.q, back ? Vector<Mpfr>(-tangential) : tangential,

@@ -40,6 +40,7 @@ HealthWatch<S>::HealthWatch(const Problem<S>& problem, const Method& method, con
       g_(Matrix<S>::Zero(1, problem.nu())),
       q_(problem.m()),
       v_(problem.m()),
+      course_(problem, 1),
       energy_(problem),
       drift_(problem),
       constraints_(problem, rounding_),
@@ -58,6 +59,8 @@ void HealthWatch<S>::observe(const Snapshot<S>& snapshot) {
     seen_ = true;
     raise_to(moved_, drift_.in_units(snapshot.q));
   }
+  place(course_, problem_, snapshot.q);
+  course_.set_velocities(lanes(v_));
   gradient_.update(lanes(snapshot.q), g_);
   constraints_.observe(gradient_, g_, snapshot);
   angles_.observe(gradient_, snapshot);

@@ -91,6 +91,7 @@ class HealthWatch final : public Observer<S> {
   ConstraintGradient<S> gradient_;
   Matrix<S> g_;
   Vector<S> q_, v_;  ///< of the last mesh point
+  DrivenCourse<S> course_;
   EnergyBalance<S> energy_;
   GeneralDrift<S> drift_;
   S moved_ = 0;        ///< the most it showed, in units

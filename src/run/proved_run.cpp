@@ -2,6 +2,7 @@
 
 #include "hbvm/error.hpp"
 #include "run_beside.hpp"
+#include "scene/moving_point.hpp"
 #include "step/hbvm_method.hpp"
 
 namespace hbvm::core {
@@ -11,6 +12,7 @@ void check_provable(const RunRequest& request) {
   const HbvmMethod* const hbvm = as_hbvm(*request.method);
   if (!hbvm || hbvm->perturbation()) refuse("the method is " + request.method->text() + ": use hbvm:K,S or gauss:S");
   if (request.start) refuse("the run starts from a file, and not from the exact start of the scene");
+  if (names_work(request.scene)) refuse("the scene has forces without a potential, or names t");
   if (request.on_failure == OnFailure::halve) refuse("steps may be divided: take a step that need not be");
 }
 

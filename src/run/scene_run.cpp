@@ -130,12 +130,29 @@ Run told_of(const RunRequest& request) {
   return run;
 }
 
+/// The work of each effect, constraint and moving point that does some.
+template <Scalar S>
+std::vector<Work> works_of(const Problem<S>& problem, const Vector<S>& p) {
+  std::vector<Work> works;
+  for (std::size_t n = 0; n < problem.driven.size(); ++n) {
+    if (n == 0) continue;  // t itself
+    S sum = 0;
+    for (Index j = 0; j < problem.dimension; ++j)
+      sum += p[problem.clock() + static_cast<Index>(n) * problem.dimension + j];
+    works.push_back({problem.driven[n].name, to_text(S(-sum))});
+  }
+  return works;
+}
+
 template <Scalar S>
 Run run_in(const RunRequest& request, const RunHooks& hooks) {
   if (request.prove) check_provable(request);
   const TimeGrid<S> grid(request.step, request.until, request.scene.constants, request.direction);
   Assembled<S> scene = assemble<S>(request.scene);
   Course<S> course{{}, hooks.checkpoints};
+  if (request.start && !scene.problem.is_conservative())
+    throw InputError("--start: '" + request.scene.name +
+                     "' has forces without a potential, or names t: such a motion begins at t = 0 of its scene");
   if (request.start) {
     course.start = evaluate(*request.start, request.scene, scene);
     scene.q0 = course.start->q;
@@ -174,7 +191,7 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   HealthWatch<S> health(scene.problem, method, grid);
   observers.push_back(&health);
   std::optional<ShadowedRun<S>> shadowed;
-  if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.m(), grid.steps()));
+  if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.mass.of_bodies(), grid.steps()));
   std::optional<EnergyScale<S>> scale;
   if (stepper.chosen()) observers.push_back(&scale.emplace(scene.problem));
   Account account;
@@ -185,26 +202,33 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   if (csv) csv->flush();
 
   const Snapshot<S>& end = simulated.integration.end;
-  if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_H);
+  if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_B);
   if (stepper.halving()) result.halving = report_halving(*stepper.halving(), grid);
   result.start_settled = scene.settled;
   result.step = to_text(grid.step());
   result.until = to_text(grid.until());
   result.t = to_text(end.t);
   result.steps = grid.steps();
-  result.q = to_texts(end.q);
-  result.p = to_texts(end.p);
+  const Index bodies = scene.problem.mass.of_bodies();
+  const auto of_bodies = [&](const Vector<S>& x) { return Vector<S>(x.head(bodies)); };
+  result.q = to_texts(of_bodies(end.q));
+  result.p = to_texts(of_bodies(end.p));
   RedundantConstraints<S> redundant(scene.problem);
   result.lambda = to_texts(redundant.multipliers(end.q, end.lambda));
-  result.q_carry = to_texts(simulated.state.q_carry);
-  result.p_carry = to_texts(simulated.state.p_carry);
+  result.q_carry = to_texts(of_bodies(simulated.state.q_carry));
+  result.p_carry = to_texts(of_bodies(simulated.state.p_carry));
   StateEvaluator<S> point(scene.problem);
   const OutputState<S> output = output_state(point, end.q, end.p);
-  result.output_p = to_texts(output.p);
+  result.output_p = to_texts(of_bodies(output.p));
   const Vector<S> output_lambda = redundant.multipliers(end.q, output.lambda);
   result.output_lambda = to_texts(output_lambda);
   result.output_delta_H = to_text(S(point.energy(end.q, output.p) - simulated.H0));
   result.e_H = to_text(simulated.e_H);
+  if (!scene.problem.driven.empty()) {
+    result.e_B = to_text(simulated.e_B);
+    result.work = to_text(S(-point.account(end.p)));
+    result.works = works_of(scene.problem, end.p);
+  }
   result.e_g = to_text(simulated.e_g);
   result.e_hid = to_text(simulated.e_hid);
   result.iterations_per_step =
@@ -223,7 +247,8 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
                                       to_scientific(simulated.redundancy, 3) + " of their terms"});
   if (shadowed) result.shadow = shadowed->compare(request, method, course.start);
   if (request.prove) result.proved = prove_run<S>(request, method, stepper.nodes(), simulated.state, hooks.progress);
-  if (request.error) result.error = estimate_error(request, method, course.start, end.q, output.p, output_lambda);
+  if (request.error)
+    result.error = estimate_error(request, method, course.start, of_bodies(end.q), of_bodies(output.p), output_lambda);
   result.cpu_seconds = simulated.integration.cpu_seconds;
   result.account = entries_of(account);
   if (hooks.account) *hooks.account = std::move(account);

@@ -20,7 +20,7 @@ class Comparison final : public Observer<Mpfr> {
 
   void observe(const Snapshot<Mpfr>& snapshot) override {
     const bool last = snapshot.n == steps_;
-    const Index m = snapshot.q.size(), column = last ? states_.cols() - 1 : snapshot.n / every_;
+    const Index m = states_.rows() / 2, column = last ? states_.cols() - 1 : snapshot.n / every_;
     const bool compared = last || snapshot.n % every_ == 0;
     for (Index i = 0; i < 2 * m; ++i) {
       Component& c = components_[static_cast<std::size_t>(i)];
@@ -75,7 +75,7 @@ template <Scalar S>
 void ShadowedRun<S>::observe(const Snapshot<S>& snapshot) {
   const bool last = snapshot.n == steps_;
   if (!last && snapshot.n % every_ != 0) return;
-  const Index m = snapshot.q.size(), column = last ? states_.cols() - 1 : snapshot.n / every_;
+  const Index m = states_.rows() / 2, column = last ? states_.cols() - 1 : snapshot.n / every_;
   for (Index i = 0; i < m; ++i) {
     states_(i, column) = snapshot.q[i];
     states_(m + i, column) = snapshot.p[i];

@@ -16,7 +16,7 @@ namespace hbvm::core {
 template <Scalar S>
 struct Simulated {
   Integration<S> integration;
-  S H0, e_H, e_g, e_hid;
+  S H0, e_H, e_B, e_g, e_hid;
   S redundancy;    ///< of Drift
   State<S> state;  ///< what was propagated, with its carry
 };
@@ -49,7 +49,7 @@ Simulated<S> simulate(const Assembled<S>& scene, Stepper<S>& stepper, const Time
     account->steps = static_cast<std::uint64_t>(integration.steps);
     account->sweeps = static_cast<std::uint64_t>(integration.sweeps);
   }
-  return {std::move(integration), drift.H0(),         drift.e_H(),     drift.e_g(),
+  return {std::move(integration), drift.H0(),         drift.e_H(),     drift.e_B(), drift.e_g(),
           drift.e_hid(),          drift.redundancy(), std::move(state)};
 }
 

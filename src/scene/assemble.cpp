@@ -11,6 +11,7 @@
 #include "listed.hpp"
 #include "problem/constraint_gradient.hpp"
 #include "problem/effect/input.hpp"
+#include "problem/force/force_input.hpp"
 #include "problem/formula/quadratic.hpp"
 #include "problem/formula/symmetry.hpp"
 #include "problem/regularity.hpp"
@@ -19,6 +20,7 @@
 #include "scalar/text.hpp"
 #include "scalar/working_digits.hpp"
 #include "scene/formula_binding.hpp"
+#include "scene/moving_point.hpp"
 #include "scene/nearest_position.hpp"
 #include "scene/own_precision.hpp"
 #include "scene/second_moment.hpp"
@@ -37,11 +39,12 @@ class Assembler {
     add_named(scene_.points, "point");
     add_named(scene_.bodies, "body");
     add_named(scene_.rigid_bodies, "rigid_body");
+    add_moving_points();
     add_named(scene_.attachments, "attachment");
     add_numbered(scene_.constraints, "constraint");
     problem().potential.dimension = d_;
-    problem().potential.m = problem().m();
     add_numbered(scene_.effects, "effect");
+    problem().potential.m = problem().m();
     initial_state();
     if (consistency == Consistency::checked) check_consistency();
     return std::move(result_);
@@ -60,6 +63,8 @@ class Assembler {
     give(name, false, true, i, 0);
     return i.charges[0];
   }
+  /// (t, 0, 0), of the effect or constraint that is being added.
+  Displacement<S> time() { return {{{clock(), S(1)}}, {}}; }
   /// a - b.
   Displacement<S> difference(const std::string& a, const std::string& b) const {
     Displacement<S> x;
@@ -86,12 +91,15 @@ class Assembler {
     Matrix<S> mass_matrix;  // of a body
     std::optional<S> charge;
     std::string rigid_body = {};  // that it is, or is a point of
+    bool moves = false;           // along formulas of t
 
-    bool is_fixed() const { return x.blocks.empty(); }
+    /// Whether no force moves it.
+    bool is_fixed() const { return moves || x.blocks.empty(); }
   };
   struct RigidBody {
     Displacement<S> reference;
     Frame<S> frame;
+    Matrix<S> inertia = {};  // [[m, m c^T], [m c, J]]
   };
 
   using Names = std::vector<std::string>;
@@ -100,6 +108,8 @@ class Assembler {
 
   /// Errors from within say where in the scene they arose.
   void at_line(std::size_t line, const std::string& what, const std::function<void()>& work) {
+    current_ = what;
+    clock_.reset();
     try {
       work();
     } catch (const InputError& error) {
@@ -113,9 +123,11 @@ class Assembler {
     for (const auto& thing : things) at_line(thing.line, kind + " '" + thing.name + "'", [&] { add(thing); });
   }
   void add_numbered(const auto& things, const std::string& kind) {
-    std::size_t number = 0;
-    for (const auto& thing : things)
-      at_line(thing.line, fmt::format("{} {} ({})", kind, ++number, thing.kind), [&] { add(thing); });
+    number_ = 0;
+    for (const auto& thing : things) {
+      at_line(thing.line, fmt::format("{} {} ({})", kind, number_ + 1, thing.kind), [&] { add(thing); });
+      ++number_;
+    }
   }
   std::string at(std::size_t line) const { return scene_.name + (line > 0 ? ":" + std::to_string(line) : ""); }
 
@@ -143,10 +155,48 @@ class Assembler {
 
   void add(const ScenePoint& point) {
     Place place;
-    place.x.shift = vector(point.position);
+    place.moves = moves(point, scene_.constants);
+    if (place.moves)
+      place.x.blocks.push_back({static_cast<Index>(first_coordinate(point, scene_)), S(1)});
+    else
+      place.x.shift = vector(point.position);
     place.frame.start = Matrix<S>::Identity(d_, d_);
     place.charge = number(point.charge);
     places_.emplace(point.name, std::move(place));
+  }
+
+  /// \return its first coordinate
+  Index add_driven(DrivenPoint<S> point) {
+    const Matrix<S> at_start = outputs_of(point.course, Matrix<S>(1, 0), Matrix<S>(Matrix<S>::Zero(1, 1))).leftCols(d_);
+    append(positions_, Vector<S>(at_start.row(0).transpose()));
+    for (std::vector<S>* const still : {&velocities_, &momenta_}) append(*still, Vector<S>::Zero(d_));
+    return problem().add(std::move(point));
+  }
+  void add_time() {
+    if (problem().driven.empty()) add_driven(clock_point<S>("t", d_));
+  }
+  /// The time that the effect or constraint being added depends on, or that its work is kept by.
+  Index clock() {
+    add_time();
+    if (!clock_) clock_ = add_driven(clock_point<S>(current_, d_));
+    return *clock_;
+  }
+  void add_moving_points() {
+    for (const ScenePoint& point : scene_.points) {
+      if (!place(point.name).moves) continue;
+      add_time();
+      at_line(point.line, "point '" + point.name + "'", [&] {
+        try {
+          add_driven(driven_point<S>("point '" + point.name + "'", point.position, scene_.constants));
+        } catch (const ExpressionError& error) {
+          throw InputError("'position': " + std::string(error.what()));
+        }
+      });
+    }
+  }
+  bool is_driven(const Displacement<S>& x) const {
+    return std::ranges::any_of(x.blocks,
+                               [&](const auto& block) { return block.offset >= result_.problem.mass.of_bodies(); });
   }
 
   void add(const SceneBody& body) {
@@ -196,6 +246,10 @@ class Assembler {
     const Matrix<S> directors = matrix(body.directors);
     const Vector<S> omega = vector(body.angular_velocity);
     RigidBody rigid{{}, {Frame<S>::Of::rigid_body}};
+    rigid.inertia.resize(d_ + 1, d_ + 1);
+    rigid.inertia(0, 0) = mass;
+    rigid.inertia.bottomRightCorner(d_, d_) = moment;
+    for (Index a = 0; a < d_; ++a) rigid.inertia(0, a + 1) = rigid.inertia(a + 1, 0) = mass * center[a];
     rigid.frame.start = directors;
     if (body.fixed) {
       rigid.reference.shift = reference;
@@ -305,7 +359,7 @@ class Assembler {
       EffectReach reach{acted_on(effect, formula.acts, false)};
       for (const Names& of : reach.on) {
         input.instances.push_back(binding.instance(of, *this));
-        if (formula.acts == Acts::about_a_center) input.instances.back().x = {difference(of[0], effect.center)};
+        if (formula.acts == Acts::about_a_center) input.instances.back().x.front() = difference(of[0], effect.center);
       }
       add(term_of(input), std::move(reach));
     });
@@ -387,6 +441,7 @@ class Assembler {
 
   void add(const SceneEffect& effect) {
     if (effect.formula) return add_effect(effect, *effect.formula);
+    if (with_force(effect.kind, effect.is_mutual(), [&]<class Force>() { add_force<Force>(effect); })) return;
     EffectInput<S> input;
     input.kind = effect.kind;
     input.dimension = d_;
@@ -403,8 +458,143 @@ class Assembler {
   }
 
   void add(EffectTerm<S> term, EffectReach reach) {
+    reach.effect = number_;
+    // Of a driven coordinate it is to be multiplied by a velocity.
+    term.constant_force =
+        term.constant_force && !std::ranges::any_of(term.displacements, [&](const auto& x) { return is_driven(x); });
     problem().potential.terms.push_back(std::move(term));
     result_.reach.push_back(std::move(reach));
+  }
+
+  /// The directors of a rigid body.
+  void append_directors(const std::string& body, std::vector<Displacement<S>>& to) const {
+    for (const Index offset : place(body).frame.directors) to.push_back({{{offset, S(1)}}, {}});
+  }
+
+  /// Whom a force acts on.
+  std::vector<Names> acted_on(const SceneEffect& effect, ForceOn on) const {
+    if (!effect.of.empty()) return {effect.of};
+    if (on == ForceOn::pair) return pairs(effect, false);
+    if (on == ForceOn::rigid_bodies) return {{effect.between->front().first, effect.between->front().second}};
+    std::vector<Names> result;
+    const auto add = [&](const std::string& name, bool named_alone) {
+      const bool named = effect.on && std::count(effect.on->begin(), effect.on->end(), name) > 0;
+      if (effect.on ? !named : named_alone) return;
+      const bool uncharged = on == ForceOn::charged_body && !place(name).charge;
+      const bool held = on == ForceOn::each_body && place(name).is_fixed();
+      if (effect.on && (uncharged || held))
+        throw InputError("'" + name + "' " + (uncharged ? "has no charge" : "is fixed in space" + how(name)));
+      if (!uncharged && !held) result.push_back({name});
+    };
+    for (const SceneBody& body : scene_.bodies) add(body.name, false);
+    for (const SceneRigidBody& body : scene_.rigid_bodies) add(body.name, false);
+    for (const SceneAttachment& attachment : scene_.attachments) add(attachment.name, on != ForceOn::charged_body);
+    if (result.empty()) throw InputError("it acts on nobody");
+    return result;
+  }
+
+  /// The displacements that a force on these depends on, and the parameters that it needs.
+  typename ForceInput<S>::Instance force_instance(ForceOn on, const Names& of) const {
+    typename ForceInput<S>::Instance instance;
+    if (on == ForceOn::rigid_body || on == ForceOn::rigid_bodies) {
+      for (const std::string& body : of) append_directors(body, instance.x);
+    } else if (on == ForceOn::pair) {
+      instance.x.push_back(difference(of[0], of[1]));
+    } else if (on == ForceOn::inertia && rigid_bodies_.contains(of[0])) {
+      const RigidBody& body = rigid_bodies_.at(of[0]);
+      instance.x.push_back(body.reference);
+      append_directors(of[0], instance.x);
+      for (Index i = 0; i < body.inertia.size(); ++i) instance.parameters.push_back(body.inertia.data()[i]);
+    } else {
+      for (const std::string& name : of) instance.x.push_back(place(name).x);
+      if (on == ForceOn::inertia) instance.parameters.push_back(mass(of[0]));
+      if (on == ForceOn::charged_body) instance.parameters.push_back(charge(of[0]));
+    }
+    return instance;
+  }
+
+  template <class Force>
+  void add_force(const SceneEffect& effect) {
+    EffectReach reach{acted_on(effect, Force::on), number_};
+    ForceInput<S> all{effect.kind, current_, effect.is_mutual(), d_, 1, 1, scene_.constants, effect.formulas};
+    for (const Names& of : reach.on) all.instances.push_back(force_instance(Force::on, of));
+    FormulaNames used;
+    for (const ForceKey& key : Force::keys)
+      for (const Expression& formula : effect.formulas.find(key.name)->second)
+        used.merge(names_used(formula, force_names(effect.of, key.local, static_cast<int>(d_)), scene_.constants));
+    // Forces on bodies with an inertia of another form are apart.
+    std::vector<std::vector<typename ForceInput<S>::Instance>> alike;
+    std::vector<std::vector<Names>> whom;
+    for (std::size_t n = 0; n < reach.on.size(); ++n) {
+      const auto like = std::ranges::find_if(
+          alike, [&](const auto& list) { return list.front().x.size() == all.instances[n].x.size(); });
+      const auto at = static_cast<std::size_t>(like - alike.begin());
+      if (like == alike.end()) {
+        alike.emplace_back();
+        whom.emplace_back();
+      }
+      alike[at].push_back(all.instances[n]);
+      whom[at].push_back(reach.on[n]);
+    }
+    for (std::size_t n = 0; n < alike.size(); ++n) {
+      ForceInput<S> input = all;
+      input.instances = alike[n];
+      complete(input, used, whom[n], effect);
+      if (auto term = potential_beside(input)) add(std::move(*term), EffectReach{whom[n]});
+      ForceTerm<S> force = make_force(input);
+      if (Force::works) force.account = clock();
+      check_force(force);
+      problem().forces.push_back(std::move(force));
+    }
+    result_.force_reach.push_back(std::move(reach));
+  }
+
+  /// What the names of a force's formulas stand for, and the values of those that are parameters.
+  void complete(ForceInput<S>& input, const FormulaNames& used, const std::vector<Names>& whom,
+                const SceneEffect& effect) {
+    input.acting = static_cast<Index>(input.instances.front().x.size());
+    const bool timed =
+        std::ranges::any_of(used, [](const auto& name) { return name.second.is == FormulaName::Is::time; });
+    if (timed)
+      for (auto& instance : input.instances) instance.x.push_back(time());
+    if (timed && effect.kind == RotatingFrame::kind) throw InputError("the frame turns at a constant rate, without t");
+    input.arguments = static_cast<Index>(input.instances.front().x.size());
+    input.parameters = input.instances.front().parameters.size();
+    for (const auto& [name, is] : used) {
+      using Is = FormulaVariable::Is;
+      const auto d = static_cast<std::size_t>(d_);
+      const auto input_at = [&](std::size_t place) { return FormulaVariable{Is::input, place}; };
+      switch (is.is) {
+        case FormulaName::Is::time:
+          input.variables[name] = input_at(static_cast<std::size_t>(input.acting) * d);
+          break;
+        case FormulaName::Is::coordinate:
+          input.variables[name] = input_at(is.place * d + is.axis);
+          break;
+        case FormulaName::Is::velocity:
+          input.variables[name] = input_at((static_cast<std::size_t>(input.arguments) + is.place) * d + is.axis);
+          break;
+        default:
+          input.variables[name] = {Is::parameter, input.parameters++};
+          for (std::size_t n = 0; n < whom.size(); ++n)
+            input.instances[n].parameters.push_back(is.is == FormulaName::Is::mass ? mass(whom[n][is.place])
+                                                                                   : charge(whom[n][is.place]));
+      }
+    }
+  }
+
+  /// Refuses a force that has no value at the start.
+  void check_force(const ForceTerm<S>& term) const {
+    ForceInputs<S> inputs(term, d_, 1);
+    Vector<S> v = Vector<S>::Zero(static_cast<Index>(velocities_.size()));
+    const Vector<S> p = Eigen::Map<const Vector<S>>(momenta_.data(), v.size());
+    result_.problem.mass.velocity(lanes(p), lanes(v));
+    v += Eigen::Map<const Vector<S>>(velocities_.data(), v.size());
+    const Vector<S> q = start();
+    inputs.update(lanes(q), lanes(std::as_const(v)));
+    const Matrix<S> F = outputs_of(term.force, term.force_coefficients, inputs.values());
+    for (Index i = 0; i < F.size(); ++i)
+      if (!is_finite(F.data()[i])) throw InputError("the force has no value at the start");
   }
 
   template <class Effect>
@@ -528,6 +718,9 @@ class Assembler {
     Residuals r{Vector<S>(p.m()), Vector<S>(nu), Vector<S>(nu), Vector<S>(nu),
                 Vector<S>(nu),    Vector<S>(nu), Vector<S>(nu)};
     p.mass.velocity(lanes(result_.p0), lanes(r.v));
+    DrivenCourse<S> course(p, 1);
+    hbvm::core::place(course, p, result_.q0);
+    course.set_velocities(lanes(r.v));
     // The velocity of a coordinate carries the round-off of its block's momenta.
     S speed = max_norm(r.v);
     for (const auto& block : p.mass.blocks())
@@ -707,6 +900,9 @@ class Assembler {
   Assembled<S> result_;
   std::map<std::string, Place> places_;
   std::vector<S> positions_, velocities_, momenta_;
+  std::string current_;         ///< what is being added
+  std::optional<Index> clock_;  ///< its own, if it has one
+  std::size_t number_ = 0;      ///< its place among effects or constraints, from 0
   std::map<std::string, RigidBody> rigid_bodies_;
   std::vector<std::size_t> lines_;   ///< of the constraints
   std::vector<std::string> wholes_;  ///< of the constraints: the joint or rigid body they are parts of

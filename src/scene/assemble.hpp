@@ -20,8 +20,9 @@ template <Scalar S>
 struct Assembled {
   Problem<S> problem;
   Vector<S> q0, p0;
-  std::vector<Redundancy> redundant = {};  ///< a finding each; the constraints are in problem.redundant
-  std::vector<EffectReach> reach = {};     ///< of each term of the potential
+  std::vector<Redundancy> redundant = {};     ///< a finding each; the constraints are in problem.redundant
+  std::vector<EffectReach> reach = {};        ///< of each term of the potential
+  std::vector<EffectReach> force_reach = {};  ///< of each effect that is a force without one
   std::string settled = {};  ///< how the start was moved to where the constraints hold; empty if it was not
 };
 

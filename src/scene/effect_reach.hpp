@@ -12,6 +12,7 @@ namespace hbvm::core {
 /// term.
 struct EffectReach {
   std::vector<std::vector<std::string>> on;
+  std::size_t effect = 0;  ///< its number among the effects of the scene, from 0
 };
 
 /// The bodies and rigid bodies that an effect does not act on, each with the reason: "not named".

@@ -39,8 +39,28 @@ std::string TextBegin::place(std::string_view text, std::size_t at) const {
   return "line " + std::to_string(here_line) + ", column " + std::to_string(here_column);
 }
 
+FormulaNames force_names(const std::vector<std::string>& of, bool local, int dimension) {
+  FormulaNames names;
+  names["t"] = {FormulaName::Is::time};
+  if (!local) return names;
+  const auto add_velocity = [&](std::size_t place, const std::string& prefix) {
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis)
+      names[prefix + "v" + std::string(axes.substr(axis, 1))] = {FormulaName::Is::velocity, place, axis};
+  };
+  if (of.empty()) {
+    add_place(names, 0, dimension, [](std::string_view name) { return std::string(name); });
+    add_velocity(0, "");
+  }
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    add_place(names, i, dimension, [&](std::string_view name) { return of[i] + "." + std::string(name); });
+    add_velocity(i, of[i] + ".");
+  }
+  return names;
+}
+
 FormulaNames formula_names(const SceneFormula& formula, int dimension) {
   FormulaNames names;
+  names["t"] = {FormulaName::Is::time};
   const auto plain = [](std::string_view name) { return std::string(name); };
   if (formula.acts == Acts::on_each_body || formula.acts == Acts::about_a_center) {
     add_place(names, 0, dimension, plain);
@@ -62,14 +82,16 @@ FormulaNames formula_names(const SceneFormula& formula, int dimension) {
 }
 
 FormulaNames names_used(const SceneFormula& formula, int dimension, const Constants& constants) {
-  const FormulaNames known = formula_names(formula, dimension);
+  return names_used(formula.expression, formula_names(formula, dimension), constants);
+}
+
+FormulaNames names_used(const Expression& expression, FormulaNames known, const Constants& constants) {
+  if (constants.contains("t")) known.erase("t");
   FormulaNames used;
-  for_each_name(*formula.expression.root(), [&](const Expression::Node& node) {
+  for_each_name(*expression.root(), [&](const Expression::Node& node) {
     const auto found = known.find(node.text);
     const bool constant = constants.contains(node.text);
-    const auto fail = [&](const std::string& reason) {
-      throw ExpressionError(formula.expression.text(), node.at, reason);
-    };
+    const auto fail = [&](const std::string& reason) { throw ExpressionError(expression.text(), node.at, reason); };
     if (found != known.end() && constant)
       fail("'" + node.text + "' is a constant of the scene, and something of the bodies here: rename the constant");
     if (found != known.end()) {

@@ -11,12 +11,15 @@
 #include "scalar/literal.hpp"
 #include "scene/formula_binding.hpp"
 #include "scene/level_lines.hpp"
+#include "scene/moving_point.hpp"
 #include "scene/traced_curve.hpp"
 
 namespace hbvm::core {
 namespace {
 
-bool is_about(const SceneConstraint& c, const SceneBody& body) {
+/// A surface that moves is not drawn.
+bool is_about(const SceneConstraint& c, const SceneBody& body, const Constants& constants) {
+  if (c.formula && names_time(c.formula->expression, constants)) return false;
   if (c.formula) return c.formula->of == std::vector<std::string>{body.name};
   return c.pairs.empty() && c.bodies.size() == 1 && c.bodies.begin()->second == body.name && c.has("body") &&
          (c.kind == "plane" || c.kind == "quadric");
@@ -29,6 +32,7 @@ struct LoneBody {
 
   Displacement<double> position(const std::string&) const { return {{{0, 1}}, {}}; }
   Displacement<double> difference(const std::string&, const std::string&) const { return {}; }
+  Displacement<double> time() const { return {}; }
   double mass(const std::string&) const { return evaluate<double>(*body.mass, scene.constants); }
   double charge(const std::string&) const { return evaluate<double>(*body.charge, scene.constants); }
 };
@@ -118,7 +122,8 @@ SpaceBox widened_for_lines(SpaceBox box, std::size_t dimension, double share) {
 std::vector<LevelFunction> holding(const Scene& scene, const SceneBody& body) {
   std::vector<LevelFunction> result;
   for (const SceneConstraint& c : scene.constraints)
-    if (is_about(c, body)) result.push_back(c.formula ? function_of(scene, *c.formula, body) : function_of(scene, c));
+    if (is_about(c, body, scene.constants))
+      result.push_back(c.formula ? function_of(scene, *c.formula, body) : function_of(scene, c));
   return result;
 }
 
@@ -129,7 +134,7 @@ HeldOn held_on(const Scene& scene, const std::vector<std::vector<double>>& state
     const SceneBody& body = scene.bodies[n];
     std::string text;
     for (const SceneConstraint& c : scene.constraints)
-      if (is_about(c, body)) text += text_of(c, body) + "\n";
+      if (is_about(c, body, scene.constants)) text += text_of(c, body) + "\n";
     if (text.empty()) continue;
     const auto at = [&](const std::vector<double>& q) {
       std::array<double, 3> x{};

@@ -1,6 +1,7 @@
 #include "scene/places.hpp"
 
 #include "scalar/literal.hpp"
+#include "scene/moving_point.hpp"
 
 namespace hbvm::core {
 
@@ -20,7 +21,11 @@ std::map<std::string, Displacement<S>, std::less<>> places_of(const Scene& scene
     return x;
   };
   const auto director = [](const std::string& body, std::size_t i) { return body + ".d" + std::to_string(i + 1); };
-  for (const ScenePoint& point : scene.points) places.emplace(point.name, fixed(point.position));
+  for (const ScenePoint& point : scene.points)
+    if (!moves(point, scene.constants))
+      places.emplace(point.name, fixed(point.position));
+    else
+      places.emplace(point.name, Displacement<S>{{{static_cast<Index>(first_coordinate(point, scene)), S(1)}}, {}});
   for (const SceneBody& body : scene.bodies) places.emplace(body.name, moving());
   for (const SceneRigidBody& body : scene.rigid_bodies) {
     places.emplace(body.name, body.fixed ? fixed(body.position) : moving());

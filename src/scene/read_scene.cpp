@@ -9,8 +9,10 @@
 #include "nearest.hpp"
 #include "problem/constraint/registry.hpp"
 #include "problem/effect/registry.hpp"
+#include "problem/force/registry.hpp"
 #include "scene/formula_names.hpp"
 #include "scene/inertia.hpp"
+#include "scene/moving_point.hpp"
 #include "scene/orientation.hpp"
 #include "scene/scene.hpp"
 #include "scene/shape.hpp"
@@ -99,6 +101,7 @@ class SceneReader {
     p.position = table.vector("position", d_);
     p.charge = table.optional_number("charge");
     table.finish();
+    if (moves(p, scene_.constants)) moving_.insert(p.name);
     points_.insert(p.name);
     scene_.points.push_back(std::move(p));
   }
@@ -282,7 +285,8 @@ class SceneReader {
     for (const std::string& end : ends) carriers.insert(carrier(end));
     if (carriers.size() > 1) return;
     const std::string all = ends.size() == 2 ? "both" : "all", &of = *carriers.begin();
-    table.fail(all + " ends are " + (of.empty() ? "fixed points" : "points of the rigid body '" + of + "'"));
+    table.fail(all + " ends are " +
+               (of.empty() ? "points whose motion is given" : "points of the rigid body '" + of + "'"));
   }
 
   void constraint(TomlTable table) {
@@ -411,6 +415,96 @@ class SceneReader {
     }
   }
 
+  /// The formula that a value is, and a number is one, too.
+  static Expression formula_of(const TomlTable& table, const toml::node& node, const std::string& where) {
+    const auto text = node.value_exact<std::string>();
+    if (!text) return table.to_number(node, where);
+    try {
+      return Expression::parse(*text, Expression::Syntax::formula);
+    } catch (const ExpressionError& error) {
+      table.fail(node, where + ": " + error.what());
+    }
+  }
+
+  std::vector<Expression> formulas_of(TomlTable& table, const std::string& key, std::size_t components,
+                                      const FormulaNames& known) {
+    const toml::node& node = table.require(key);
+    const std::string where = "'" + key + "'";
+    std::vector<Expression> result;
+    const toml::array* const array = node.as_array();
+    if (!array && components == 1) {
+      result.push_back(formula_of(table, node, where));
+    } else if (!array || array->size() != components) {
+      table.fail(node, where + " must " +
+                           (components == 1 ? "be a number or a formula"
+                                            : "have " + std::to_string(components) + " components"));
+    } else {
+      for (const toml::node& entry : *array) result.push_back(formula_of(table, entry, where));
+    }
+    for (const Expression& formula : result) {
+      try {
+        names_used(formula, known, scene_.constants);
+      } catch (const ExpressionError& error) {
+        table.fail(node, where + ", " + formula.text() + ": " + error.reason());
+      }
+    }
+    return result;
+  }
+
+  /// Whom a force acts on.
+  void acts(TomlTable& table, SceneEffect& e, ForceOn on) {
+    const auto check_bodies = [&](const std::vector<std::string>& who) {
+      for (const std::string& body : who)
+        if (!rigid_.contains(body)) table.fail("'" + body + "' is no rigid body");
+    };
+    switch (on) {
+      case ForceOn::pair:
+        table.require("between");
+        return acts(table, e, Acts::between_pairs);
+      case ForceOn::rigid_bodies: {
+        const std::vector<std::string> ends = names(table, "between");
+        if (ends.size() != 2 || ends[0] == ends[1]) table.fail("'between' must name two rigid bodies");
+        check_bodies(ends);
+        e.between.emplace();
+        e.between->emplace_back(ends[0], ends[1]);
+        return;
+      }
+      case ForceOn::rigid_body:
+        e.on = {table.string("on")};
+        return check_bodies(*e.on);
+      default:
+        break;
+    }
+    if (e.kind == "force" && table.has("of")) {
+      e.of = group(table, of_effect);
+      return;
+    }
+    if (!table.take("on")) return;
+    e.on = names(table, "on");
+    check_names(table, "on", *e.on, {.attachments = on != ForceOn::inertia, .rigid_bodies = true});
+  }
+
+  template <class Force>
+  void force(TomlTable& table, SceneEffect& e) {
+    const bool about_axis = e.kind == "torque" && table.take("along");
+    acts(table, e, Force::on);
+    for (const ForceKey& key : Force::keys) {
+      const std::string name(key.name);
+      using Components = ForceKey::Components;
+      if (key.components == Components::axial && d_ == 1) table.fail("it needs dimension = 2 or 3");
+      std::size_t components = key.components == Components::one || about_axis ? 1 : d_;
+      if (key.components == Components::axial && d_ == 2) components = 1;
+      if (key.name == "F" && !e.of.empty()) components = d_ * e.of.size();
+      if (!key.fallback.empty() && !table.take(name))
+        e.formulas[name].assign(components, Expression::parse(key.fallback));
+      else
+        e.formulas[name] = formulas_of(table, name, components, force_names(e.of, key.local, scene_.dimension));
+    }
+    if (!about_axis) return;
+    if (d_ != 3) table.fail("'along' needs dimension = 3");
+    e.formulas["along"] = formulas_of(table, "along", 3, {});
+  }
+
   void effect(TomlTable table) {
     SceneEffect e;
     e.kind = table.string("kind");
@@ -420,6 +514,14 @@ class SceneReader {
       formula_effect(table, e);
       return;
     }
+    const bool mutual = e.kind == "torque" && table.has("between");
+    if (e.kind == "torque") table.take(mutual ? "on" : "between");
+    if (with_force(e.kind, mutual, [&]<class Force>() { force<Force>(table, e); })) {
+      table.finish();
+      scene_.effects.push_back(std::move(e));
+      return;
+    }
+    const toml::node* const damping = e.kind == "spring" ? table.take("damping") : nullptr;
     const bool known = with_effect(e.kind, [&]<class Effect>() {
       for (const EffectKey& key : Effect::keys) {
         if (key.is_vector)
@@ -435,14 +537,25 @@ class SceneReader {
     });
     if (!known)
       table.fail("unknown kind of effect" + did_you_mean_or_list(e.kind, with_formula(effect_kinds())) +
-                 ". Effects have a potential: friction, damping, motors and magnetic fields are beyond this program");
+                 ". Forces are smooth: dry friction and contact are beyond this program");
     table.finish();
-    scene_.effects.push_back(std::move(e));
+    scene_.effects.push_back(e);
+    if (!damping) return;
+    SceneEffect damper;
+    damper.kind = Damper::kind;
+    damper.line = e.line;
+    damper.between = e.between;
+    damper.formulas["coefficient"] = {formula_of(table, *damping, "'damping'")};
+    scene_.effects.push_back(std::move(damper));
   }
 
   static std::vector<std::string> effect_kinds() {
     std::vector<std::string> kinds;
     std::apply([&](auto... effect) { (kinds.emplace_back(decltype(effect)::kind), ...); }, Effects{});
+    const auto add_force = [&](auto force) {
+      if (std::string kind(decltype(force)::kind); kinds.back() != kind) kinds.push_back(std::move(kind));
+    };
+    std::apply([&](auto... force) { (add_force(force), ...); }, Forces{});
     return kinds;
   }
 
@@ -492,7 +605,7 @@ class SceneReader {
   const TomlSource& source_;
   Scene& scene_;
   std::size_t d_ = 0;
-  std::set<std::string> names_, points_, bodies_, rigid_;
+  std::set<std::string> names_, points_, moving_, bodies_, rigid_;
   std::map<std::string, std::string> attachments_;  // with their rigid bodies
 };
 

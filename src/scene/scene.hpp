@@ -20,6 +20,7 @@ namespace hbvm::core {
 using SceneVector = std::vector<Expression>;
 using SceneMatrix = std::vector<SceneVector>;  ///< row by row
 
+/// A point at rest, or one that moves along formulas of t.
 struct ScenePoint {
   std::string name;
   SceneVector position;
@@ -109,11 +110,16 @@ struct SceneEffect {
   std::string kind;
   std::map<std::string, Expression, std::less<>> numbers;
   std::map<std::string, SceneVector, std::less<>> vectors;
-  std::string center;                                                       ///< of an effect about a centre
-  std::optional<std::vector<std::string>> on;                               ///< all bodies if absent
-  std::optional<std::vector<std::pair<std::string, std::string>>> between;  ///< all pairs if absent
-  std::optional<SceneFormula> formula = {};                                 ///< of the kind "formula"
+  std::string center;                                                         ///< of an effect about a centre
+  std::optional<std::vector<std::string>> on;                                 ///< all bodies if absent
+  std::optional<std::vector<std::pair<std::string, std::string>>> between;    ///< all pairs if absent
+  std::optional<SceneFormula> formula = {};                                   ///< of the kind "formula"
+  std::map<std::string, std::vector<Expression>, std::less<>> formulas = {};  ///< keys of a force, by components
+  std::vector<std::string> of = {};                                           ///< the bodies of a force on several
   std::size_t line = 0;
+
+  /// Whether it is a force between two, where there is one on a single body as well.
+  bool is_mutual() const { return kind == "torque" && between.has_value(); }
 };
 
 /// What is looked at along the motion: see Observations.

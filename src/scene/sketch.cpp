@@ -5,9 +5,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "scalar/literal.hpp"
 #include "scene/body_shape.hpp"
+#include "scene/moving_point.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -20,8 +22,7 @@ class Sketcher {
     for (const SceneBody& body : scene_.bodies) add({body.name, block(body.position), true, charge(body.charge)});
     for (const SceneRigidBody& body : scene_.rigid_bodies) add(body);
     for (const SceneAttachment& attachment : scene_.attachments) add(attachment);
-    for (const ScenePoint& point : scene_.points)
-      add({point.name, {{}, vector(point.position)}, false, charge(point.charge)});
+    add_points();
     for (const SceneRigidBody& body : scene_.rigid_bodies) give_shape(body);
     for (const SceneConstraint& constraint : scene_.constraints) {
       const auto between = constraint.pairs.find("between");
@@ -39,6 +40,26 @@ class Sketcher {
   }
 
  private:
+  /// Points that move follow after t, which stands as a point after the bodies.
+  void add_points() {
+    const Constants constants = at_start(scene_.constants);
+    bool timed = false;
+    for (const ScenePoint& point : scene_.points) {
+      Displacement<double> x;
+      Vector<double> start(static_cast<Index>(point.position.size()));
+      for (std::size_t i = 0; i < point.position.size(); ++i)
+        start[static_cast<Index>(i)] = evaluate<double>(point.position[i], constants);
+      if (moves(point, scene_.constants)) {
+        if (!std::exchange(timed, true)) start_.insert(start_.end(), point.position.size(), 0);
+        x.blocks.push_back({static_cast<Index>(first_coordinate(point, scene_)), 1});
+        start_.insert(start_.end(), start.begin(), start.end());
+      } else {
+        x.shift = start;
+      }
+      add({point.name, std::move(x), false, charge(point.charge)});
+    }
+  }
+
   /// A rigid body: where the coordinates of its directors begin, and what is fastened to it.
   struct RigidBody {
     Displacement<double> reference;

@@ -132,8 +132,16 @@ std::string write_scene(const Scene& scene) {
     if (!e.center.empty()) w.key("center", quoted(e.center));
     for (const auto& [name, value] : e.numbers) w.key(name, text(value));
     for (const auto& [name, value] : e.vectors) w.key(name, text(value));
-    if (e.on) w.key("on", text(*e.on));
-    if (e.between) {
+    for (const auto& [name, components] : e.formulas)
+      w.key(name, components.size() == 1 ? text(components.front()) : text(components));
+    if (e.kind == "torque" && e.on)
+      w.key("on", quoted(e.on->front()));
+    else if (e.on)
+      w.key("on", text(*e.on));
+    if (!e.of.empty()) w.key("of", text(e.of));
+    if (e.is_mutual()) {
+      w.key("between", text(std::vector<std::string>{e.between->front().first, e.between->front().second}));
+    } else if (e.between) {
       std::vector<std::array<std::string, 2>> pairs;
       for (const auto& [a, b] : *e.between) pairs.push_back({a, b});
       w.key("between", text(pairs));

@@ -55,6 +55,7 @@ bool BranchGuard<S>::multipliers_run_wild(const StageUnknowns<S>& x) const {
   for (Index a = 0; a < x.lambda.cols(); ++a) {
     const auto& pattern = gradient.pattern(a);
     for (std::size_t c = 0; c < pattern.coordinates.size(); ++c) {
+      if (pattern.coordinates[c] >= problem_.mass.of_bodies()) continue;
       const Index column = pattern.first + static_cast<Index>(c);
       const S most = much * size_[pattern.coordinates[c]];
       for (Index i = 0; i < method_.r; ++i)

@@ -27,16 +27,23 @@ Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method)
     : problem_(problem),
       method_(method),
       curvature_(problem, method.k, method.r),
+      slopes_(problem, method.k),
+      bodies_(problem.mass.of_bodies()),
       W_(inverse_mass_rows(problem.mass)),
       X_hat_(method.X_s.lazyProduct(method.projection_hat)),
       X_projection_(method.X_s.lazyProduct(method.projection)) {
-  const Index m = problem.m(), nu = problem.nu(), s = method.s;
+  const Index m = bodies_, nu = problem.nu(), s = method.s;
   const ConstraintGradient<S> gradient(problem, 1);
   std::vector<std::pair<Index, Index>> entries;
-  for (const auto& pair : curvature_.pairs())
+  const auto couple = [&](const auto& pair) {
+    if (pair.row >= m) return;
     for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)]) entries.emplace_back(pair.row, column);
+  };
+  std::ranges::for_each(curvature_.pairs(), couple);
+  std::ranges::for_each(slopes_.pairs(), couple);
   for (Index a = 0; a < nu; ++a) {
-    for (const Index j : gradient.pattern(a).coordinates) entries.emplace_back(m + a, j);
+    for (const Index j : gradient.pattern(a).coordinates)
+      if (j < m) entries.emplace_back(m + a, j);
     for (const Index j : gradient.weighted_pattern(a).coordinates) entries.emplace_back(m + a, j);
   }
   order_ = order_for_band(m + nu, entries);
@@ -47,6 +54,7 @@ Jacobian<S>::Jacobian(const Problem<S>& problem, const Hbvm<S>& method)
   for (const auto& block : problem.mass.blocks())
     for (Index i = 0; i < block.size; ++i)
       coordinate_exponents_.push_back(binary_exponent(block.full ? block.M(i, i) : block.mass));
+  coordinate_exponents_.resize(static_cast<std::size_t>(problem.m()));
   row_exponents_.resize(static_cast<std::size_t>(nu));
   column_exponents_.resize(static_cast<std::size_t>(nu));
   row_factors_.assign(static_cast<std::size_t>(n_), S(1));
@@ -80,6 +88,10 @@ OperationCounts Jacobian<S>::assembly_operations() const {
     counts.add_products((k + r) * square);
     counts.add(Op::multiply, (k + r) * (s + 1));
     counts.add_products(weights(pair.column) * square);
+  }
+  for (const auto& pair : slopes_.pairs()) {
+    counts.add_products((2 * k + weights(pair.column)) * square);
+    counts.add(Op::multiply, 2 * k * (s + 1));
   }
   const ConstraintGradient<S> gradient(problem_, 1);
   for (Index a = 0; a < problem_.nu(); ++a) {
@@ -124,7 +136,7 @@ void Jacobian<S>::add_weighted(const S& factor, const Matrix<S>& X, const S* w, 
 
 template <Scalar S>
 void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda) {
-  const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
+  const Index m = bodies_, nu = problem_.nu(), s = method_.s;
   const S& h = at.step();
   const S h2 = h * h;
   matrix_.set_zero();
@@ -145,14 +157,20 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
       curved_(n, varying[e].pair) += (*curvatures)(n, static_cast<Index>(e)) * multipliers(n, varying[e].constraint);
   for (std::size_t p = 0; p < curvature_.pairs().size(); ++p) {
     const auto& pair = curvature_.pairs()[p];
+    if (pair.row >= m) continue;
     const auto second = static_cast<Index>(p);
     block_.setZero();
     add_weighted(-h2, X_hat_, &hessian(0, second), method_.I_hat);
     add_weighted(h2, X_projection_, &curved_(0, second), method_.I_s);
-    for (const auto& [column, w] : W_[static_cast<std::size_t>(pair.column)])
-      for (Index j = 0; j < s; ++j)
-        for (Index i = 0; i < s; ++i)
-          matrix_.entry(of_coordinate(pair.row) + i, of_coordinate(column) + j) += block_(i, j) * w;
+    spread_block(pair.row, pair.column);
+  }
+  if (!slopes_.pairs().empty()) slopes_.evaluate(lanes(at.quadrature_positions()), lanes(at.quadrature_velocities()));
+  for (std::size_t p = 0; p < slopes_.pairs().size(); ++p) {
+    const auto slope = static_cast<Index>(p);
+    block_.setZero();
+    add_weighted(-h2, X_hat_, &slopes_.by_position()(0, slope), method_.I_hat);
+    add_weighted(-h, X_hat_, &slopes_.by_velocity()(0, slope), method_.P_hat);
+    spread_block(slopes_.pairs()[p].row, slopes_.pairs()[p].column);
   }
 
   const ConstraintGradient<S>& gradient = at.constraint_gradient();
@@ -160,8 +178,11 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
   for (Index a = 0; a < nu; ++a) {
     const auto& own = gradient.pattern(a);
     const auto& weighted = gradient.weighted_pattern(a);
+    // Driven coordinates are the last.
+    const auto moving =
+        static_cast<std::size_t>(std::ranges::lower_bound(own.coordinates, m) - own.coordinates.begin());
     if (coefficients) {
-      for (std::size_t l = 0; l < own.coordinates.size(); ++l) {
+      for (std::size_t l = 0; l < moving; ++l) {
         block_.setZero();
         add_weighted(S(1), X_projection_, &gradient.values()(0, own.first + static_cast<Index>(l)), method_.P_s);
         for (Index j = 0; j < s; ++j)
@@ -174,7 +195,7 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
       }
       continue;
     }
-    for (std::size_t l = 0; l < own.coordinates.size(); ++l)
+    for (std::size_t l = 0; l < moving; ++l)
       for (Index n = 0; n < s; ++n)
         for (Index i = 0; i < s; ++i)
           matrix_.entry(of_coordinate(own.coordinates[l]) + i, of_multiplier(a) + n) =
@@ -210,6 +231,14 @@ void Jacobian<S>::assemble(const StageEquations<S>& at, const Matrix<S>& lambda)
 }
 
 template <Scalar S>
+void Jacobian<S>::spread_block(Index row, Index column) {
+  const Index s = method_.s;
+  for (const auto& [other, w] : W_[static_cast<std::size_t>(column)])
+    for (Index j = 0; j < s; ++j)
+      for (Index i = 0; i < s; ++i) matrix_.entry(of_coordinate(row) + i, of_coordinate(other) + j) += block_(i, j) * w;
+}
+
+template <Scalar S>
 void Jacobian<S>::set_rows(const S* w, const Matrix<S>& F) {
   block_.setZero();
   if (method_.has_coefficients_of_lambda())
@@ -229,7 +258,7 @@ void Jacobian<S>::add_rows(Index constraint, Index coordinate, const S& factor) 
 
 template <Scalar S>
 void Jacobian<S>::choose_scales(const ConstraintGradient<S>& gradient) {
-  const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
+  const Index m = bodies_, nu = problem_.nu(), s = method_.s;
   const auto exponent = [](const Matrix<S>& values, Index first, std::size_t columns) {
     S largest = 0;
     for (Index i = first * values.rows(); i < (first + static_cast<Index>(columns)) * values.rows(); ++i)
@@ -270,7 +299,7 @@ void Jacobian<S>::solve(StageResidual<S>& r) {
     for (Index i = 0; i < residual.rows(); ++i)
       set_product(residual(i, column), residual(i, column), row_factors_[static_cast<std::size_t>(first + i)]);
   };
-  for (Index j = 0; j < problem_.m(); ++j) divide(r.momentum, j, of_coordinate(j));
+  for (Index j = 0; j < bodies_; ++j) divide(r.momentum, j, of_coordinate(j));
   for (Index a = 0; a < problem_.nu(); ++a) divide(r.constraint, a, of_multiplier(a));
   solve_scaled(r);
 }
@@ -278,7 +307,7 @@ void Jacobian<S>::solve(StageResidual<S>& r) {
 template <Scalar S>
 void Jacobian<S>::solve_scaled(StageResidual<S>& r) {
   const PartCall counted(parts_[corrections]);
-  const Index m = problem_.m(), nu = problem_.nu(), s = method_.s;
+  const Index m = bodies_, nu = problem_.nu(), s = method_.s;
   for (Index j = 0; j < m; ++j)
     for (Index i = 0; i < s; ++i) set(x_[of_coordinate(j) + i], r.momentum(i, j));
   for (Index a = 0; a < nu; ++a)

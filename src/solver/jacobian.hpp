@@ -3,6 +3,7 @@
 #include "linear/lu.hpp"
 #include "linear/ordering.hpp"
 #include "problem/curvature.hpp"
+#include "problem/force_slopes.hpp"
 #include "solver/part_count.hpp"
 #include "solver/stage_equations.hpp"
 
@@ -12,11 +13,13 @@ namespace hbvm::core {
 ///
 /// With W = M^-1 and, at the nodes,
 ///
-///     H_n = grad^2 U at c_hat_n,   L_n = sum_a lambda_a grad^2 g_a and D_n = (grad^2 g_a W v_n)_a at c_n,
+///     H_n = grad^2 U + dF/dq and B_n = dF/dv at c_hat_n,   L_n = sum_a lambda_a grad^2 g_a and D_n = (grad^2 g_a W
+///     v_n)_a at c_n,
 ///
 /// it is
 ///
 ///     d momentum_i   / d gamma_j       = delta_ij - h^2 sum_n (X P_hat^T Omega_hat)_in H_n I_hat_nj W
+///                                                 - h sum_n (X P_hat^T Omega_hat)_in B_n P_hat_nj W
 ///                                                 + h^2 sum_n (X P^T Omega)_in L_n I_nj W
 ///     d momentum_i   / d (h lambda_n)  = (X P^T Omega)_in grad g_n
 ///     d constraint_n / d gamma_j       = P_nj grad g_n^T W + h I_nj D_n^T W
@@ -69,6 +72,8 @@ class Jacobian {
   /// block_ += factor sum_n X_in w_n I_nj.
   void add_weighted(const S& factor, const Matrix<S>& X, const S* w, const Matrix<S>& I);
   void assemble(const StageEquations<S>& at, const Matrix<S>& lambda);
+  /// Adds block_ times what M^-1 makes of a column of coordinates, in the rows of a coordinate.
+  void spread_block(Index row, Index column);
   /// block_ = projection diag(w) F, for w at the constraints' nodes.
   void set_rows(const S* w, const Matrix<S>& F);
   /// Adds block_ times what M^-1 makes of a column of coordinates, in the rows of a constraint.
@@ -77,11 +82,13 @@ class Jacobian {
   void choose_scales(const ConstraintGradient<S>& gradient);
   void scale();
   Index of_coordinate(Index j) const { return order_.position[static_cast<std::size_t>(j)] * method_.s; }
-  Index of_multiplier(Index a) const { return order_.position[static_cast<std::size_t>(problem_.m() + a)] * method_.s; }
+  Index of_multiplier(Index a) const { return order_.position[static_cast<std::size_t>(bodies_ + a)] * method_.s; }
 
   const Problem<S>& problem_;
   const Hbvm<S>& method_;
   Curvature<S> curvature_;
+  ForceSlopes<S> slopes_;
+  Index bodies_;                                     ///< coordinates that have a gamma; driven ones come after these
   std::vector<std::vector<std::pair<Index, S>>> W_;  ///< nonzeros of M^-1, row by row
   Matrix<S> X_hat_, X_projection_;                   ///< X P_hat^T Omega_hat and X P^T Omega
   Ordering order_;

@@ -7,13 +7,14 @@
 namespace hbvm::core {
 namespace {
 
-/// The index of the body that each coordinate belongs to.
+/// The index of the body that each coordinate belongs to; driven ones are one more.
 template <Scalar S>
 std::vector<Index> bodies_of(const Problem<S>& problem) {
   std::vector<Index> bodies;
   Index body = 0;
   for (const auto& block : problem.mass.blocks())
     bodies.insert(bodies.end(), static_cast<std::size_t>(block.size), body++);
+  bodies.resize(static_cast<std::size_t>(problem.m()), body);
   return bodies;
 }
 

@@ -9,7 +9,8 @@
 
 namespace hbvm::core {
 
-/// By effect and by part of the stage equations, in whatever precision they were evaluated.
+/// By effect, those of the potential before the forces without one, and by part of the stage equations, in whatever
+/// precision they were evaluated.
 struct SolverCounts {
   std::vector<EffectCount> effects;
   std::vector<PartCount> parts;
@@ -29,7 +30,7 @@ void add_counts(SolverCounts& sum, const SolverCounts& other, const Problem<S>& 
     return;
   }
   for (std::size_t t = 0; t < sum.effects.size(); ++t) {
-    if (problem.potential.terms[t].constant_force) continue;
+    if (t < problem.potential.terms.size() && problem.potential.terms[t].constant_force) continue;
     sum.effects[t].calls += other.effects[t].calls;
     sum.effects[t].evaluations += other.effects[t].evaluations;
     sum.effects[t].seconds += other.effects[t].seconds;

@@ -30,6 +30,10 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
     : problem_(problem),
       method_(method),
       potential_(problem.potential, method.k),
+      without_potential_(problem, method.k),
+      course_(problem, method.r),
+      course_hat_(problem, method.k),
+      varies_(potential_.has_varying_force() || !problem.forces.empty()),
       gradient_(problem, method.r),
       no_carry_(Vector<S>::Zero(problem.m())),
       I_centred_(centred(method.I_s), Parity::Nodes::rows, Parity::First::odd),
@@ -45,8 +49,11 @@ StageEquations<S>::StageEquations(const Problem<S>& problem, const Hbvm<S>& meth
   h_velocity_.resize(s, m);
   u_.resize(r, m);
   u_hat_.resize(method.k, m);
+  w_hat_ = Matrix<S>::Zero(method.k, problem.is_conservative() ? 0 : m);
+  force_ = Matrix<S>::Zero(method.k, m);
   w_.resize(r, m);
   stage_.resize(s, m);
+  last_psi_ = last_zeta_ = Matrix<S>::Zero(course_.empty() ? 0 : s, course_.empty() ? 0 : m);
   pull_.resize(s, m);
   coupling_.resize(r, r);
   if (method.has_coefficients_of_lambda()) {
@@ -90,7 +97,7 @@ void StageEquations<S>::describe_parts() {
   parts_[constraint_nodes].per_call.add(Op::add, r * m);
   parts_[quadrature_nodes].per_call = I_hat_centred_.operations(m);
   parts_[quadrature_nodes].per_call.add(Op::add, k * m);
-  if (potential_.has_varying_force()) parts_[projection].per_call = projection_hat_.operations(m);
+  if (varies_) parts_[projection].per_call = projection_hat_.operations(m);
   const auto pulled = static_cast<Index>(pulled_.size());
   OperationCounts exact_sum;
   exact_sum.add(Op::add, 2 * pulled);
@@ -129,14 +136,16 @@ template <Scalar S>
 OperationCounts StageEquations<S>::residual_operations() const {
   OperationCounts sum;
   for (const Part part : {velocities, projection, gammas, constraint_residual}) sum += parts_[part].per_call;
-  if (potential_.has_varying_force()) {
+  if (varies_) {
     sum += parts_[quadrature_nodes].per_call;
     for (std::size_t t = 0; t < potential_.counts().size(); ++t)
       if (!problem_.potential.terms[t].constant_force)
         sum += static_cast<std::uint64_t>(method_.k) * potential_.counts()[t].done();
+    for (const EffectCount& count : without_potential_.counts())
+      sum += static_cast<std::uint64_t>(method_.k) * count.done();
   }
   if (problem_.nu() == 0) return sum;
-  if (method_.k != method_.r || !potential_.has_varying_force()) sum += parts_[constraint_nodes].per_call;
+  if (method_.k != method_.r || !varies_) sum += parts_[constraint_nodes].per_call;
   return sum + parts_[gradients].per_call + parts_[zetas].per_call;
 }
 
@@ -158,6 +167,22 @@ void StageEquations<S>::start(const StepStart<S>& start) {
   }
   q_carry_ = start.q_carry ? start.q_carry : &no_carry_;
   p_carry_ = start.p_carry ? start.p_carry : &no_carry_;
+  if (!course_.empty()) place_driven();
+}
+
+template <Scalar S>
+void StageEquations<S>::place_driven() {
+  const Index clock = problem_.clock();
+  const auto set_times = [&](const Vector<S>& c, DrivenCourse<S>& course) {
+    for (Index i = 0; i < c.size(); ++i) {
+      set_product(t_, h_, c[i]);
+      set_sum(t_, t_, (*q_carry_)[clock]);
+      set_sum(course.time(i), (*q0_)[clock], t_);
+    }
+    course.evaluate();
+  };
+  set_times(method_.c, course_);
+  set_times(method_.c_hat, course_hat_);
 }
 
 template <Scalar S>
@@ -199,16 +224,22 @@ void StageEquations<S>::forces(Matrix<S>& psi) {
 template <Scalar S>
 template <class Stages, class Nodes>
 [[gnu::always_inline]] inline void StageEquations<S>::forces(Stages s, Nodes k, Matrix<S>& psi) {
-  if (potential_.has_varying_force()) {
+  if (varies_) {
     Matrix<S>& u = method_.k == method_.r ? u_ : u_hat_;
     {
       const PartCall counted(parts_[quadrature_nodes]);
       I_hat_centred_.times_plus(k, s, u, h_velocity_, middle_);
     }
+    course_hat_.set_positions(lanes(u));
     potential_.varying_force(lanes(u), force_);
+    if (!problem_.is_conservative()) {
+      product<S>(w_hat_, method_.P_hat, velocity_);
+      course_hat_.set_velocities(lanes(w_hat_));
+      without_potential_.add(lanes(std::as_const(u)), lanes(std::as_const(w_hat_)), course_hat_, force_);
+    }
   }
   const PartCall counted(parts_[projection]);
-  if (potential_.has_varying_force())
+  if (varies_)
     projection_hat_.times(s, k, psi, force_);
   else
     set_zero(psi);
@@ -224,9 +255,10 @@ template <Scalar S>
 template <class Stages, class Nodes>
 [[gnu::always_inline]] inline void StageEquations<S>::move_constraints(Stages s, Nodes r) {
   // For k = r the nodes of the forces, just computed, are the constraints'.
-  if (method_.k != method_.r || !potential_.has_varying_force()) {
+  if (method_.k != method_.r || !varies_) {
     const PartCall counted(parts_[constraint_nodes]);
     I_centred_.times_plus(r, s, u_, h_velocity_, middle_);
+    course_.set_positions(lanes(u_));
   }
   const PartCall counted(parts_[gradients]);
   gradient_.update(Lanes<const S, Nodes>{u_.data(), r}, static_cast<S*>(nullptr));
@@ -246,6 +278,7 @@ bool StageEquations<S>::multipliers(const Matrix<S>& psi, Matrix<S>& lambda, Mat
       set_momenta(s, psi, zeta, stage_);
       problem_.mass.velocity(Lanes<const S, Stages>{stage_.data(), s}, Lanes<S, Stages>{velocity_.data(), s});
       if (!is_one_node(s, r)) P_.times(r, s, w_, velocity_);
+      course_.set_velocities(lanes(is_one_node(s, r) ? velocity_ : w_));
       hidden_constraints(r, is_one_node(s, r) ? velocity_ : w_, [&](Index a) { return rhs + position[a] * s; });
     }
     {
@@ -301,6 +334,7 @@ template <class Stages, class Nodes>
   set_zero(pull);
   if (method_.has_coefficients_of_lambda()) P_.times(lambda_, lambda);
   gradient_.add_times(node_multipliers(lambda), Lanes<S, Nodes>{pull.data(), r});
+  course_.make_powers(lanes(pull));
   if (!is_one_node(s, r)) projection_.times(s, r, zeta, w_);
 }
 
@@ -332,6 +366,23 @@ void StageEquations<S>::changes(const StageUnknowns<S>& x, StepChange<S>& change
     take_rest(x.psi, x.zeta, j);
     set_product(p_rest[j], rest_, h_);
   }
+  if (!course_.empty()) change_accounts(x, change);
+}
+
+template <Scalar S>
+void StageEquations<S>::change_accounts(const StageUnknowns<S>& x, StepChange<S>& change) {
+  move(x.gamma);
+  forces(last_psi_);
+  set_zero(last_zeta_);
+  if (problem_.nu() > 0)
+    with_stages([&](auto s, auto r) {
+      move_constraints(s, r);
+      project_multipliers(s, r, x.lambda, last_zeta_);
+    });
+  for (Index j = problem_.clock(); j < problem_.m(); ++j) {
+    set_difference(change.p[j], last_psi_(0, j), last_zeta_(0, j));
+    set_product(change.p[j], change.p[j], h_);
+  }
 }
 
 template <Scalar S>
@@ -352,6 +403,7 @@ void StageEquations<S>::residual(StageUnknowns<S>& x, StageResidual<S>& residual
     set_difference(residual.momentum, x.gamma, residual.momentum);
     if (!constrained) return;
     P_.times(r, s, w_, velocity_);
+    course_.set_velocities(lanes(w_));
     S* const hidden = residual.constraint.data();
     hidden_constraints(r, w_, [&](Index b) { return hidden + b * s; });
   });
@@ -375,7 +427,8 @@ template <class Stages>
   const S* __restrict const carry = p_carry_->data();
   const S* __restrict const p0 = p0_->data();
   const Held<S> h = h_;
-  const Index m = gamma.cols();
+  const Index m = problem_.mass.of_bodies();
+  for (Index i = m * s; i < gamma.size(); ++i) set_zero(sums[i]);
   const auto at = [&](Index i, Index j) { return i + j * s; };
   const auto set_sums = [&](Index j) __attribute__((always_inline)) {
     HeldScratch<S> t = t_;

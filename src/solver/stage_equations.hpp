@@ -8,6 +8,7 @@
 #include "linear/parity_matrix.hpp"
 #include "method/hbvm.hpp"
 #include "problem/constraint_gradient.hpp"
+#include "problem/force_evaluator.hpp"
 #include "solver/part_count.hpp"
 
 namespace hbvm::core {
@@ -25,6 +26,9 @@ struct StageUnknowns {
 ///
 ///     momentum   = gamma - e_1 p0 - h X_s (psi_hat - zeta)          s x m, (54)
 ///     constraint = grad g(u_i)^T M^-1 v_i, v_i = sum_j P_j(c_i) gamma_j   s x nu, (52)
+///
+/// Of driven coordinates the momentum's is 0: their gamma is, since nothing depends on it. The velocities in the
+/// constraint's are theirs.
 ///
 /// or, with r > s nodes for constraints that are not quadratic, the first s Legendre coefficients of the latter.
 template <Scalar S>
@@ -72,7 +76,8 @@ class StageEquations {
 
   /// Moves all nodes to the polynomial u of (48) with these coefficients: keeps h M^-1 gamma.
   void move(const Matrix<S>& gamma);
-  /// psi = P_hat^T Omega_hat grad U(u at c_hat).
+  /// psi = P_hat^T Omega_hat (grad U + F)(u at c_hat), after move(). F is evaluated at M^-1 sum_j P_j(c_hat_i) gamma_j,
+  /// which is u' there. So a force that does no work does none in a step, node by node.
   void forces(Matrix<S>& psi);
   /// Changes lambda so that the momenta that follow from it and psi fulfil the hidden constraints at the current nodes.
   /// Then sets zeta = P_s^T Omega (grad g lambda). Without constraints it does nothing. The multipliers solve (29),
@@ -88,7 +93,8 @@ class StageEquations {
   /// gamma = e_1 p0 + h X_s (psi - zeta), which is (54) by (31).
   void momenta(const Matrix<S>& psi, const Matrix<S>& zeta, Matrix<S>& gamma);
 
-  /// The change of the state at x, whose psi came from the last call of forces().
+  /// The change of the state at x, whose psi came from the last call of forces(). Of driven coordinates it is evaluated
+  /// at x itself: nothing iterates to what is on them.
   void changes(const StageUnknowns<S>& x, StepChange<S>& change);
 
   /// The residual at x.gamma and x.lambda; sets x.psi and x.zeta, too. Moves the nodes.
@@ -98,6 +104,7 @@ class StageEquations {
   const Matrix<S>& node_positions() const { return u_; }
   const Matrix<S>& quadrature_positions() const { return method_.k == method_.r ? u_ : u_hat_; }
   const Matrix<S>& node_velocities() const { return w_; }
+  const Matrix<S>& quadrature_velocities() const { return w_hat_; }
   /// The multipliers at the nodes c_i, r x nu, as residual() or multipliers() had them last.
   const Matrix<S>& node_multipliers(const Matrix<S>& lambda) const {
     return method_.has_coefficients_of_lambda() ? lambda_ : lambda;
@@ -110,11 +117,16 @@ class StageEquations {
     set_in_double(u_, from.node_positions());
     if (method_.k != method_.r) set_in_double(u_hat_, from.quadrature_positions());
     set_in_double(w_, from.node_velocities());
+    if (!problem_.forces.empty()) set_in_double(w_hat_, from.quadrature_velocities());
     gradient_.round(from.constraint_gradient());
   }
 
   /// What was done since construction: by effect, and by part (the forces' own work is in the effects').
-  const std::vector<EffectCount>& effect_counts() const { return potential_.counts(); }
+  std::vector<EffectCount> effect_counts() const {
+    std::vector<EffectCount> all = potential_.counts();
+    all.insert(all.end(), without_potential_.counts().begin(), without_potential_.counts().end());
+    return all;
+  }
   const std::vector<PartCount>& part_counts() const { return parts_; }
   /// What residual() takes, with all forces evaluated.
   OperationCounts residual_operations() const;
@@ -136,6 +148,10 @@ class StageEquations {
     constraint_residual
   };
   void describe_parts();
+  /// The change of the momenta of driven coordinates, from the forces at x.
+  void change_accounts(const StageUnknowns<S>& x, StepChange<S>& change);
+  /// Where driven points are at the nodes of the step.
+  void place_driven();
 
   /// Of one node values and coefficients are the same numbers: P and the weight are 1.
   static bool is_one_node(Index stages, Index nodes) { return stages == 1 && nodes == 1; }
@@ -166,6 +182,9 @@ class StageEquations {
   const Hbvm<S>& method_;
   S h_ = 0;
   PotentialEvaluator<S> potential_;
+  ForceEvaluator<S> without_potential_;
+  DrivenCourse<S> course_, course_hat_;  ///< at the nodes c and c_hat of the step
+  bool varies_;                          ///< what psi is of
   ConstraintGradient<S> gradient_;
   Ordering order_;  // of the constraints in the matrix of (29)
   Lu<S> system_;
@@ -180,9 +199,10 @@ class StageEquations {
   std::vector<Index> pulled_;        // the coordinates on which a constant force acts
   Vector<S> psi_rest_;               // m: what rounding took from their psi_0 in the last forces()
   Matrix<S> velocity_, h_velocity_;  // s x m
-  Matrix<S> u_hat_, force_;          // k x m
+  Matrix<S> u_hat_, w_hat_, force_;  // k x m
   Matrix<S> u_, w_;                  // r x m
   Matrix<S> stage_, pull_;           // s x m
+  Matrix<S> last_psi_, last_zeta_;   // s x m, where points are driven
   Matrix<S> coupling_;               // r x r
   Matrix<S> lambda_;                 // r x nu, if lambda has coefficients; as are the next four
   Vector<S> hidden_;                 // r: one of the hidden constraints at the nodes

@@ -6,13 +6,14 @@
 namespace hbvm::core {
 
 /// Steps back in time. H is even in p, so a step back is one of another stepper forward from (q, -p), with p reversed
-/// again. The multiplier is the same.
+/// again. The multiplier is the same. With forces without a potential, or driven points, it is one of size -h.
 template <Scalar S>
 class BackwardStepper final : public ForwardingStepper<S> {
  public:
   using ForwardingStepper<S>::ForwardingStepper;
 
   StepResult<S> step(State<S>& state, const S& h) override {
+    if (!this->problem().is_conservative()) return this->inner().step(state, S(-h));
     const Reversal reversal(state);
     StepResult<S> result = this->inner().step(state, h);
     result.reversed = !result.reversed;

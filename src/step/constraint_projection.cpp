@@ -14,6 +14,7 @@ ConstraintProjection<S>::ConstraintProjection(const Problem<S>& problem)
       g_(shift_),
       mu_(shift_),
       v_(problem.m()),
+      course_(problem, 1),
       x_(problem.nu()) {
   std::vector<std::pair<Index, Index>> entries;
   for (const auto& pair : gradients_[0].couplings()) entries.emplace_back(pair.a, pair.b);
@@ -51,25 +52,26 @@ template <Scalar S>
 void ConstraintProjection<S>::set_position(const Vector<S>& q) {
   const PartCall counted(parts_[gradients]);
   found().update(lanes(q));
+  place(course_, problem_, q);
 }
 
 template <Scalar S>
 bool ConstraintProjection<S>::solve(ConstraintGradient<S>& left, const ConstraintGradient<S>& right, Matrix<S>& x) {
-  const auto place = [&](Index a) { return order_.position[static_cast<std::size_t>(a)]; };
+  const auto row_of = [&](Index a) { return order_.position[static_cast<std::size_t>(a)]; };
   {
     const PartCall counted(parts_[matrix]);
     system_.set_zero();
     left.for_each_coupling(right, &product_,
-                           [&](const auto& pair) { set(system_.entry(place(pair.a), place(pair.b)), product_); });
+                           [&](const auto& pair) { set(system_.entry(row_of(pair.a), row_of(pair.b)), product_); });
   }
   {
     const PartCall counted(parts_[factors]);
     if (!system_.factor()) return false;
   }
   const PartCall counted(parts_[solution]);
-  for (Index a = 0; a < x.size(); ++a) set(x_[place(a)], x.data()[a]);
+  for (Index a = 0; a < x.size(); ++a) set(x_[row_of(a)], x.data()[a]);
   system_.solve(x_);
-  for (Index a = 0; a < x.size(); ++a) set(x.data()[a], x_[place(a)]);
+  for (Index a = 0; a < x.size(); ++a) set(x.data()[a], x_[row_of(a)]);
   return true;
 }
 
@@ -106,7 +108,10 @@ long ConstraintProjection<S>::find_position(const Vector<S>& free, const S& fact
       const PartCall counted(parts_[gradients]);
       found().update(lanes(std::as_const(q)), g_);
     }
-    if (converged || (stagnant && is_round_off(q))) return iterations;
+    if (converged || (stagnant && is_round_off(q))) {
+      place(course_, problem_, q);
+      return iterations;
+    }
     if (!solve(found(), directions(), g_) || ++iterations > max_iterations)
       throw StageFailure(FailureCause::stage_equations_diverge, "no position on the constraints was found",
                          to_scientific(increment, 3), iterations);
@@ -135,13 +140,16 @@ const Matrix<S>& ConstraintProjection<S>::make_tangential(Vector<S>& p) {
   {
     const PartCall counted(parts_[tangential]);
     problem_.mass.velocity(lanes(std::as_const(p)), lanes(v_));
+    course_.set_velocities(lanes(v_));
     for (Index a = 0; a < mu_.size(); ++a) found().transposed_times(a, lanes(std::as_const(v_)), &mu_(0, a));
   }
   if (!solve(found(), found(), mu_))
     throw StageFailure(FailureCause::near_singular_constraints, "the constraints' gradients are linearly dependent",
                        "0", 0);
   for (Index a = 0; a < mu_.size(); ++a) set_negative(shift_.data()[a], mu_.data()[a]);
+  for (Index j = problem_.clock(); j < p.size(); ++j) set(v_[j], p[j]);
   found().add_times(shift_, lanes(p));
+  for (Index j = problem_.clock(); j < p.size(); ++j) set(p[j], v_[j]);
   return mu_;
 }
 

@@ -2,6 +2,7 @@
 
 #include "linear/lu.hpp"
 #include "linear/ordering.hpp"
+#include "problem/driven_course.hpp"
 #include "solver/stage_solver.hpp"
 
 namespace hbvm::core {
@@ -47,7 +48,9 @@ class ConstraintProjection {
   Ordering order_;
   Lu<S> system_;
   Matrix<S> shift_, g_, mu_;  // 1 x nu
-  Vector<S> v_, x_;
+  Vector<S> v_;
+  DrivenCourse<S> course_;  ///< at the position that was found last
+  Vector<S> x_;
   S product_ = 0;  ///< of two gradients
   std::vector<PartCount> parts_;
 };

@@ -181,6 +181,7 @@ class EnergyMomentumMethod final : public MethodByTemplate<EnergyMomentumMethod>
   Orders orders() const override { return {.p = 2, .lambda = 1, .hidden = 2}; }
   template <Scalar S>
   StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind) const {
+    require_conservative(problem, text());
     if (degree(problem.constraints) != 2)
       throw InputError(
           "method energy_momentum takes quadratic constraints alone, whose discrete derivative is the gradient half "

@@ -16,7 +16,7 @@ HbvmMethod::HbvmMethod(HbvmName name, std::optional<Perturbation> perturbation)
 template <Scalar S>
 int HbvmMethod::constraint_nodes(const Problem<S>& problem) const {
   if (name_.r != 0) return name_.r;
-  const int d = degree(problem.constraints);
+  const int d = degree_of_g(problem);
   if (d == Trace<S>::not_polynomial) return std::max(name_.k, name_.s);
   return exact_nodes(d, name_.s);
 }

@@ -33,6 +33,7 @@ class HbvmStepper final : public CountingStepper<S> {
   std::shared_ptr<const Hbvm<S>> kept_method_;
   std::unique_ptr<StageSolver<S>> solver_;
   Vector<S> multiplier_;
+  DrivenCourse<S> arrival_;
   PartCount update_{"state and multiplier at the end"};
   S s_, t_;
 };

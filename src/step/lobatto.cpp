@@ -266,6 +266,7 @@ class LobattoMethod final : public MethodByTemplate<LobattoMethod> {
   Constants parameters() const override { return letter_s(s_); }
   template <Scalar S>
   StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind) const {
+    require_conservative(problem, text());
     return [&problem, method = std::make_shared<const Lobatto<S>>(make_lobatto<S>(s_))] {
       return std::make_unique<LobattoStepper<S>>(problem, method);
     };

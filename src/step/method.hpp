@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hbvm/error.hpp"
 #include "scalar/expression.hpp"
 #include "step/stepper.hpp"
 
@@ -79,6 +80,17 @@ class Method {
 };
 
 using MethodPtr = std::shared_ptr<const Method>;
+
+/// Refuses a problem whose forces do not all come from a potential of q alone. \throws InputError
+template <Scalar S>
+void require_conservative(const Problem<S>& problem, const std::string& method) {
+  if (problem.is_conservative()) return;
+  throw InputError("method " + method +
+                   " takes forces with a potential that does not depend on t, and points at rest; here " +
+                   (problem.forces.empty() ? "'" + problem.driven.back().name + "' depends on t"
+                                           : "there is " + problem.forces.front().name) +
+                   "; use hbvm:K,S, projected_hbvm:K,S or a Runge-Kutta method");
+}
 
 /// A method that is prepared by one template of its own,
 ///

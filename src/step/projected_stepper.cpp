@@ -34,7 +34,8 @@ ProjectedStepper<S>::ProjectedStepper(std::unique_ptr<Stepper<S>> inner, OnEnerg
 
 template <Scalar S>
 SolverCounts ProjectedStepper<S>::own_counts() const {
-  SolverCounts now{std::vector<EffectCount>(problem().potential.terms.size()), projection_.part_counts()};
+  SolverCounts now{std::vector<EffectCount>(problem().potential.terms.size() + problem().forces.size()),
+                   projection_.part_counts()};
   if (on_energy_ == OnEnergy::restore) now.parts.push_back(scaling_);
   return sum_of(now, earlier_, problem());
 }
@@ -92,7 +93,7 @@ void ProjectedStepper<S>::restore(State<S>& state) {
                        to_scientific(missing, 3), 0);
   // sqrt(1 + share) - 1
   const S factor = share / (1 + sqrt(S(1 + share)));
-  for (Index j = 0; j < p_.size(); ++j) {
+  for (Index j = 0; j < problem().mass.of_bodies(); ++j) {
     set_product(change_, factor, state.p[j]);
     add_compensated(state.p[j], state.p_carry[j], change_, s_, t_);
   }

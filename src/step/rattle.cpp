@@ -134,6 +134,7 @@ class RattleMethod final : public MethodByTemplate<RattleMethod> {
   }
   template <Scalar S>
   StepperMaker<S> prepare_in(const Problem<S>& problem, SolverKind) const {
+    require_conservative(problem, text());
     return [&problem, kicks = kicks_] { return std::make_unique<Rattle<S>>(problem, kicks); };
   }
 

@@ -5,6 +5,7 @@
 #include "copy_state.hpp"
 #include "linear/arrays.hpp"
 #include "step/add_compensated.hpp"
+#include "step/move_driven.hpp"
 
 namespace hbvm::core {
 
@@ -24,10 +25,13 @@ ReducedEquations<S>::ReducedEquations(const Problem<S>& problem)
 
 template <Scalar S>
 void ReducedEquations<S>::evaluate(const Vector<S>& q, const Vector<S>& p) {
-  potential_.force(lanes(q), force_);
+  if (problem_.is_conservative())
+    potential_.force(lanes(q), force_);
+  else
+    point_.set_applied(q, p, force_);
   {
     const PartCall counted(parts_[velocities]);
-    problem_.mass.velocity(lanes(p), lanes(velocity_));
+    point_.set_velocity(q, p, velocity_);
     for (Index j = 0; j < total_.size(); ++j) set(total_[j], force_(0, j));
   }
   if (problem_.nu() > 0) {
@@ -57,7 +61,8 @@ ReducedStepper<S>::ReducedStepper(const Problem<S>& problem)
       velocity_(dq_),
       force_(dq_),
       multiplier_(Vector<S>::Zero(problem.nu())),
-      before_(dq_, dq_) {}
+      before_(dq_, dq_),
+      arrival_(problem, 1) {}
 
 template <Scalar S>
 void ReducedStepper<S>::remember_own(Archive& archive) {
@@ -94,12 +99,14 @@ StepResult<S> ReducedStepper<S>::step(State<S>& state, const S& h) {
   try {
     arrive(state.q, state.p);
     parts = advance(h);
+    for (Index j = problem_.clock(); j < q_.size(); ++j) set_zero(dq_[j]);
     for (Index j = 0; j < q_.size(); ++j) {
       if (!is_finite(dq_[j]) || !is_finite(dp_[j]))
         throw StageFailure(FailureCause::stage_equations_diverge, "a step is not finite", "inf", 0);
       add_compensated(state.q[j], state.q_carry[j], dq_[j], s_, t_);
       add_compensated(state.p[j], state.p_carry[j], dp_[j], s_, t_);
     }
+    move_driven(state, h, arrival_, problem_);
     arrive(state.q, state.p);
   } catch (const StageFailure& failure) {
     copy_state(state, before_);

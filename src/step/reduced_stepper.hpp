@@ -74,6 +74,7 @@ class ReducedStepper : public CountingStepper<S> {
   ReducedEquations<S> equations_;
   Vector<S> q0_, p0_, q_, p_, velocity_, force_, multiplier_;
   State<S> before_;
+  DrivenCourse<S> arrival_;
   bool started_ = false;
   S s_ = 0, t_ = 0;
 };

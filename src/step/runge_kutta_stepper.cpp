@@ -4,6 +4,7 @@
 #include "linear/arrays.hpp"
 #include "linear/product.hpp"
 #include "scalar/in_place.hpp"
+#include "step/move_driven.hpp"
 #include "step/stage_iteration.hpp"
 
 namespace hbvm::core {
@@ -43,13 +44,15 @@ RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKu
       // The lengths of the sums of one sweep, and 4 for what they are passed through, as roundings_of_a_sweep has it.
       rule_(problem.m(), static_cast<long>(4 * (3 * method.b.size() + problem.m()))),
       multiplier_(Vector<S>::Zero(problem.nu())),
+      course_(problem, method.b.size()),
+      arrival_(problem, 1),
       pull_(Matrix<S>::Zero(1, problem.nu())),
       lane_(force_),
       before_(Vector<S>::Zero(problem.m()), Vector<S>::Zero(problem.m())) {
   const Index s = method.b.size();
   if (s < 1 || A_.rows() != s || A_.cols() != s) throw InputError("A must have as many rows and columns as b entries");
+  if (problem.nu() > 0 || !problem.is_conservative()) point_.emplace(problem);
   if (problem.nu() > 0) {
-    point_.emplace(problem);
     if (on_constraints == OnConstraints::project) projection_.emplace(problem);
   }
   describe_parts();
@@ -102,9 +105,14 @@ void RungeKuttaStepper<S>::stages_in_turn(const State<S>& state) {
   for (Index i = 0; i < s; ++i) {
     stage(i, state.q, V_, q_);
     stage(i, state.p, F_, p_);
-    problem_.mass.velocity(lanes(std::as_const(p_)), lanes(v_));
-    potential_.force(lanes(std::as_const(q_)), force_);
-    if (point_) add_constraint_force(q_, p_, force_, 0);
+    if (problem_.is_conservative()) {
+      problem_.mass.velocity(lanes(std::as_const(p_)), lanes(v_));
+      potential_.force(lanes(std::as_const(q_)), force_);
+    } else {
+      point_->set_velocity(q_, p_, v_);
+      point_->set_applied(q_, p_, force_);
+    }
+    if (problem_.nu() > 0) add_constraint_force(q_, p_, force_, 0);
     for (Index j = 0; j < m; ++j) {
       set(V_(i, j), v_[j]);
       set(F_(i, j), force_(0, j));
@@ -119,6 +127,7 @@ long RungeKuttaStepper<S>::solve(const State<S>& state) {
   const long sweeps = find_stages(extrapolation_, sequence_, state.p, P_, none, [&] { return iterate(state); });
   extrapolation_.add(P_.data());
   problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
+  course_.set_velocities(lanes(V_));
   return sweeps;
 }
 
@@ -126,19 +135,27 @@ template <Scalar S>
 void RungeKuttaStepper<S>::sweep(const State<S>& state) {
   const PartCall counted(parts_[stages]);
   problem_.mass.velocity(lanes(std::as_const(P_)), lanes(V_));
+  course_.set_velocities(lanes(V_));
   product(Q_, A_, V_);
   scale_and_shift(Q_, h_, state.q);
-  potential_.force(lanes(std::as_const(Q_)), F_);
+  if (problem_.is_conservative()) potential_.force(lanes(std::as_const(Q_)), F_);
   for (Index i = 0; i < F_.rows() && point_; ++i) {
     for (Index j = 0; j < F_.cols(); ++j) {
       set(q_[j], Q_(i, j));
       set(p_[j], P_(i, j));
     }
-    add_constraint_force(q_, p_, F_, i);
+    if (!problem_.is_conservative()) {
+      point_->set_applied(q_, p_, force_);
+      for (Index j = 0; j < F_.cols(); ++j) set(F_(i, j), force_(0, j));
+    }
+    if (problem_.nu() > 0) add_constraint_force(q_, p_, F_, i);
   }
   P_.swap(P_before_);
   product(P_, A_, F_);
   scale_and_shift(P_, h_, state.p);
+  // Nothing depends on the momenta of driven coordinates.
+  for (Index j = problem_.clock(); j < P_.cols(); ++j)
+    for (Index i = 0; i < P_.rows(); ++i) set_zero(P_(i, j));
 }
 
 template <Scalar S>
@@ -160,7 +177,7 @@ void RungeKuttaStepper<S>::add_constraint_force(const Vector<S>& Q, const Vector
 
 template <Scalar S>
 void RungeKuttaStepper<S>::settle(State<S>& state) {
-  if (!point_) return;
+  if (problem_.nu() == 0) return;
   if (projection_) {
     projection_->set_directions(state.q);
     set_zero(pull_);
@@ -181,6 +198,10 @@ StepResult<S> RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
     set(h_, h);
     extrapolation_.clear();
   }
+  if (!course_.empty()) {
+    for (Index i = 0; i < A_.rows(); ++i) course_.time(i) = state.q[problem_.clock()] + h_ * A_.row(i).sum();
+    course_.evaluate();
+  }
   long sweeps = 1;
   if (explicit_)
     stages_in_turn(state);
@@ -190,7 +211,10 @@ StepResult<S> RungeKuttaStepper<S>::step(State<S>& state, const S& h) {
   try {
     {
       const PartCall counted(parts_[sums]);
+      for (Index j = problem_.clock(); j < V_.cols(); ++j)
+        for (Index i = 0; i < V_.rows(); ++i) set_zero(V_(i, j));
       stage_sums_.add_to(state, h_, V_, F_, sweeps);
+      move_driven(state, h_, arrival_, problem_);
     }
     settle(state);
   } catch (const StageFailure&) {

@@ -67,7 +67,7 @@ class RungeKuttaStepper final : public CountingStepper<S> {
   Matrix<S> A_;
   bool explicit_;
   PotentialEvaluator<S> potential_;
-  std::optional<StateEvaluator<S>> point_;  ///< if there are constraints
+  std::optional<StateEvaluator<S>> point_;  ///< if there are constraints, or forces without a potential
   std::optional<ConstraintProjection<S>> projection_;
   Matrix<S> P_, P_before_, Q_, V_, F_;  ///< s x m
   // One stage of an explicit method.
@@ -81,8 +81,9 @@ class RungeKuttaStepper final : public CountingStepper<S> {
   StoppingRule<S> rule_;
   S t_ = 0;  // kept: creating it allocates
   Vector<S> multiplier_;
-  Matrix<S> pull_, lane_;  // 1 x nu, 1 x m
-  State<S> before_;        ///< where a step with constraints began
+  DrivenCourse<S> course_, arrival_;  ///< at the stages, and at the end
+  Matrix<S> pull_, lane_;             // 1 x nu, 1 x m
+  State<S> before_;                   ///< where a step with constraints began
   std::vector<PartCount> parts_;
 };
 

@@ -35,7 +35,8 @@ EndVectors exact_end_of(const RunRequest& request) {
     const ExactPoint end = exact_end(scene.problem, scene.q0, scene.p0, grid.until(), Route::taylor,
                                      [] { end_if_asked("the reference was interrupted"); });
     RedundantConstraints<Mpfr> redundant(scene.problem);
-    return {end.q, end.p, redundant.multipliers(end.q, end.lambda)};
+    const Index bodies = scene.problem.mass.of_bodies();
+    return {end.q.head(bodies), end.p.head(bodies), redundant.multipliers(end.q, end.lambda)};
   } catch (const IntegrationError& error) {
     throw InputError("errors need the exact motion, which is not known: " + std::string(error.what()));
   }

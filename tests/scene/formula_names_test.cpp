@@ -14,11 +14,11 @@ std::set<std::string> names(Acts acts, int dimension, std::vector<std::string> o
 
 TEST(FormulaNames, AreThoseOfWhatItActsOn) {
   using Names = std::set<std::string>;
-  EXPECT_EQ(names(Acts::on_each_body, 3), (Names{"x", "y", "z", "m", "Q"}));
-  EXPECT_EQ(names(Acts::about_a_center, 2), (Names{"x", "y", "r", "m", "Q"}));
-  EXPECT_EQ(names(Acts::between_pairs, 2), (Names{"x", "y", "r", "x1", "y1", "x2", "y2", "m1", "m2", "Q1", "Q2"}));
+  EXPECT_EQ(names(Acts::on_each_body, 3), (Names{"x", "y", "z", "m", "Q", "t"}));
+  EXPECT_EQ(names(Acts::about_a_center, 2), (Names{"x", "y", "r", "m", "Q", "t"}));
+  EXPECT_EQ(names(Acts::between_pairs, 2), (Names{"x", "y", "r", "x1", "y1", "x2", "y2", "m1", "m2", "Q1", "Q2", "t"}));
   EXPECT_EQ(names(Acts::on_group, 2, {"a", "b"}), (Names{"x1", "y1", "x2", "y2", "m1", "m2", "Q1", "Q2", "a.x", "a.y",
-                                                         "b.x", "b.y", "a.m", "b.m", "a.Q", "b.Q"}));
+                                                         "b.x", "b.y", "a.m", "b.m", "a.Q", "b.Q", "t"}));
 }
 
 TEST(FormulaNames, AreRefusedWithLineAndColumn) {

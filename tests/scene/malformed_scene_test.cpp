@@ -177,8 +177,8 @@ TEST(MalformedScenes, PlaneOfARigidBody) {
 
 TEST(MalformedScenes, UnknownKindsListThoseThereAre) {
   expect_message(refusal(changed(every_key, "kind = \"coulomb\"", "kind = \"friction\"")), "test.toml:",
-                 {"unknown kind of effect", "there are uniform_gravity, central_gravity", "formula",
-                  "friction, damping, motors and magnetic fields are beyond"});
+                 {"unknown kind of effect", "there are uniform_gravity, central_gravity", "damper", "formula",
+                  "dry friction and contact are beyond"});
   expect_message(
       refusal(changed(every_key, "kind = \"plane\"", "kind = \"rolling\"")), "test.toml:",
       {"unknown kind of constraint", "there are rod, quadric, plane",

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "linear/in_double.hpp"
 #include "scalar/in_place.hpp"
 #include "scalar/sine.hpp"
 
@@ -277,7 +278,16 @@ std::vector<S> Program<S>::rounding_sizes(const std::vector<S>& inputs, const st
   return result;
 }
 
-#define HBVM_DEFINE(S) template class Program<S>;
+template <Scalar S>
+Program<double> in_double(const Program<S>& program) {
+  std::vector<double> constants;
+  for (const S& value : program.constants()) constants.push_back(approximately(value));
+  return {std::move(constants), program.instructions(), program.output_operands(), program.temporaries()};
+}
+
+#define HBVM_DEFINE(S)       \
+  template class Program<S>; \
+  template Program<double> in_double<S>(const Program<S>&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 
 }  // namespace hbvm::core

@@ -73,4 +73,8 @@ class Program {
   std::uint32_t temporaries_ = 0;
 };
 
+/// The program with its constants rounded to double.
+template <Scalar S>
+Program<double> in_double(const Program<S>& program);
+
 }  // namespace hbvm::core

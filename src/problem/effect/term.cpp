@@ -6,13 +6,6 @@ namespace hbvm::core {
 namespace {
 
 template <Scalar S>
-Program<double> rounded(const Program<S>& program) {
-  std::vector<double> constants;
-  for (const S& value : program.constants()) constants.push_back(approximately(value));
-  return {std::move(constants), program.instructions(), program.output_operands(), program.temporaries()};
-}
-
-template <Scalar S>
 EffectSymmetry<double> rounded(const EffectSymmetry<S>& symmetry) {
   EffectSymmetry<double> result{symmetry.kind, symmetry.acts, in_double(symmetry.axes),
                                 in_double(symmetry.axis_round_off), in_double(symmetry.conditions)};
@@ -27,9 +20,9 @@ template <Scalar S>
 EffectTerm<double> in_double(const EffectTerm<S>& term) {
   EffectTerm<double> result{term.kind,
                             term.degree,
-                            rounded(term.value),
-                            rounded(term.gradient),
-                            rounded(term.hessian),
+                            in_double(term.value),
+                            in_double(term.gradient),
+                            in_double(term.hessian),
                             term.constant_force,
                             term.arguments,
                             {},

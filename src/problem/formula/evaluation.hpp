@@ -27,7 +27,7 @@ class FormulaEvaluation {
       : formula_(input.formula), constants_(input.constants) {
     const auto d = static_cast<std::size_t>(input.dimension);
     const auto difference = [&](std::size_t i) {
-      return input.arguments == 1 ? inputs[i] : T(inputs[i] - inputs[d + i]);
+      return input.arguments - (input.timed ? 1 : 0) == 1 ? inputs[i] : T(inputs[i] - inputs[d + i]);
     };
     for (const auto& [name, variable] : input.variables) {
       if (variable.is == FormulaVariable::Is::input) {

@@ -70,6 +70,11 @@ Displacement<Mpfr> exactly(const Displacement<S>& x) {
 }  // namespace
 
 template <Scalar S>
+Traced<S> record(const FormulaInput<S>& input, Trace<S>& trace) {
+  return Recording<S>(input, trace).value();
+}
+
+template <Scalar S>
 EffectTerm<S> make_term(const FormulaInput<S>& input) {
   EffectTerm<S> term;
   term.kind = "formula";
@@ -80,7 +85,7 @@ EffectTerm<S> make_term(const FormulaInput<S>& input) {
     parameters.push_back(instance.parameters);
   }
   Trace<S> trace;
-  const typename Trace<S>::Id U = Recording<S>(input, trace).value().id();
+  const typename Trace<S>::Id U = record(input, trace).id();
   compile(trace, U, input.inputs(), input.parameters, parameters, term);
   return term;
 }
@@ -104,8 +109,9 @@ void check_formula(const FormulaInput<S>& input, const EffectTerm<S>& term, cons
 
 template <Scalar S>
 FormulaInput<Mpfr> exactly(const FormulaInput<S>& input) {
-  FormulaInput<Mpfr> result{input.formula,   input.constants, input.dimension,
-                            input.arguments, input.variables, input.parameters};
+  FormulaInput<Mpfr> result{
+      input.formula, input.constants, input.dimension, input.arguments, input.variables, input.parameters, {},
+      input.timed};
   for (const auto& instance : input.instances) {
     auto& copy = result.instances.emplace_back();
     for (const Displacement<S>& x : instance.x) copy.x.push_back(exactly(x));
@@ -115,6 +121,7 @@ FormulaInput<Mpfr> exactly(const FormulaInput<S>& input) {
 }
 
 #define HBVM_DEFINE(S)                                                                            \
+  template Traced<S> record<S>(const FormulaInput<S>&, Trace<S>&);                                \
   template EffectTerm<S> make_term<S>(const FormulaInput<S>&);                                    \
   template void check_formula<S>(const FormulaInput<S>&, const EffectTerm<S>&, const Vector<S>&); \
   template FormulaInput<Mpfr> exactly<S>(const FormulaInput<S>&);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "problem/effect/term.hpp"
+#include "problem/effect/trace.hpp"
 #include "scalar/expression.hpp"
 
 namespace hbvm::core {
@@ -37,9 +38,15 @@ struct FormulaInput {
     std::vector<S> parameters;
   };
   std::vector<Instance> instances = {};
+  bool timed = false;  ///< the last of the arguments is (t, 0, 0)
 
   std::size_t inputs() const { return static_cast<std::size_t>(arguments * dimension); }
 };
+
+/// The formula evaluated once on Traced values: its inputs and parameters are those of the trace.
+/// \throws ExpressionError at a place of the formula: a part without variables that has no value, an unknown name
+template <Scalar S>
+Traced<S> record(const FormulaInput<S>& input, Trace<S>& trace);
 
 /// Evaluates the formula once on Traced values and compiles it and its derivatives. Its symmetry is left open.
 /// \throws ExpressionError at a place of the formula: a part without variables that has no value, an unknown name

@@ -10,10 +10,10 @@ from ._number import Number
 _DECIMAL = re.compile(r"-?\d+(\.\d+)?(e[+-]?\d+)?")
 # What these are is a number of the working precision; all other text is a name or words.
 _NUMBERS = frozenset(
-    "t q p lambda q_carry p_carry delta_H step until e_H e_g e_hid condition worst_e_H worst_hidden H smallest first_t"
+    "t q p lambda q_carry p_carry delta_H step until e_H e_B e_g e_hid condition worst_e_H worst_hidden H smallest first_t"
     " initial drift least least_t greatest greatest_t energy kinetic potential value".split()
 )
-_OF_NUMBERS = frozenset(("momenta", "observed"))
+_OF_NUMBERS = frozenset(("momenta", "observed", "work", "by"))
 
 
 def _is_number(key: str, inside: str, value: Any) -> bool:

@@ -49,7 +49,7 @@ ExactPoint ClosedForm::at(const Mpfr& t) const {
 }
 
 std::unique_ptr<ClosedForm> closed_form_of(const Assembled<Mpfr>& scene) {
-  if (!scene.problem.redundant.empty()) return nullptr;
+  if (!scene.problem.redundant.empty() || !scene.problem.is_conservative()) return nullptr;
   const Mpfr round_off = epsilon<Mpfr>();
   // A quantity of the size of round-off is squared, and its square is the difference of others. Three times the digits
   // leave all of its own. So is the least number of the start, where two roots that differ by its square may have half
