@@ -58,7 +58,7 @@ struct Problem {
 
   Index m() const { return mass.m(); }
   Index nu() const { return static_cast<Index>(constraints.size()); }
-  /// Whether all is of the form (5): there are neither forces without a potential nor driven points.
+  /// Whether there are neither forces without a potential nor driven points.
   bool is_conservative() const { return forces.empty() && driven.empty(); }
   /// The coordinate that is t. There is one where points are driven.
   Index clock() const { return mass.of_bodies(); }

@@ -25,7 +25,7 @@ class StateEvaluator {
   const Vector<S>& constraints(const Vector<S>& q);
   /// The greatest sum of the magnitudes of a constraint's terms.
   S constraint_size(const Vector<S>& q) const;
-  /// grad g^T v, v = M^-1 p, (9), or that of the driven points.
+  /// grad g^T M^-1 p, (9), with their own velocities for driven points.
   const Vector<S>& hidden_constraints(const Vector<S>& q, const Vector<S>& p);
 
   /// p - grad g (grad g^T M^-1 grad g)^-1 grad g^T M^-1 p: the nearest momentum, in the metric M^-1, that fulfils the

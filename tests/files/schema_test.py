@@ -55,6 +55,15 @@ printed("kepler", "--method", "hbvm:1,1", *steps, "--on-failure", "halve", "--er
 printed("simple_pendulum", "--method", "rattle", *steps)
 for scene in ["double_pendulum", "kepler"]:
     assert printed(scene, "--method", "hbvm:2,2", *steps, "--prove")["proved"]["steps"] == 16
+with open("driven.toml", "w") as file:
+    file.write("""
+dimension = 2
+point = [{ name = "O", position = ["sin(t)", 0] }]
+body = [{ name = "a", mass = 1, position = [0, -1], velocity = [1, 0] }]
+constraint = [{ kind = "rod", between = ["O", "a"], length = 1 }]
+effect = [{ kind = "drag", linear = 1 }]
+""")
+assert list(printed("driven.toml", "--method", "hbvm:3,2", *steps)["work"]["by"]) == ["point 'O'", "effect 1 (drag)"]
 moved = printed("double_pendulum", *steps, "--states", "--every", "8", "--observe", "a.vx")
 assert [state["t"] for state in moved["states"]] == ["0", "0.5", "1"]
 

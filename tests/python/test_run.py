@@ -96,6 +96,13 @@ def walk(facts, result, path, seen):
             assert found == value
 
 
+DRAGGED = """
+dimension = 2
+body = [{ name = "a", mass = 1, position = [0, -1], velocity = [1, 0] }]
+effect = [{ kind = "drag", linear = 1 }]
+"""
+
+
 def schema_keys(schema, path=()):
     """The names of all that the schema tells of, without what is inside a state."""
     for key, value in schema.get("properties", {}).items():
@@ -113,6 +120,7 @@ def test_every_key_of_the_schema_is_an_attribute():
         hbvm.run("kepler", until=1, step="1/8", on_failure="halve", reverse=True),
         hbvm.run("double_pendulum", "hbvm:4,2", until=1, step="1/8", start=hbvm.run("double_pendulum", until=1)),
         hbvm.run("kepler", until=20, step=1, on_failure="halve", error=True),
+        hbvm.run(DRAGGED, until=1, step="1/8"),
         hbvm.run(hbvm.scene("double_pendulum").project(), until=1, step="1/8", precision=40),
         hbvm.run(**PENDULUM),
         hbvm.run("bead_on_torus", until=1, step="1/4"),
