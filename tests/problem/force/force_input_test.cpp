@@ -21,7 +21,7 @@ ForceInput<Mpfr> input_of(const std::string& kind, Index d, Index arguments, con
 
 class ForceInputTest : public InDigits<60> {
  protected:
-  const Constants constants;
+  const Constants constants = {};
   RandomValues<Mpfr> random{31};
 
   static Vector<Mpfr> value(const ForceTerm<Mpfr>& term, Index d, const Vector<Mpfr>& q, const Vector<Mpfr>& v) {
