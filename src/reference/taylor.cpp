@@ -192,7 +192,11 @@ void TaylorMotion::advance(Pull& pull, Index n) {
     }
     set_quotient(v, v, unit_);
   }
-  pull.series.advance(n);
+  try {
+    pull.series.advance(n);
+  } catch (const IntegrationError& error) {
+    throw IntegrationError(pull.term.name + ": " + error.what());
+  }
 }
 
 void TaylorMotion::set_courses(Index n) {
@@ -336,20 +340,15 @@ void TaylorMotion::project() {
 void TaylorMotion::set_force(Index n) {
   const Index d = problem_.dimension;
   for (Index j = 0; j < F_.size(); ++j) set_zero(F_[j]);
-  for (Slope& force : forces_) {
-    advance(force, n);
-    for (Index i = 0; i < force.term.arguments * d; ++i)
-      for (const auto& block : force.term.displacement(force.instance, i / d).blocks)
-        add_weighted(&F_[block.offset + i % d], block.weight, &force.series.output(static_cast<std::size_t>(i), n),
+  const auto add = [&](auto& of, Index vectors) {
+    advance(of, n);
+    for (Index i = 0; i < vectors * d; ++i)
+      for (const auto& block : of.term.displacement(of.instance, i / d).blocks)
+        add_weighted(&F_[block.offset + i % d], block.weight, &of.series.output(static_cast<std::size_t>(i), n),
                      Index{1}, t_);
-  }
-  for (Pull& pull : pulls_) {
-    advance(pull, n);
-    for (Index i = 0; i < pull.term.acting * d; ++i)
-      for (const auto& block : pull.term.displacement(pull.instance, i / d).blocks)
-        add_weighted(&F_[block.offset + i % d], block.weight, &pull.series.output(static_cast<std::size_t>(i), n),
-                     Index{1}, t_);
-  }
+  };
+  for (Slope& force : forces_) add(force, force.term.arguments);
+  for (Pull& pull : pulls_) add(pull, pull.term.acting);
 }
 
 void TaylorMotion::set_hidden(Mpfr& r, std::size_t l, Index n) {

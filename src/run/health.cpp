@@ -102,15 +102,15 @@ void HealthWatch<S>::report_change(Health& health, const Method& method) {
   if (energy_changed(change))
     health.warnings.push_back(
         {"energy_changed",
-         fmt::format("H is off by {}{}, first by more than 1/{} of it at t = {}: what follows is the motion of another "
-                     "energy; take a smaller step{}",
-                     to_scientific(change.error, 3),
-                     change.usual > 0
-                         ? fmt::format(", {} of the kinetic energy that half of the mesh points do not exceed",
-                                       to_scientific(S(change.error / change.usual), 3))
-                         : std::string(" and the kinetic energy is 0 at half of the mesh points"),
-                     EnergyChange<S>::part, to_scientific(change.t, 4),
-                     method.kept().energy ? "" : ", or a method that conserves H, as hbvm:auto,3")});
+         fmt::format(
+             "{} is off by {}{}, first by more than 1/{} of it at t = {}: what follows is the motion of another "
+             "energy; take a smaller step{}",
+             problem_.driven.empty() ? "H" : "H - W", to_scientific(change.error, 3),
+             change.usual > 0 ? fmt::format(", {} of the kinetic energy that half of the mesh points do not exceed",
+                                            to_scientific(S(change.error / change.usual), 3))
+                              : std::string(" and the kinetic energy is 0 at half of the mesh points"),
+             EnergyChange<S>::part, to_scientific(change.t, 4),
+             method.kept().energy ? "" : ", or a method that conserves H, as hbvm:auto,3")});
   const auto& worst = constraints_.worst();
   const std::string advice = method.kept().constraints
                                  ? "take a smaller step"
@@ -157,9 +157,10 @@ void HealthWatch<S>::report_energy(Health& health, const Method& asked, const Me
           ? fmt::format("it begins with k = {} nodes, and more did not conserve it either: take a smaller step", k)
           : fmt::format("k = {} nodes do not conserve it: take more, or hbvm:auto,{}, or a smaller step", k, s);
   health.warnings.push_back(
-      {"energy_lost", fmt::format("H is off by {} of its greatest term at t = {}, more than rounding explains ({}); {}",
-                                  health.worst_e_H, to_scientific(energy_.t(), 4),
-                                  to_scientific(S(walked * rounding / size), 1), advice)});
+      {"energy_lost",
+       fmt::format("{} is off by {} of its greatest term at t = {}, more than rounding explains ({}); {}",
+                   problem_.driven.empty() ? "H" : "H - W", health.worst_e_H, to_scientific(energy_.t(), 4),
+                   to_scientific(S(walked * rounding / size), 1), advice)});
 }
 
 template <Scalar S>

@@ -67,11 +67,12 @@ MotionRecorder<S>::MotionRecorder(const Problem<S>& problem, long steps, Recordi
   recording_.every = std::max(1L, (steps + Recording::most - 1) / Recording::most);
   recording_.steps = steps;
   recording_.constraints = names_of_constraints(problem);
+  if (!problem.driven.empty()) recording_.conserved = "H − W";
 }
 
 template <Scalar S>
 void MotionRecorder<S>::observe(const Snapshot<S>& s) {
-  const S H = point_.energy(s.q, s.p);
+  const S H = point_.balance(s.q, s.p);
   if (s.n == 0) {
     H0_ = H;
     const S size = point_.energy_size(s.q, s.p), of_g = point_.constraint_size(s.q);

@@ -18,8 +18,9 @@ struct Recording {
   struct Sample {
     double t = 0;
     std::vector<double> q = {}, lambda = {};
-    /// Decimal logarithms of |H - H_0|, |g|_max and |grad g^T M^-1 p|_max, the greatest since the sample before; minus
-    /// infinity for 0. Errors of hundreds of digits are beyond the range of double, their logarithms are not.
+    /// Of H less the work done. Decimal logarithms of |H - H_0|, |g|_max and |grad g^T M^-1 p|_max, the greatest since
+    /// the sample before; minus infinity for 0. Errors of hundreds of digits are beyond the range of double, their
+    /// logarithms are not.
     double energy = 0, constraints = 0, hidden = 0;
     double H_change = 0;  ///< H - H_0, at the sample
     std::vector<double> observed = {};
@@ -38,6 +39,7 @@ struct Recording {
 
   long every = 1;                         ///< mesh points a sample
   long steps = 0;                         ///< of the whole run, also if it fails on the way
+  std::string conserved = "H";            ///< or "H − W", where work is done
   std::vector<std::string> constraints;   ///< whose multipliers these are
   std::vector<std::string> observations;  ///< names of what was observed
   std::vector<Sample> samples;

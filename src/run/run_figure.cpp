@@ -192,7 +192,7 @@ Panel portrait_panel(const Recording& recording, const Portrait& portrait) {
 }
 
 Panel energy_panel(const Recording& recording) {
-  Panel panel = against_time("Error of energy, linear", {"H − H_0"});
+  Panel panel = against_time("Error of energy, linear", {recording.conserved + " − H_0"});
   panel.curves.push_back(curve_of("", recording, [](const auto& sample) { return sample.H_change; }));
   return panel;
 }
@@ -200,7 +200,8 @@ Panel energy_panel(const Recording& recording) {
 Panel errors_panel(const Recording& recording) {
   Panel panel = against_time("Errors of energy and constraints", {"error", AxisScale::decimal});
   if (std::isfinite(recording.round_off)) panel.round_off = recording.round_off;
-  panel.curves.push_back(curve_of("|H − H_0|", recording, [](const auto& sample) { return sample.energy; }));
+  panel.curves.push_back(
+      curve_of("|" + recording.conserved + " − H_0|", recording, [](const auto& sample) { return sample.energy; }));
   if (recording.constraints.empty()) return panel;
   panel.curves.push_back(curve_of("|g|", recording, [](const auto& sample) { return sample.constraints; }));
   panel.curves.push_back(curve_of("hidden", recording, [](const auto& sample) { return sample.hidden; }));

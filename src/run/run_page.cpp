@@ -43,7 +43,7 @@ PageChart chart_of(const Recording& recording, std::size_t observation) {
 PageChart errors_of(const Recording& recording) {
   PageChart chart{"Errors of energy and constraints", "error", AxisScale::decimal, {}};
   if (std::isfinite(recording.round_off)) chart.round_off = recording.round_off;
-  chart.curves.push_back(curve_of("|H − H₀|", recording, &Recording::Sample::energy));
+  chart.curves.push_back(curve_of("|" + recording.conserved + " − H₀|", recording, &Recording::Sample::energy));
   if (recording.constraints.empty()) return chart;
   chart.curves.push_back(curve_of("|g|", recording, &Recording::Sample::constraints));
   chart.curves.push_back(curve_of("hidden", recording, &Recording::Sample::hidden));
@@ -51,8 +51,8 @@ PageChart errors_of(const Recording& recording) {
 }
 
 PageChart energy_of(const Recording& recording) {
-  PageChart chart{"Error of energy, linear", "H − H₀", AxisScale::linear, {}};
-  chart.curves.push_back(curve_of("H − H₀", recording, &Recording::Sample::H_change));
+  PageChart chart{"Error of energy, linear", recording.conserved + " − H₀", AxisScale::linear, {}};
+  chart.curves.push_back(curve_of(chart.symbol, recording, &Recording::Sample::H_change));
   chart.curves.front().is_error = false;
   return chart;
 }

@@ -12,7 +12,6 @@
 #include "problem/force/registry.hpp"
 #include "scene/formula_names.hpp"
 #include "scene/inertia.hpp"
-#include "scene/moving_point.hpp"
 #include "scene/orientation.hpp"
 #include "scene/scene.hpp"
 #include "scene/shape.hpp"
@@ -101,7 +100,6 @@ class SceneReader {
     p.position = table.vector("position", d_);
     p.charge = table.optional_number("charge");
     table.finish();
-    if (moves(p, scene_.constants)) moving_.insert(p.name);
     points_.insert(p.name);
     scene_.points.push_back(std::move(p));
   }
@@ -605,7 +603,7 @@ class SceneReader {
   const TomlSource& source_;
   Scene& scene_;
   std::size_t d_ = 0;
-  std::set<std::string> names_, points_, moving_, bodies_, rigid_;
+  std::set<std::string> names_, points_, bodies_, rigid_;
   std::map<std::string, std::string> attachments_;  // with their rigid bodies
 };
 

@@ -15,8 +15,7 @@ enum class ForceOn {
   pair,          ///< x = a - b for every pair of `between`
   rigid_body,    ///< x are the directors of a rigid body
   rigid_bodies,  ///< x are the directors of two
-  inertia,       ///< x are the position of a body, or the reference point and directors of a rigid one
-  group          ///< x are the positions of the bodies of `of`
+  inertia        ///< x are the position of a body, or the reference point and directors of a rigid one
 };
 
 /// A key of an [[effect]] that is a force. Its value is a formula, or one for each component.

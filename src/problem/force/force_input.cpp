@@ -65,6 +65,8 @@ ForceTerm<S> make_force(const ForceInput<S>& input) {
   with_force(input.kind, input.mutual, [&]<class Force>() {
     for (const Traced<S>& component : Force::F(formal)) outputs.push_back(component.id());
   });
+  if (outputs.size() != static_cast<std::size_t>(input.acting * input.dimension))
+    throw Error("force '" + input.kind + "' has another number of components than what it acts on");
   const auto inputs = static_cast<std::size_t>(2 * input.arguments * input.dimension);
   for (const std::size_t output : outputs) {
     const Ids row = trace.gradient(output, inputs);

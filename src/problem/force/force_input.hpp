@@ -20,10 +20,7 @@ struct ForceInput {
   /// Their names besides the constants: input i is component i of x_1 .. x_n, v_1 .. v_n.
   FormulaVariables variables = {};
   std::size_t parameters = 0;
-  struct Instance {
-    std::vector<Displacement<S>> x;
-    std::vector<S> parameters;
-  };
+  using Instance = typename FormulaInput<S>::Instance;
   std::vector<Instance> instances = {};
 };
 

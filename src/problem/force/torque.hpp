@@ -17,7 +17,18 @@ struct Torque {
 
   template <class T>
   static std::vector<T> F(const ForceArguments<T>& body) {
-    return on_directors(body, body.vector("value"), 0, body.x.size());
+    return on_directors(body, moment(body), 0, body.x.size());
+  }
+
+  /// The value; with `along` that many times the vector with these components in the frame of the first body.
+  template <class T>
+  static std::vector<T> moment(const ForceArguments<T>& body) {
+    const auto along = body.values.find("along");
+    if (along == body.values.end()) return body.vector("value");
+    std::vector<T> w = body.times(along->second[0], body.x[0]);
+    for (std::size_t a = 1; a < along->second.size(); ++a)
+      for (std::size_t j = 0; j < w.size(); ++j) w[j] = w[j] + along->second[a] * body.x[a][j];
+    return body.times(body.number("value"), w);
   }
 
   /// w on the directors from `first` on.
@@ -41,7 +52,7 @@ struct MutualTorque {
   template <class T>
   static std::vector<T> F(const ForceArguments<T>& pair) {
     const std::size_t directors = pair.x.size() / 2;
-    std::vector<T> w = pair.vector("value"), opposite;
+    std::vector<T> w = Torque::moment(pair), opposite;
     for (const T& component : w) opposite.push_back(-component);
     std::vector<T> all = Torque::on_directors(pair, w, 0, directors);
     for (const T& component : Torque::on_directors(pair, opposite, directors, 2 * directors)) all.push_back(component);

@@ -127,6 +127,24 @@ TEST_F(ForceInputTest, TorqueIsTheMomentOfItsForces) {
   expect_slopes(term, 3, directors, rates);
 }
 
+/// Along a direction in the frame of the body: 5 (2 d1 - d3), whatever the body has turned to.
+TEST_F(ForceInputTest, TorqueAlongADirectionOfTheBody) {
+  ForceInput<Mpfr> input = input_of("torque", 3, 3, constants);
+  input.values["value"] = {formula("5")};
+  input.values["along"] = {formula("2"), formula("0"), formula("-1")};
+  const ForceTerm<Mpfr> along = make_force(input);
+  Vector<Mpfr> directors(9);
+  directors << Mpfr(2) / 3, Mpfr(2) / 3, Mpfr(1) / 3, Mpfr(-2) / 3, Mpfr(1) / 3, Mpfr(2) / 3, Mpfr(1) / 3, Mpfr(-2) / 3,
+      Mpfr(2) / 3;
+  // 5 (2 d1 - d3) = (5, 10, 0).
+  input.values.erase("along");
+  input.values["value"] = {formula("5"), formula("10"), formula("0")};
+  const Vector<Mpfr> rates = random.vector(9);
+  EXPECT_LE(distance(value(along, 3, directors, rates), value(make_force(input), 3, directors, rates)),
+            64 * epsilon<Mpfr>());
+  expect_slopes(along, 3, directors, rates);
+}
+
 TEST_F(ForceInputTest, TorqueInThePlaneAndBetweenTwo) {
   ForceInput<Mpfr> input = input_of("torque", 2, 4, constants);
   input.mutual = true;
