@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "hbvm/error.hpp"
+#include "scalar/text.hpp"
 #include "toml/toml_table.hpp"
 
 namespace hbvm::core {
