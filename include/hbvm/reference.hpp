@@ -36,7 +36,7 @@ struct ReferenceState {
   std::string H;
   std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
   long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors
-  std::vector<std::string> observed = {};   ///< what the scene observes; angles in (-pi, pi]
+  std::vector<std::string> observed = {};   ///< what the scene observes
   std::optional<ProvedRadius> radius = {};  ///< if the digits are proved: besides their rounding to the last digit
 };
 
@@ -78,6 +78,12 @@ struct ProofRequest {
 /// \throws IntegrationError with the step that does not hold
 /// \throws Interrupted
 Reference check_proof(const ProofRequest& request);
+
+/// All numbers for another program, text by text: a line, a row or an array for each time. The names of q, p and
+/// multipliers are those of the reference, or else counted.
+/// \param language "csv"; "julia" (BigFloat), "python" (mpmath), "fortran" (real(16)) or "c" (any type of numbers)
+/// \throws InputError for another
+std::string to_literals(const Reference& reference, const std::string& language);
 
 /// One JSON object, as `hbvm reference --json` prints it. \param command that made it, of the program
 std::string to_json(const Reference& reference, const std::string& command = {});

@@ -23,9 +23,10 @@ struct ResultsFile {
 struct ResultsRequest {
   Scene scene;
   std::vector<ResultsFile> files;
-  /// What theirs is, an expression in the names of their columns, and which of ours that is: "t", "bob.x", "bob.px" or
-  /// "bob.vx". Columns of these names need not be mapped, nor "time", "q_3", "p_3" and "v_3". Of "bob.px" and
-  /// "output.bob.px" of a trajectory of hbvm run the second, which is tangential, is taken.
+  /// What theirs is, an expression in the names of their columns, and which of ours that is. Ours are "t", "bob.x",
+  /// "bob.px", "bob.vx" and what the scene observes. Angles may differ by full turns. Columns of these names need not
+  /// be mapped, nor "time", "q_3", "p_3" and "v_3". Of "bob.px" and "output.bob.px" of a trajectory of hbvm run the
+  /// second, which is tangential, is taken.
   std::vector<std::pair<std::string, std::string>> map = {};
   std::function<void(double part)> progress = {};  ///< called now and then, from any thread
   std::stop_token stop = {};

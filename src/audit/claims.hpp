@@ -23,6 +23,12 @@ std::vector<Claim> paper_claims(Extent extent);
 /// momentum is kept for k = r = s. s = 1 .. 6, and 8 with 200 digits, for Extent::full; s = 1 and 2 else.
 std::vector<Claim> general_claims(Extent extent);
 
+/// Claims about HBVM(k, s) with r nodes for constraints where forces do work, points move or t stands in a scene. q,
+/// the tangential p and the output multiplier have order 2s. H - W has order 2k, or is kept to round-off where U is a
+/// polynomial that the nodes integrate. g has order 2r where a point moves. A force that does no work leaves H at
+/// round-off. Steps of -h lead back. s = 1 .. 6 for Extent::full; s = 1 and 2 else.
+std::vector<Claim> work_claims(Extent extent);
+
 /// What a Runge-Kutta method must show on the problems without constraints: its order, and that of the energy error.
 /// The order is what its author states; if none, what its conditions show to ten digits, as a look in double would have
 /// it. Symmetry and conservation of angular momentum are claimed if the coefficients say so to ten digits.

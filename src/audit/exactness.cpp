@@ -56,6 +56,7 @@ int exact_degree(const Claim& claim, int r) {
   const auto [k, s, ignored] = hbvm->name();
   switch (claim.quantity) {
     case Quantity::H:
+    case Quantity::balance:
       return 2 * k / s;
     case Quantity::g:
       return 2 * r / s;
@@ -95,7 +96,7 @@ double bits_of_the_weakest(const Claim& claim, int log2_scale) {
 
 std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
   std::optional<int> degree;
-  bool constrained = false;
+  bool constrained = false, works = false;
   int of_g = 0, r = 0;  // degree, and nodes
   const HbvmMethod* const hbvm = as_hbvm(*claim.method);
   {
@@ -104,6 +105,7 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
     const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene(claim.problem));
     degree = degree_of_U(scene.problem);
     constrained = scene.problem.nu() > 0;
+    works = !scene.problem.driven.empty();
     of_g = degree_of_g(scene.problem);
     if (hbvm) r = hbvm->constraint_nodes(scene.problem);
   }
@@ -120,6 +122,9 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
     case Quantity::reversal:
       return "the method is symmetric";
     case Quantity::H:
+      if (works) return {};
+      [[fallthrough]];
+    case Quantity::balance:
       return degree && *degree * s <= 2 * k ? "the nodes integrate U of degree " + std::to_string(*degree) + " exactly"
                                             : "";
     case Quantity::angular_momentum:
@@ -134,7 +139,8 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check) {
 int digits_to_show(const Claim& claim, int log2_scale) {
   constexpr double margin = 64;
   const HbvmMethod* const hbvm = as_hbvm(*claim.method);
-  const bool energy = claim.quantity == Quantity::H && hbvm, of_g = claim.quantity == Quantity::g && hbvm;
+  const bool energy = (claim.quantity == Quantity::H || claim.quantity == Quantity::balance) && hbvm,
+             of_g = claim.quantity == Quantity::g && hbvm;
   const double order = energy ? 2 * hbvm->name().k + 1
                        : of_g ? 2 * std::max(hbvm->name().s, hbvm->name().r) + 1
                               : 2 * claim.method->stages() + 2;

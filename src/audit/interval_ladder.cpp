@@ -123,7 +123,7 @@ class IntervalLadder {
            const Floors& floors, Vector<Mpfr>& q, Vector<Mpfr>& p) {
     q = start.q;
     p = start.p;
-    const Mpfr H0 = point_.energy(q, p);
+    const Mpfr H0 = point_.energy(q, p), balance0 = point_.balance(q, p);
     std::vector<MomentumValue<Mpfr>> momentum_0;
     for (const auto& component : momenta_) momentum_0.push_back(momentum(problem_, component, q, p));
     const bool constrained = problem_.nu() > 0, asks_for_g = constrained && group_.asks_for(Quantity::g);
@@ -138,6 +138,8 @@ class IntervalLadder {
         add(Quantity::delta_lambda, delta_lambda(laboratory_, trial, before, p, h, group_.subject().method->stages()),
             floors.divided);
       if (group_.asks_for(Quantity::H)) add(Quantity::H, abs(Mpfr(point_.energy(q, p) - H0)), unit_ + sensitivity.H);
+      if (group_.asks_for(Quantity::balance))
+        add(Quantity::balance, abs(Mpfr(point_.balance(q, p) - balance0)), unit_ + sensitivity.balance);
       if (asks_for_g) add(Quantity::g, distance(point_.constraints(q), g_0), unit_ + sensitivity.g);
       if (constrained && group_.asks_for(Quantity::hidden))
         add(Quantity::hidden, max_norm(point_.hidden_constraints(q, p)), unit_ + sensitivity.hidden);
@@ -148,13 +150,13 @@ class IntervalLadder {
   }
 
   /// The reference must be better than what is measured, which it takes a reference to know.
-  static void sharpen(Destination& exact, const Sensitivity& sensitivity, const Floors& floors, const Vector<Mpfr>& q,
-                      const Vector<Mpfr>& tangential) {
+  void sharpen(Destination& exact, const Sensitivity& sensitivity, const Floors& floors, const Vector<Mpfr>& q,
+               const Vector<Mpfr>& tangential) {
     exact.sharpen(sensitivity.q, sensitivity.p);
     for (bool improves = true; improves;) {
       const ReferenceMotion::Errors before = exact.errors();
-      exact.sharpen(std::max(log2_of(distance(q, exact.q())), floors.q) - 8,
-                    std::max(log2_of(distance(tangential, exact.p())), floors.p) - 8);
+      exact.sharpen(std::max(log2_of(laboratory_.apart(q, exact.q())), floors.q) - 8,
+                    std::max(log2_of(laboratory_.apart(tangential, exact.p())), floors.p) - 8);
       improves = exact.errors().q < before.q || exact.errors().p < before.p;
     }
   }
@@ -163,10 +165,10 @@ class IntervalLadder {
   void compare(Trial<S>& trial, const Destination& exact, const Floors& floors, const Vector<Mpfr>& q,
                const Vector<Mpfr>& p, const Vector<Mpfr>& tangential) {
     const Margins margin(exact.errors());
-    add(Quantity::q, distance(q, exact.q()), std::max(floors.q, margin.q));
-    add(Quantity::p, distance(p, exact.p()), std::max(floors.p, margin.p));
+    add(Quantity::q, laboratory_.apart(q, exact.q()), std::max(floors.q, margin.q));
+    add(Quantity::p, laboratory_.apart(p, exact.p()), std::max(floors.p, margin.p));
     if (problem_.nu() == 0) return;
-    add(Quantity::tangential_p, distance(tangential, exact.p()), std::max(floors.p, margin.p));
+    add(Quantity::tangential_p, laboratory_.apart(tangential, exact.p()), std::max(floors.p, margin.p));
     const Vector<Mpfr> exact_lambda = point_.multiplier(exact.q(), exact.p());
     Vector<Mpfr> lambda = exact_lambda;
     trial.multiplier(lambda);

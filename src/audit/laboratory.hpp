@@ -27,10 +27,14 @@ class Laboratory {
   const Problem<Mpfr>& problem() const { return assembled_.problem; }
   const std::vector<Start>& starts() const { return starts_; }
   StateEvaluator<Mpfr>& point() { return *point_; }
+  /// The distance of two positions, or of two momenta, of the bodies: driven coordinates are not looked at.
+  Mpfr apart(const Vector<Mpfr>& a, const Vector<Mpfr>& b) const;
   /// The motion from a start after the time t, if it is known in closed form.
   std::optional<ExactPoint> known(const Start& start, const Mpfr& t) const;
 
  private:
+  /// Puts a start where the group wants one after so many of its steps. \return whether there are enough
+  bool take(const Vector<Mpfr>& q, const Vector<Mpfr>& p, long steps, const Starts& wanted);
   void walk(const ClaimGroup& group);
 
   Assembled<Mpfr> assembled_;

@@ -24,9 +24,16 @@ class VectorField {
  public:
   explicit VectorField(const Problem<Mpfr>& problem) : problem_(problem), point_(problem) {}
 
+  /// M^-1 p, which is 0 for driven coordinates.
   Vector<Mpfr> velocity(const Vector<Mpfr>& p) const {
     Vector<Mpfr> v(p.size());
     problem_.mass.velocity(lanes(p), lanes(v));
+    return v;
+  }
+  /// q' at a state, with the velocities of driven points.
+  Vector<Mpfr> velocity(const PhasePoint& y) {
+    Vector<Mpfr> v(y.p.size());
+    point_.set_velocity(y.q, y.p, v);
     return v;
   }
   Vector<Mpfr> force(const PhasePoint& y) {
@@ -117,12 +124,12 @@ class Products {
   void observe(const PhasePoint& y) {
     const auto& forces = field_.forces(y);
     const Vector<Mpfr> applied = field_.velocity(forces.applied), constraint = field_.velocity(forces.constraint),
-                       a = applied + constraint, v = field_.velocity(y.p);
+                       a = applied + constraint, v = field_.velocity(y);
     const PhasePoint flow{v, forces.applied + forces.constraint};
     const Vector<Mpfr> jerk = field_.velocity(field_.derivative(y, flow, ldexp(scale_, -40)).p) * scale_;
     const Index d = problem_.dimension;
     std::vector<Vector<Mpfr>> vectors;
-    for (Index at = 0; at < problem_.m(); at += d) {
+    for (Index at = 0; at < problem_.mass.of_bodies(); at += d) {
       const Mpfr size =
           max_norm(Vector<Mpfr>(applied.segment(at, d))) + max_norm(Vector<Mpfr>(constraint.segment(at, d)));
       Vector<Mpfr> own = a.segment(at, d), change = jerk.segment(at, d);

@@ -10,7 +10,7 @@
 namespace hbvm::core {
 namespace {
 
-constexpr std::array<std::pair<Quantity, std::string_view>, 22> quantities{{
+constexpr std::array<std::pair<Quantity, std::string_view>, 23> quantities{{
     {Quantity::q, "q"},
     {Quantity::p, "raw p"},
     {Quantity::tangential_p, "tangential p"},
@@ -21,6 +21,7 @@ constexpr std::array<std::pair<Quantity, std::string_view>, 22> quantities{{
     {Quantity::g, "g"},
     {Quantity::hidden, "hidden"},
     {Quantity::H, "H"},
+    {Quantity::balance, "balance"},
     {Quantity::angular_momentum, "angular momentum"},
     {Quantity::reversal, "reversal"},
     {Quantity::hidden_constant, "hidden constant"},

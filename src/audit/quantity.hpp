@@ -16,6 +16,7 @@ enum class Quantity {
   g,                 ///< constraints
   hidden,            ///< hidden constraints grad g^T M^-1 p, (15)
   H,                 ///< energy
+  balance,           ///< H - W, the energy less the work done
   angular_momentum,  ///< every momentum that the problem conserves
   reversal,          ///< the start, after as many steps back (momenta reversed) as forth
   hidden_constant,   ///< hidden constraint over its leading term, for a constant Gram matrix

@@ -139,10 +139,10 @@ class ClaimReader {
     if (q >= Quantity::hidden_constant) reader_.fail("quantity '" + name + "' has no rate to claim");
     if (q == Quantity::polynomials && claim.span != Span::step)
       reader_.fail("quantity '" + name + "' is one of a step: over = \"step\"");
-    const bool conserved = q == Quantity::g || q == Quantity::hidden || q == Quantity::H ||
+    const bool conserved = q == Quantity::g || q == Quantity::hidden || q == Quantity::H || q == Quantity::balance ||
                            q == Quantity::angular_momentum || q == Quantity::reversal;
     if (claim.form == Form::round_off && !conserved)
-      reader_.fail("only g, hidden, H, angular momentum and reversal can be 0 to round-off");
+      reader_.fail("only g, hidden, H, balance, angular momentum and reversal can be 0 to round-off");
     const bool of_polynomials = q == Quantity::polynomials || q == Quantity::delta_lambda;
     if (of_polynomials && !as_hbvm(*claim.method))
       reader_.fail("quantity '" + name + "' is of the polynomials of hbvm:K,S, and " + claim.method->text() +

@@ -58,11 +58,11 @@ std::map<Quantity, RoundOff> round_off(const ClaimGroup& group, const Conservati
   if (group.asks_for(Quantity::angular_momentum)) momenta = conserved_momenta(problem);
   for (const Laboratory::Start& start : laboratory.starts()) {
     Vector<Mpfr> q = start.q, p = start.p;
-    const Mpfr H0 = point.energy(q, p);
+    const Mpfr H0 = point.energy(q, p), balance0 = point.balance(q, p);
     std::vector<MomentumValue<Mpfr>> momentum_0;
     for (const auto& component : momenta) momentum_0.push_back(momentum(problem, component, q, p));
-    Allowance of_H(group, last_bit), of_g(group, last_bit), of_hidden(group, last_bit), of_q(group, last_bit),
-        of_p(group, last_bit);
+    Allowance of_H(group, last_bit), of_balance(group, last_bit), of_g(group, last_bit), of_hidden(group, last_bit),
+        of_q(group, last_bit), of_p(group, last_bit);
     std::vector<Allowance> of_momenta(momenta.size(), Allowance(group, last_bit));
     trial.begin(start, h);
     for (long n = 1; n <= run.steps; ++n) {
@@ -71,6 +71,7 @@ std::map<Quantity, RoundOff> round_off(const ClaimGroup& group, const Conservati
       group.check_time();
       trial.state(q, p);
       add(Quantity::H, abs(Mpfr(point.energy(q, p) - H0)), of_H.step(here.H));
+      add(Quantity::balance, abs(Mpfr(point.balance(q, p) - balance0)), of_balance.step(here.balance));
       if (problem.nu() > 0) add(Quantity::g, max_norm(point.constraints(q)), of_g.step(here.g));
       if (problem.nu() > 0)
         add(Quantity::hidden, max_norm(point.hidden_constraints(q, p)), of_hidden.step(here.hidden));
@@ -97,13 +98,16 @@ std::map<Quantity, RoundOff> round_off(const ClaimGroup& group, const Conservati
     Vector<Mpfr> near_q = q, near_p = p, back_q = q, back_p = p;
     trial.reverse();
     go_back(back_q, back_p);
-    trial.begin({q + factor * off.q, -(p + factor * off.p)}, h);
+    trial.begin({q + factor * off.q, p + factor * off.p}, h);
+    trial.reverse();
     go_back(near_q, near_p);
-    const double grown_q = log2_of(distance(near_q, back_q)) - small,
-                 grown_p = log2_of(distance(near_p, back_p)) - small;
+    const double grown_q = log2_of(laboratory.apart(near_q, back_q)) - small,
+                 grown_p = log2_of(laboratory.apart(near_p, back_p)) - small;
     const double steps = std::log2(2 * static_cast<double>(run.steps));
-    add(Quantity::reversal, distance(back_q, start.q), std::max(of_q.step(grown_q + steps), of_q.step(grown_q)));
-    add(Quantity::reversal, distance(back_p, start.p), std::max(of_p.step(grown_p + steps), of_p.step(grown_p)));
+    add(Quantity::reversal, laboratory.apart(back_q, start.q),
+        std::max(of_q.step(grown_q + steps), of_q.step(grown_q)));
+    add(Quantity::reversal, laboratory.apart(back_p, start.p),
+        std::max(of_p.step(grown_p + steps), of_p.step(grown_p)));
   }
   return result;
 }

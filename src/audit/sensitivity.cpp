@@ -45,8 +45,8 @@ Sensitivity Sensitivity::at(const Problem<Mpfr>& problem, StateEvaluator<Mpfr>& 
   constexpr unsigned patterns = 4;
   const bool constrained = problem.nu() > 0;
   const Vector<Mpfr> lambda = point.multiplier(q, p), hidden = point.hidden_constraints(q, p), g = point.constraints(q);
-  const Mpfr H = point.energy(q, p);
-  Mpfr of_q = 0, of_p = 0, of_lambda = 0, of_hidden = 0, of_H = 0, of_g = 0;
+  const Mpfr H = point.energy(q, p), balance = point.balance(q, p);
+  Mpfr of_q = 0, of_p = 0, of_lambda = 0, of_hidden = 0, of_H = 0, of_balance = 0, of_g = 0;
   std::vector<Mpfr> of_momenta(momenta.size(), Mpfr(0));
   for (unsigned pattern = 1; pattern <= patterns; ++pattern) {
     const Kick off = kick(problem, point, log2_scale, q, p, pattern);
@@ -54,6 +54,7 @@ Sensitivity Sensitivity::at(const Problem<Mpfr>& problem, StateEvaluator<Mpfr>& 
     raise_to(of_p, max_norm(off.p));
     const Vector<Mpfr> q_off = q + ldexp(Mpfr(1), -small) * off.q, p_off = p + ldexp(Mpfr(1), -small) * off.p;
     raise_to(of_H, Mpfr(abs(Mpfr(point.energy(q_off, p_off) - H))));
+    raise_to(of_balance, Mpfr(abs(Mpfr(point.balance(q_off, p_off) - balance))));
     for (std::size_t c = 0; c < momenta.size(); ++c)
       raise_to(of_momenta[c], Mpfr(abs(Mpfr(momentum(problem, momenta[c], q_off, p_off).value -
                                             momentum(problem, momenta[c], q, p).value))));
@@ -67,6 +68,7 @@ Sensitivity Sensitivity::at(const Problem<Mpfr>& problem, StateEvaluator<Mpfr>& 
                 log2_of(of_lambda) + small,
                 log2_of(of_hidden) + small,
                 log2_of(of_H) + small,
+                log2_of(of_balance) + small,
                 log2_of(of_g) + small,
                 {}};
   for (const Mpfr& change : of_momenta) s.momenta.push_back(log2_of(change) + small);

@@ -11,7 +11,7 @@ namespace hbvm::core {
 /// Each block of coordinates is off by a unit of the sum of three sizes. These are its own size, its change within the
 /// time scale, and what the other half of the state makes of that. In any units, and whatever else is in the scene.
 struct Sensitivity {
-  double q, p, lambda, hidden, H, g;
+  double q, p, lambda, hidden, H, balance, g;
   std::vector<double> momenta;
 
   /// \param point of the problem \throws IntegrationError if gradients are dependent, against (3), at q

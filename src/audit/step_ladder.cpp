@@ -48,9 +48,12 @@ class StepMeasurement {
       exact_p = known->p;
       exact_lambda = known->lambda;
     }
-    add(Quantity::q, distance(q, exact_q), std::max(q_unit, margin.q));
-    add(Quantity::p, distance(p, exact_p), std::max(p_unit, margin.p));
+    const auto apart = [&](const Vector<Mpfr>& a, const Vector<Mpfr>& b) { return laboratory_.apart(a, b); };
+    add(Quantity::q, apart(q, exact_q), std::max(q_unit, margin.q));
+    add(Quantity::p, apart(p, exact_p), std::max(p_unit, margin.p));
     add(Quantity::H, abs(Mpfr(point.energy(q, p) - point.energy(start.q, start.p))), unit_ + sensitivity.H);
+    add(Quantity::balance, abs(Mpfr(point.balance(q, p) - point.balance(start.q, start.p))),
+        unit_ + sensitivity.balance);
     if (trial.has_polynomials())
       add_polynomials(trial, start, h, p, exact, std::max({q_unit, p_unit, margin.q, margin.p}), sizes);
     if (problem.nu() == 0) return margin;
@@ -66,7 +69,7 @@ class StepMeasurement {
       const Vector<Mpfr> g_0 = point.constraints(start.q);
       add(Quantity::g, distance(point.constraints(q), g_0), unit_ + sensitivity.g);
     }
-    add(Quantity::tangential_p, distance(tangential, exact_p), std::max(p_unit, margin.p));
+    add(Quantity::tangential_p, apart(tangential, exact_p), std::max(p_unit, margin.p));
     add(Quantity::output_lambda, distance(output_lambda, exact_lambda), std::max(lambda_unit, margin.lambda));
     add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(divided, margin.lambda));
     add(Quantity::hidden, hidden, unit_ + sensitivity.hidden);
@@ -87,8 +90,8 @@ class StepMeasurement {
       const Mpfr tau = Mpfr(i) / points;
       own.at(problem, tau, u, v);
       exact.polynomials().at(problem, tau, exact_u, exact_v);
-      raise_to(error, distance(u, exact_u));
-      raise_to(error, distance(v, exact_v));
+      raise_to(error, laboratory_.apart(u, exact_u));
+      raise_to(error, laboratory_.apart(v, exact_v));
     }
     raise(sizes, Quantity::polynomials, log2_of(error), floor);
   }

@@ -34,6 +34,10 @@ long Trial<S>::step() {
 template <Scalar S>
 void Trial<S>::reverse() {
   const PrecisionScope working(digits_);
+  if (!assembled_.problem.is_conservative()) {
+    set_negative(h_, h_);
+    return;
+  }
   for (Index j = 0; j < state_->p.size(); ++j) {
     set_negative(state_->p[j], state_->p[j]);
     set_negative(state_->p_carry[j], state_->p_carry[j]);

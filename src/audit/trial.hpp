@@ -30,7 +30,8 @@ class Trial {
   void begin(const Laboratory::Start& start, const Mpfr& h);
   /// \return sweeps. \throws StageFailure
   long step();
-  void reverse();  ///< p = -p
+  /// From here on the way back: p = -p, or where a force is none of a potential, steps of -h.
+  void reverse();
 
   void state(Vector<Mpfr>& q, Vector<Mpfr>& p) const;
   /// (57) of the last step.

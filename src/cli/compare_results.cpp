@@ -89,7 +89,7 @@ void add_comparison_options(CLI::App& command, ComparisonArguments& arguments) {
   command
       .add_option("--map", arguments.map,
                   "What their columns are, \"theirs=ours,...\": theirs an expression in their names, ours t or a name "
-                  "of q, p or velocity, as in sin(theta)=bob.x")
+                  "of q, p, velocity or what the scene observes, as in sin(theta)=bob.x")
       ->delimiter(',');
   command
       .add_option("--steps", arguments.steps,

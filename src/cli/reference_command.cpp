@@ -19,6 +19,7 @@
 #include "read_file.hpp"
 #include "reference/check_proof.hpp"
 #include "reference/compute_reference.hpp"
+#include "reference/literals.hpp"
 #include "reference/store.hpp"
 #include "scene/coordinate_names.hpp"
 #include "scene/set_number.hpp"
@@ -150,13 +151,24 @@ void list_references() {
   }
 }
 
-void show_references(const std::string& scene) {
+/// \param out where the first of them is written for other programs, if it is to be
+void show_references(const std::string& scene, const std::optional<std::string>& out) {
   bool found = false;
   for (const auto& [name, text] : shipped_references()) {
     const StoredReference stored = read_reference(text, name);
     if (stored.reference.scene != scene && name != scene) continue;
+    const Scene own = load_scene(stored.reference.scene);
+    if (out) {
+      const std::optional<Language> language = language_of_file(*out);
+      if (!language) throw InputError("reference --show: --out takes a name that ends with .csv, .jl, .py, .f90 or .h");
+      Reference named = stored.reference;
+      named.title = own.title;
+      named.q_names = coordinate_names(own);
+      named.p_names = coordinate_names(own, "p");
+      return write_and_say(*out, to_literals(named, *language));
+    }
     found = true;
-    print(load_scene(stored.reference.scene), stored.reference);
+    print(own, stored.reference);
     print_loading(stored);
   }
   if (!found) throw InputError("no reference of '" + scene + "' is shipped (see hbvm reference --list)");
@@ -226,8 +238,6 @@ void reference_command(const ReferenceArguments& o) {
       throw InputError(
           "reference --against compares at the times of the file, with as many digits as that takes: it "
           "goes with no --until, --at, --digits, --route, --out, --checkpoint, --prove or --force");
-    if (!o.settings.observations.empty())
-      throw InputError("reference --against compares q, p and velocities: it goes with no --observe");
     return compare_results(scene(), o.json, o.against);
   }
   o.against.refuse_alone();
@@ -236,7 +246,7 @@ void reference_command(const ReferenceArguments& o) {
   if (o.out && is_proof(*o.out) && !o.prove)
     throw InputError("reference --out " + *o.out + ": a proof is made by --prove");
   if (o.list) return list_references();
-  if (o.show) return show_references(*o.show);
+  if (o.show) return show_references(*o.show, o.out);
   if (o.verify) return verify(o);
   if (o.check) return check(o);
   if (!o.scene) throw InputError("reference: a scene is missing (see hbvm reference --help)");
@@ -261,7 +271,10 @@ void reference_command(const ReferenceArguments& o) {
   if (o.out) {
     if (o.route) throw InputError("--out: what one route found alone is no reference");
     file.claim = {reference, version(), today()};
-    write_and_say(*o.out, is_proof(*o.out) ? to_text(file) : to_toml(file.claim));
+    const std::optional<Language> language = language_of_file(*o.out);
+    write_and_say(*o.out, is_proof(*o.out) ? to_text(file)
+                          : language       ? to_literals(reference, *language)
+                                           : to_toml(file.claim));
   }
   if (o.json)
     std::cout << to_json(reference, command) << std::endl;
@@ -285,8 +298,10 @@ void add_reference_command(CLI::App& app) {
   command->add_option("--digits", o->digits, "Digits after the leading one of each vector's greatest component")
       ->capture_default_str();
   command->add_option("--route", o->route, "taylor, hbvm or closed_form alone, which confirms nothing");
-  command->add_option("--out", o->out,
-                      "Write it to this file, in TOML; with --prove to FILE.proof, with what proves it");
+  command->add_option(
+      "--out", o->out,
+      "Write it to this file, in TOML; .csv, .jl, .py, .f90 and .h for other programs, also with --show; "
+      "with --prove .proof, with what proves it");
   command->add_option("--checkpoint", o->checkpoint,
                       "Keep what is done in this file, some hundred steps at a time: the same command goes on from it");
   command->add_flag("--prove", o->prove,

@@ -9,6 +9,7 @@
 #include "output_files.hpp"
 #include "processes/draw.hpp"
 #include "run/run_figure.hpp"
+#include "scene/assemble.hpp"
 #include "scene_argument.hpp"
 
 namespace hbvm::core {

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "hbvm/error.hpp"
+#include "integrate/observations.hpp"
 #include "listed.hpp"
 #include "problem/driven_course.hpp"
 #include "problem/energy_terms.hpp"
@@ -128,14 +129,16 @@ Vector<Mpfr> with_driven(const Problem<Mpfr>& problem, const Vector<Mpfr>& of_bo
 /// A state of the scene, and where the quantities of a table stand in it.
 class Exact {
  public:
-  enum Kind { position, momentum, velocity };
+  enum Kind { position, momentum, velocity, observed };
+  static constexpr std::size_t kinds = 4;
   struct Place {
     Kind kind;
     Index j;
   };
 
-  Exact(const Problem<Mpfr>& problem, Vector<Mpfr> q, Vector<Mpfr> p)
+  Exact(const Problem<Mpfr>& problem, Observations<Mpfr>& observations, const Mpfr& t, Vector<Mpfr> q, Vector<Mpfr> p)
       : d_(problem.dimension), vectors_{std::move(q), std::move(p), Vector<Mpfr>(problem.m())} {
+    vectors_[observed] = observations.see(t, vectors_[position], vectors_[momentum]);
     problem.mass.velocity(lanes(std::as_const(vectors_[momentum])), lanes(vectors_[velocity]));
   }
 
@@ -146,7 +149,8 @@ class Exact {
     };
     if (const Index j = find(columns.positions()); j >= 0) return {position, j};
     if (const Index j = find(columns.momenta()); j >= 0) return {momentum, j};
-    return {velocity, find(columns.velocities())};
+    if (const Index j = find(columns.velocities()); j >= 0) return {velocity, j};
+    return {observed, find(columns.observed())};
   }
 
   const Vector<Mpfr>& all(Kind kind) const { return vectors_[kind]; }
@@ -155,13 +159,14 @@ class Exact {
   Mpfr size(const Place& at) const {
     const Vector<Mpfr>& x = vectors_[at.kind];
     Mpfr size = 0;
+    if (at.kind == observed) return magnitude(x[at.j]);
     for (Index i = at.j - at.j % d_; i < std::min(at.j - at.j % d_ + d_, x.size()); ++i) raise_magnitude(size, x[i]);
     return size;
   }
 
  private:
   Index d_;
-  std::array<Vector<Mpfr>, 3> vectors_;
+  std::array<Vector<Mpfr>, kinds> vectors_;
 };
 
 /// What a file has at t = 0 beside the start of the scene. Its last two digits may be rounding. That may be of what it
@@ -264,7 +269,8 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
   energy.evaluate(scene.q0, scene.p0);
   const Mpfr H0 = energy.H();
   StateEvaluator<Mpfr> point(scene.problem);
-  const Exact start_of_scene(scene.problem, scene.q0, scene.p0);
+  Observations<Mpfr> observations(request.scene, scene.problem);
+  const Exact start_of_scene(scene.problem, observations, Mpfr(0), scene.q0, scene.p0);
   for (std::size_t f = 0; f < request.files.size(); ++f) {
     FileComparison& out = result.files.emplace_back();
     out.name = request.files[f].name;
@@ -293,25 +299,28 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
     for (const ResultsColumns::Reading& reading : columns.readings())
       if (reading.ours != "t") out.components.push_back({reading.ours, {}, 0});
     std::vector<Exact> exact;
-    std::array<Mpfr, 3> greatest{};  // of each kind at any of the times
+    std::array<Mpfr, Exact::kinds> greatest{};  // of each kind at any of the times
     for (const ReferenceState& state : reference) {
       Vector<Mpfr> p = Vector<Mpfr>::Zero(scene.problem.m());
       p.head(m) = vector_of<Mpfr>(state.p);
       const Mpfr t = evaluate<Mpfr>(Expression::parse(state.t), request.scene.constants);
-      exact.emplace_back(scene.problem, with_driven(scene.problem, vector_of<Mpfr>(state.q), t), std::move(p));
+      exact.emplace_back(scene.problem, observations, t, with_driven(scene.problem, vector_of<Mpfr>(state.q), t),
+                         std::move(p));
       for (const auto kind : {Exact::position, Exact::momentum, Exact::velocity})
         raise_to(greatest[kind], max_norm(exact.back().all(kind)));
     }
     for (std::size_t n = 0; n < chosen.size(); ++n) {
-      std::array<Vector<Mpfr>, 3> theirs_of{exact[n].all(Exact::position), exact[n].all(Exact::momentum),
-                                            exact[n].all(Exact::velocity)};
-      std::array<Index, 3> known{};
+      std::array<Vector<Mpfr>, Exact::kinds> theirs_of;
+      for (std::size_t kind = 0; kind < Exact::kinds; ++kind)
+        theirs_of[kind] = exact[n].all(static_cast<Exact::Kind>(kind));
+      std::array<Index, Exact::kinds> known{};
       double worst = -std::numeric_limits<double>::infinity();
       std::size_t component = 0;
       for (const ResultsColumns::Reading& reading : columns.readings()) {
         if (reading.ours == "t") continue;
-        const Mpfr theirs = columns.value(reading, chosen[n]);
         const Exact::Place at = Exact::place(columns, reading.ours);
+        Mpfr theirs = columns.value(reading, chosen[n]);
+        if (at.kind == Exact::observed && observations.is_angle(at.j)) turn_towards(theirs, exact[n].value(at));
         Mpfr size = exact[n].size(at);
         if (size == 0) size = greatest[at.kind];
         const Mpfr error = magnitude(Mpfr(theirs - exact[n].value(at)));

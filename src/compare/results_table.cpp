@@ -9,6 +9,7 @@
 
 #include "csv_line.hpp"
 #include "hbvm/error.hpp"
+#include "listed.hpp"
 #include "nearest.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
@@ -92,10 +93,10 @@ ResultsColumns::ResultsColumns(const ComparisonRequest& request, const ResultsFi
       positions_(coordinate_names(request.scene)),
       momenta_(coordinate_names(request.scene, "p")),
       velocities_(coordinate_names(request.scene, "v")) {
+  for (const SceneObservation& observation : request.scene.observations) observed_.push_back(observation.name);
   for (std::size_t i = 0; i < rows.names.size(); ++i) {
     const std::string ours = own_name(rows.names[i]);
-    if (ours != "t" && !is_one_of(ours, positions_) && !is_one_of(ours, momenta_) && !is_one_of(ours, velocities_))
-      continue;
+    if (!is_ours(ours)) continue;
     // Of a trajectory of hbvm run, the momenta of the output state: they are tangential, as those of the reference.
     if (is_one_of(ours, momenta_) && is_one_of("output." + rows.names[i], rows.names)) continue;
     if (find(ours) != nullptr)
@@ -118,9 +119,10 @@ ResultsColumns::ResultsColumns(const ComparisonRequest& request, const ResultsFi
 void ResultsColumns::read_map(const ComparisonRequest& request) {
   std::set<std::string> mapped;
   for (const auto& [theirs, ours] : request.map) {
-    if (ours != "t" && !is_one_of(ours, positions_) && !is_one_of(ours, momenta_) && !is_one_of(ours, velocities_))
+    if (!is_ours(ours))
       throw InputError("--map: '" + ours + "' is nothing of this scene; there are t, " + positions_.front() + ", ... " +
-                       momenta_.front() + ", ... " + velocities_.front() + ", ...");
+                       momenta_.front() + ", ... " + velocities_.front() + ", ..." +
+                       (observed_.empty() ? std::string() : ", and it observes " + listed(observed_)));
     if (!mapped.insert(ours).second) throw InputError("--map: '" + ours + "' stands twice on the right of =");
     std::erase_if(readings_, [&, name = ours](const Reading& r) { return r.ours == name; });
     try {
@@ -176,6 +178,11 @@ Expression ResultsColumns::number(std::size_t row, std::size_t column) const {
   }
   throw InputError(fmt::format("{}:{}: column '{}' holds '{}', which is no number", file_.name, rows_.lines[row],
                                rows_.names[column], cell));
+}
+
+bool ResultsColumns::is_ours(const std::string& name) const {
+  return name == "t" || is_one_of(name, positions_) || is_one_of(name, momenta_) || is_one_of(name, velocities_) ||
+         is_one_of(name, observed_);
 }
 
 /// "time" is t, q_3 and p_3 are coordinates by number, and momenta may be those of an output state.

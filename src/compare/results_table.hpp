@@ -22,7 +22,7 @@ struct ResultsTable {
 /// What the quantities of a scene are in a table: columns of their names, or expressions of the map.
 class ResultsColumns {
  public:
-  /// "t", or a name of q, p or velocity.
+  /// "t", or a name of q, p or velocity, or of what the scene observes.
   struct Reading {
     std::string ours;
     Expression expression;  ///< c0, c1, ... are the columns
@@ -35,6 +35,7 @@ class ResultsColumns {
   const std::vector<std::string>& positions() const { return positions_; }
   const std::vector<std::string>& momenta() const { return momenta_; }
   const std::vector<std::string>& velocities() const { return velocities_; }
+  const std::vector<std::string>& observed() const { return observed_; }
   const Reading* find(const std::string& ours) const;
   /// Columns that are nothing of the scene.
   const std::vector<std::string>& unread() const { return unread_; }
@@ -50,10 +51,12 @@ class ResultsColumns {
   void read_map(const ComparisonRequest& request);
   Expression number(std::size_t row, std::size_t column) const;
   std::string own_name(const std::string& theirs) const;
+  /// Whether it is "t" or a name of the scene's.
+  bool is_ours(const std::string& name) const;
 
   const ResultsFile& file_;
   const ResultsTable& rows_;
-  std::vector<std::string> positions_, momenta_, velocities_;
+  std::vector<std::string> positions_, momenta_, velocities_, observed_;
   std::vector<Reading> readings_;
   std::vector<std::string> unread_;
 };

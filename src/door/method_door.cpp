@@ -2,6 +2,7 @@
 #include "hbvm/method.hpp"
 #include "hbvm/table.hpp"
 #include "long_work/json.hpp"
+#include "method/runge_kutta.hpp"
 #include "step/registry.hpp"
 
 namespace hbvm {

@@ -5,6 +5,7 @@
 #include "long_work/json.hpp"
 #include "reference/check_proof.hpp"
 #include "reference/compute_reference.hpp"
+#include "reference/literals.hpp"
 
 namespace hbvm {
 
@@ -32,6 +33,10 @@ Reference reference(const ReferenceRequest& door) {
 Reference check_proof(const ProofRequest& request) {
   const core::Admitted admitted(request.stop);
   return core::check_proof(core::read_proof(request.text, request.name), core::watched(request.progress));
+}
+
+std::string to_literals(const Reference& reference, const std::string& language) {
+  return core::to_literals(reference, core::parse_language(language));
 }
 
 std::string to_json(const Reference& r, const std::string& command) {

@@ -13,23 +13,26 @@ void add_once(std::vector<std::string>& kinds, const std::string& kind) {
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
 }
 
+SceneEntry entry_of(const std::string& name, const std::string& text) {
+  const core::Scene scene = core::read_scene(text, name);
+  SceneEntry entry;
+  entry.name = name;
+  entry.title = scene.title;
+  entry.source = scene.source;
+  entry.dimension = scene.dimension;
+  entry.bodies = static_cast<long>(scene.bodies.size());
+  entry.rigid_bodies = static_cast<long>(scene.rigid_bodies.size());
+  for (const core::SceneConstraint& constraint : scene.constraints) add_once(entry.constraints, constraint.kind);
+  for (const core::SceneEffect& effect : scene.effects) add_once(entry.effects, effect.kind);
+  return entry;
+}
+
 }  // namespace
 
 std::vector<SceneEntry> scenes() {
   std::vector<SceneEntry> entries;
-  for (const auto& [name, text] : core::built_in_scenes()) {
-    const core::Scene scene = core::read_scene(text, name);
-    SceneEntry entry;
-    entry.name = name;
-    entry.title = scene.title;
-    entry.source = scene.source;
-    entry.dimension = scene.dimension;
-    entry.bodies = static_cast<long>(scene.bodies.size());
-    entry.rigid_bodies = static_cast<long>(scene.rigid_bodies.size());
-    for (const core::SceneConstraint& constraint : scene.constraints) add_once(entry.constraints, constraint.kind);
-    for (const core::SceneEffect& effect : scene.effects) add_once(entry.effects, effect.kind);
-    entries.push_back(entry);
-  }
+  for (const auto* const list : {&core::built_in_scenes(), &core::test_set_scenes()})
+    for (const auto& [name, text] : *list) entries.push_back(entry_of(name, text));
   return entries;
 }
 

@@ -97,16 +97,12 @@ void Observations<S>::evaluate_all(bool at_start) {
 template <Scalar S>
 void Observations<S>::observe(const Snapshot<S>& s) {
   take(s.t, s.q, s.p);
-  using std::atan, std::floor;
-  const S turn = 8 * atan(S(1)), passed = s.t - last_t_;
+  const S passed = s.t - last_t_;
   for (std::size_t i = 0; i < quantities_.size(); ++i) {
     if (!quantities_[i].rate) continue;
     const auto at = static_cast<Index>(i);
     const S rate = quantities_[i].rate(state_);
-    if (s.n > 0) {
-      const S expected = angles_[at] + passed * (rates_[at] + rate) / 2;
-      seen_[at] += turn * floor(S((expected - seen_[at]) / turn + S(1) / 2));
-    }
+    if (s.n > 0) turn_towards(seen_[at], S(angles_[at] + passed * (rates_[at] + rate) / 2));
     angles_[at] = seen_[at];
     rates_[at] = rate;
   }
@@ -124,8 +120,28 @@ void Observations<S>::observe(const Snapshot<S>& s) {
 }
 
 template <Scalar S>
+bool Observations<S>::has_angles() const {
+  return std::ranges::any_of(quantities_, [](const SeenQuantity<S>& quantity) { return bool(quantity.rate); });
+}
+
+template <Scalar S>
+bool Observations<S>::is_angle(Index observation) const {
+  const Formula& formula = *formulas_[static_cast<std::size_t>(observation)];
+  return !formula.execution && quantities_[formula.quantities.front()].rate;
+}
+
+template <Scalar S>
 const Vector<S>& Observations<S>::see(const S& t, const Vector<S>& q, const Vector<S>& p) {
   take(t, q, p);
+  evaluate_all(false);
+  return values_;
+}
+
+template <Scalar S>
+const Vector<S>& Observations<S>::see(const S& t, const Vector<S>& q, const Vector<S>& p, const Vector<S>& angles) {
+  take(t, q, p);
+  for (std::size_t i = 0; i < quantities_.size(); ++i)
+    if (quantities_[i].rate) turn_towards(seen_[static_cast<Index>(i)], angles[static_cast<Index>(i)]);
   evaluate_all(false);
   return values_;
 }

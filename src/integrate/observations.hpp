@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,14 @@
 #include "problem/state_evaluator.hpp"
 
 namespace hbvm::core {
+
+/// Adds full turns to an angle, so that it is the nearest to another.
+template <Scalar S>
+void turn_towards(S& angle, const S& other) {
+  using std::atan, std::floor;
+  const S turn = 8 * atan(S(1));
+  angle += turn * floor(S((other - angle) / turn + S(1) / 2));
+}
 
 /// The values of a scene's observations along the motion. They are formulas of what SeenQuantities names. An angle of
 /// the plane goes on over full turns. It is the one nearest to where its rates at both ends of the step lead.
@@ -26,6 +35,15 @@ class Observations final : public Observer<S> {
   void observe(const Snapshot<S>& snapshot) override;
   /// The same for a state by itself: angles are in (-pi, pi].
   const Vector<S>& see(const S& t, const Vector<S>& q, const Vector<S>& p);
+  /// And with each angle of the plane turned to the one nearest to what angles() was at that time.
+  const Vector<S>& see(const S& t, const Vector<S>& q, const Vector<S>& p, const Vector<S>& angles);
+  /// Each angle of the plane that the formulas hold, at the mesh point observed last; 0 in place of other quantities.
+  const Vector<S>& angles() const { return angles_; }
+  /// How fast the fastest of them grows, or shrinks, there.
+  S greatest_rate() const { return max_norm(rates_); }
+  bool has_angles() const;
+  /// Whether an observation is such an angle itself.
+  bool is_angle(Index observation) const;
   /// Those at the state seen last, one for each observation.
   const Vector<S>& values() const { return values_; }
   /// The least and the greatest value of each observation at the mesh points observed, and when it was first met.

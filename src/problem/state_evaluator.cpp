@@ -112,8 +112,11 @@ const Vector<S>& StateEvaluator<S>::with_rates(const Vector<S>& q, const Vector<
   hidden_ -= rates;
   solve_gram(hidden_);
   for (Index a = 0; a < problem_.nu(); ++a) row_(0, a) = -hidden_[a];
+  // What moves the momentum is an impulse, which does work on driven points.
+  for (Index j = problem_.mass.of_bodies(); j < p.size(); ++j) set_zero(tangential_[j]);
   gradient_.add_times(row_, lanes(tangential_));
-  for (Index j = problem_.mass.of_bodies(); j < p.size(); ++j) set(tangential_[j], p[j]);
+  course_.make_powers(lanes(tangential_));
+  for (Index j = problem_.mass.of_bodies(); j < p.size(); ++j) tangential_[j] += p[j];
   return tangential_;
 }
 

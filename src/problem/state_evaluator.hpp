@@ -29,7 +29,7 @@ class StateEvaluator {
   const Vector<S>& hidden_constraints(const Vector<S>& q, const Vector<S>& p);
 
   /// p - grad g (grad g^T M^-1 grad g)^-1 grad g^T M^-1 p: the nearest momentum, in the metric M^-1, that fulfils the
-  /// hidden constraints.
+  /// hidden constraints. Momenta of driven coordinates change by the work of that impulse.
   /// \throws IntegrationError if the Gram matrix grad g^T M^-1 grad g is singular at q
   const Vector<S>& tangential(const Vector<S>& q, const Vector<S>& p);
   /// The nearest momentum with grad g^T M^-1 p = rates instead of 0. \throws IntegrationError likewise

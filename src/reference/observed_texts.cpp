@@ -1,8 +1,10 @@
 #include "reference/observed_texts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "integrate/observations.hpp"
+#include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 
@@ -26,6 +28,52 @@ std::string agreed_text(const std::vector<Mpfr>& x, int digits) {
   return rounded_text(to_text(x.front()), static_cast<int>(std::max(1L, agreed)));
 }
 
+/// The angles that a scene observes at each time, over full turns. A motion with few digits follows them.
+class Turns {
+ public:
+  Turns(const ReferenceRequest& request, double digits_lost)
+      : scope_(static_cast<unsigned>(few + std::clamp(digits_lost, double{0}, most_lost))),
+        scene_(assemble<Mpfr>(request.scene)),
+        observations_(request.scene, scene_.problem),
+        motion_(scene_.problem, scene_.q0, scene_.p0) {
+    look(Mpfr(0));
+    for (const Expression& time : request.times) {
+      follow(evaluate<Mpfr>(time, request.scene.constants));
+      angles_.push_back(observations_.angles());
+    }
+  }
+
+  const std::vector<Vector<Mpfr>>& angles() const { return angles_; }
+
+ private:
+  static constexpr int few = 18;
+  static constexpr double most_lost = 1000;
+
+  /// No further at a time than the fastest angle grows by a radian, nor than the least radius of convergence.
+  void follow(const Mpfr& end) {
+    while (now_ < end) {
+      const Mpfr radius = ldexp(Mpfr(1), static_cast<int>(std::lround(motion_.least_radius())));
+      Mpfr most = 1 / std::max(Mpfr(observations_.greatest_rate()), Mpfr(1 / radius));
+      if (most > end - now_) most = end - now_;
+      look(now_ + most >= end ? end : Mpfr(now_ + most));
+    }
+  }
+
+  void look(const Mpfr& t) {
+    if (t > 0) motion_.advance_to(t);
+    observations_.observe({looks_++, t, motion_.q(), motion_.p(), motion_.lambda()});
+    now_ = t;
+  }
+
+  PrecisionScope scope_;
+  Assembled<Mpfr> scene_;
+  Observations<Mpfr> observations_;
+  TaylorMotion motion_;
+  Mpfr now_ = 0;
+  long looks_ = 0;
+  std::vector<Vector<Mpfr>> angles_;
+};
+
 }  // namespace
 
 std::vector<ExactPoint> shaken(std::vector<ExactPoint> points) {
@@ -42,11 +90,14 @@ void add_observed_texts(Reference& reference, const ReferenceRequest& request, c
   Observations<Mpfr> observations(request.scene, problem);
   for (const SceneObservation& observation : request.scene.observations)
     reference.observed_names.push_back(observation.name);
+  std::vector<Vector<Mpfr>> angles;
+  if (observations.has_angles()) angles = Turns(request, reference.digits_lost).angles();
   for (std::size_t n = 0; n < reference.times.size(); ++n) {
     std::vector<std::vector<Mpfr>> values(reference.observed_names.size());
     const Mpfr t = evaluate<Mpfr>(request.times[n], request.scene.constants);
     for (const std::vector<ExactPoint>& found : points) {
-      const Vector<Mpfr>& seen = observations.see(t, found[n].q, found[n].p);
+      const Vector<Mpfr>& seen = angles.empty() ? observations.see(t, found[n].q, found[n].p)
+                                                : observations.see(t, found[n].q, found[n].p, angles[n]);
       for (std::size_t i = 0; i < values.size(); ++i) values[i].push_back(seen[static_cast<Index>(i)]);
     }
     for (const std::vector<Mpfr>& x : values) reference.times[n].observed.push_back(agreed_text(x, request.digits));

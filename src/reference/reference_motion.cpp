@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "basis/legendre.hpp"
+#include "problem/driven_course.hpp"
 #include "step/hbvm_stepper.hpp"
 
 namespace hbvm::core {
@@ -27,6 +28,11 @@ void StepPolynomials::at(const Problem<Mpfr>& problem, const Mpfr& tau, Vector<M
   }
   problem.mass.velocity(lanes(std::as_const(sum)), lanes(u));
   for (Index j = 0; j < q0.size(); ++j) u[j] = q0[j] + h * u[j];
+  if (problem.driven.empty()) return;
+  u[problem.clock()] += tau * h;
+  DrivenCourse<Mpfr> course(problem, 1);
+  place(course, problem, u);
+  course.set_positions(lanes(u));
 }
 
 ReferenceMotion::ReferenceMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0, const Vector<Mpfr>& p0,

@@ -61,6 +61,7 @@ std::string to_toml(const StoredReference& stored) {
                   quoted(fmt::format("{:.2f}", r.digits_lost)), quoted(stored.version), quoted(stored.date));
   if (r.proved > 0) text += fmt::format("proved = {}\n", r.proved);
   text += list("momenta", r.momentum_names);
+  if (!r.observed_names.empty()) text += list("observed", r.observed_names);
   for (const RouteReport& route : r.routes)
     text += fmt::format("\n[[route]]\nname = {}\nsettings = {}\ncpu_seconds = {}\n", quoted(route.name),
                         quoted(route.settings), quoted(fmt::format("{:.3f}", route.cpu_seconds)));
@@ -68,6 +69,7 @@ std::string to_toml(const StoredReference& stored) {
     text += fmt::format("\n[[time]]\nt = {}\nagreed = {}\n", quoted(state.t), state.agreed);
     text += list("q", state.q) + list("p", state.p) + list("lambda", state.lambda);
     text += "H = " + quoted(state.H) + "\n" + list("momenta", state.momenta);
+    if (!state.observed.empty()) text += list("observed", state.observed);
     if (state.radius) text += list("radius", {state.radius->q, state.radius->p, state.radius->lambda, state.radius->H});
   }
   return text;
@@ -89,6 +91,7 @@ StoredReference read_reference(const std::string& toml, const std::string& name)
   stored.date = root.string("date");
   if (root.has("proved")) r.proved = static_cast<int>(root.integer("proved"));
   r.momentum_names = root.strings("momenta");
+  if (root.has("observed")) r.observed_names = root.strings("observed");
   for_each_table(source, root, "route", [&](TomlTable& table) {
     RouteReport route{table.string("name"), table.string("settings")};
     route.cpu_seconds = std::stod(decimal(table, "cpu_seconds"));
@@ -103,6 +106,7 @@ StoredReference read_reference(const std::string& toml, const std::string& name)
     state.lambda = decimals(table, "lambda");
     state.H = decimal(table, "H");
     state.momenta = decimals(table, "momenta");
+    if (table.has("observed")) state.observed = decimals(table, "observed");
     if (table.has("radius")) {
       // Of q, p, lambda and H.
       const std::vector<std::string> radius = decimals(table, "radius");
@@ -111,6 +115,7 @@ StoredReference read_reference(const std::string& toml, const std::string& name)
     }
     if (state.p.size() != state.q.size()) table.fail("'q' and 'p' have different lengths");
     if (state.momenta.size() != r.momentum_names.size()) table.fail("'momenta' has not a number for each name");
+    if (state.observed.size() != r.observed_names.size()) table.fail("'observed' has not a number for each name");
     r.times.push_back(std::move(state));
   });
   root.finish();
@@ -156,6 +161,7 @@ std::vector<Difference> differences(const Reference& stored, const Reference& fo
     compare(t, "lambda", a.lambda, b.lambda);
     compare(t, "H", {a.H}, {b.H});
     compare(t, "momentum", a.momenta, b.momenta);
+    if (!stored.observed_names.empty()) compare(t, "observed", a.observed, b.observed);
   }
   return result;
 }

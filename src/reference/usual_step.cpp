@@ -6,6 +6,7 @@
 #include "hbvm/error.hpp"
 #include "integrate/time_grid.hpp"
 #include "reference/taylor.hpp"
+#include "scalar/log2_of.hpp"
 #include "scalar/text.hpp"
 #include "scene/assemble.hpp"
 

@@ -226,8 +226,8 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   result.e_H = to_text(simulated.e_H);
   if (!scene.problem.driven.empty()) {
     result.e_B = to_text(simulated.e_B);
-    result.work = to_text(S(-point.account(end.p)));
-    result.works = works_of(scene.problem, end.p);
+    result.work = to_text(S(-point.account(output.p)));
+    result.works = works_of(scene.problem, output.p);
   }
   result.e_g = to_text(simulated.e_g);
   result.e_hid = to_text(simulated.e_hid);

@@ -619,8 +619,9 @@ Scene read_scene(const std::string& toml, const std::string& name) {
 }
 
 std::string scene_text(const std::string& path_or_name) {
-  for (const auto& [name, text] : built_in_scenes())
-    if (name == path_or_name) return text;
+  for (const auto* const scenes : {&built_in_scenes(), &test_set_scenes()})
+    for (const auto& [name, text] : *scenes)
+      if (name == path_or_name) return text;
   std::ifstream file(path_or_name, std::ios::binary);
   std::string text;
   if (file) {
@@ -632,7 +633,8 @@ std::string scene_text(const std::string& path_or_name) {
     if (!file.bad() && (!text.empty() || file.eof())) return text;
   }
   std::vector<std::string> names;
-  for (const auto& [name, unused] : built_in_scenes()) names.push_back(name);
+  for (const auto* const scenes : {&built_in_scenes(), &test_set_scenes()})
+    for (const auto& [name, unused] : *scenes) names.push_back(name);
   const std::string guess = nearest(path_or_name, names);
   throw InputError("unknown scene '" + path_or_name + "': no readable file and no built-in scene" +
                    (guess.empty() ? std::string("; see `hbvm scenes`") : "; did you mean '" + guess + "'?"));

@@ -168,7 +168,9 @@ Scene load_scene(const std::string& path_or_name);
 /// The text of a scene to begin with, whose comments say what there is.
 const std::string& new_scene();
 
-/// Name and text of each scene compiled in.
+/// Name and text of each scene compiled in: those of studies/scenes.
 const std::vector<std::pair<std::string, std::string>>& built_in_scenes();
+/// And those of studies/test_set: the field's test problems, and scenes in which forces do work.
+const std::vector<std::pair<std::string, std::string>>& test_set_scenes();
 
 }  // namespace hbvm::core

@@ -27,7 +27,7 @@ TEST(Completion, OffersCommandsOptionsAndScenes) {
   EXPECT_EQ(offered({"hbvm", "scene", "pro"}), Words{"project"});
   EXPECT_EQ(offered({"hbvm", "run", "modi"}), Words{"modified_pendulum"});
   EXPECT_EQ(offered({"hbvm", "run", "kepler", "--meth"}), Words{"--method"});
-  EXPECT_EQ(offered({"hbvm", "scene", "show", "four"}), (Words{"four_bar_linkage", "four_bar_linkage_of_bars"}));
+  EXPECT_EQ(offered({"hbvm", "scene", "show", "four_bar_"}), (Words{"four_bar_linkage", "four_bar_linkage_of_bars"}));
   EXPECT_EQ(offered({"hbvm", "scene", "show", "four_bar_linkage", "--pl"}), Words{"--plot"});
   EXPECT_EQ(offered({"hbvm", "--vers"}), Words{"--version"});
 }

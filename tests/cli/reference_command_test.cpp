@@ -214,6 +214,48 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
     for (const auto& right : digits) EXPECT_GT(right.get<double>(), 12) << name;
 }
 
+/// An angle goes on over full turns. In a file of results any of them will do.
+TEST(ReferenceCommand, FollowsAnglesAndComparesWhatIsObserved) {
+  const Folder folder;
+  const std::string wheel = folder.write("wheel.toml", R"toml(dimension = 2
+[[rigid_body]]
+name = "w"
+fixed_at = [0, 0]
+mass = 1
+center = [0, 0]
+inertia = 1
+orientation = 0
+angular_velocity = 5
+[[observe]]
+name = "a"
+value = "angle(w.d1)"
+)toml");
+  const nlohmann::ordered_json found = json_of({"reference", wheel, "--at", "1,10", "--digits", "25"});
+  const auto angle = [&](std::size_t n) { return std::stod(found["times"][n]["observed"]["a"].get<std::string>()); };
+  EXPECT_NEAR(angle(0), 5, 1e-14);
+  EXPECT_NEAR(angle(1), 50, 1e-13);
+  const auto right = [&](const std::string& name, const std::string& value) {
+    const std::string file = folder.write(name, "t,a\n10," + value + "\n");
+    return ended_with(0, {"reference", wheel, "--against", file}).out;
+  };
+  expect_words(right("whole.csv", "50.0001"), {"at the end: a 3.4"});
+  expect_words(right("principal.csv", "-0.2653824574366918"), {"at the end: a 3.4"});
+  expect_words(
+      ended_with(2, {"reference", wheel, "--against", folder.write("b.csv", "t,b\n10,1\n"), "--map", "b=c"}).err,
+      {"it observes a"});
+}
+
+/// Numbers for other programs, of a reference that is computed or shipped.
+TEST(ReferenceCommand, WritesNumbersForOtherPrograms) {
+  const Folder folder;
+  const std::string file = folder / "pendulum.py", shipped = folder / "car.csv";
+  ended_with(0, {"reference", "simple_pendulum", "--until", "3", "--digits", "25", "--out", file});
+  expect_words(read_file(file), {"mp.dps = 30", "names = [\"bob.x\", \"bob.y\"", "mpf(\"3\")"});
+  ended_with(0, {"reference", "--show", "car_axis", "--out", shipped});
+  expect_words(read_file(shipped), {"t,left.x,left.y", "0.04934557842752409213152"});
+  expect_words(ended_with(2, {"reference", "--show", "car_axis", "--out", folder / "car.txt"}).err, {".csv, .jl"});
+}
+
 /// A number that is set is set in the reference, too; what would change nothing is refused.
 TEST(ReferenceCommand, ComparesWithTheSceneAsItIsSet) {
   const Folder folder;
@@ -225,7 +267,7 @@ TEST(ReferenceCommand, ComparesWithTheSceneAsItIsSet) {
   expect_words(ended_with(2, against + Arguments{"--set", "nonsense=1"}).err, {"nonsense"});
   for (const Arguments& idle : {Arguments{"--until", "3"}, {"--digits", "5"}, {"--prove"}, {"--at", "1"}})
     expect_words(ended_with(2, against + idle).err, {"--against compares at the times of the file"});
-  expect_words(ended_with(2, against + Arguments{"--observe", "a.x"}).err, {"goes with no --observe"});
+
   // A comma within parentheses divides nothing; a time is as short as it can be.
   const std::string angle = folder.write("angle.csv", "t,x,y\n10,0.11400385,-0.99348031\n");
   expect_words(ended_with(0, {"reference", "simple_pendulum", "--against", angle, "--map",

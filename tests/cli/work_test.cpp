@@ -5,7 +5,7 @@ namespace hbvm::core {
 namespace {
 
 /// A pendulum whose pivot moves, with drag.
-const std::string driven = std::string(HBVM_SOURCE_DIR) + "/tests/verification/scenes/driven_pendulum.toml";
+const std::string driven = "driven_pendulum";
 
 Arguments run_of(const std::string& method) {
   return {"run", driven, "--method", method, "--step", "1/16", "--until", "1"};
@@ -48,11 +48,15 @@ TEST(Work, BeginsAtItsStart) {
   expect_refused(run_of("taylor") + Arguments{"--precision", "mpfr:30", "--reverse"}, {"taylor", "back in time"});
 }
 
-TEST(Work, IsNotAudited) {
+/// What is kept where work is done is H - W, and not H.
+TEST(Work, IsAudited) {
   const Folder folder;
-  const std::string claims = folder.write(
-      "claims.toml", "[[claim]]\nquantity = \"q\"\nmethod = \"hbvm:1,1\"\nrate = 2\nproblem = \"" + driven + "\"\n");
-  expect_words(ended_with(4, {"audit", "--claims", claims}).out, {"not run", "motions that conserve H"});
+  const auto claims_of = [&](const std::string& name, const std::string& quantity) {
+    return folder.write(name, "[[claim]]\nquantity = \"" + quantity +
+                                  "\"\nmethod = \"hbvm:1,1\"\nrate = 2\nproblem = \"" + driven + "\"\n");
+  };
+  expect_words(ended_with(0, {"audit", "--claims", claims_of("balance.toml", "balance")}).out, {"1 hold"});
+  expect_words(ended_with(1, {"audit", "--claims", claims_of("energy.toml", "H")}).out, {"1 fail"});
 }
 
 TEST(Work, OfForcesAtRestThatHaveNoSeriesIsSaid) {

@@ -49,6 +49,12 @@ TEST(DoorReference, RefusesTimesThatAreNone) {
   EXPECT_THROW(reference({.scene = oscillator(), .times = {1}, .route = "by_foot"}), InputError);
 }
 
+TEST(DoorReference, IsWrittenForOtherPrograms) {
+  const Reference found = reference({.scene = oscillator(), .times = {1}, .digits = 12});
+  EXPECT_NE(to_literals(found, "csv").find(found.times[0].q[0]), std::string::npos);
+  EXPECT_THROW(to_literals(found, "cobol"), InputError);
+}
+
 TEST(DoorReference, EndsWhenItIsAskedTo) {
   std::stop_source source;
   source.request_stop();

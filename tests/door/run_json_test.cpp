@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "hbvm/error.hpp"
 #include "hbvm/run.hpp"
 
 namespace hbvm {

@@ -54,6 +54,19 @@ TYPED_TEST(ObservationsTest, OfAStateAloneHaveAnglesWithinAHalfTurn) {
   EXPECT_LE(magnitude(S(difference - round(difference))), 16 * epsilon<S>());
 }
 
+/// With the angles that were followed, a state by itself has the turns of the run.
+TYPED_TEST(ObservationsTest, OfAStateAloneTurnTowardsAngles) {
+  using S = TypeParam;
+  const Scene scene = turning();
+  const auto [end, seen] = this->at_end(scene, "1/16", "9");
+  const Assembled<S> assembled = assemble<S>(scene);
+  Observations<S> followed(scene, assembled.problem), alone(scene, assembled.problem);
+  for (const auto& snapshot : seen) followed.observe(snapshot);
+  EXPECT_TRUE(alone.has_angles());
+  EXPECT_LE(magnitude(S(alone.see(seen.back().t, seen.back().q, seen.back().p, followed.angles())[0] - end)),
+            16 * epsilon<S>());
+}
+
 /// A run that goes on from what was kept counts on.
 TYPED_TEST(ObservationsTest, AreKeptWithTheirRun) {
   using S = TypeParam;

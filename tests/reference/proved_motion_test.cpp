@@ -2,6 +2,7 @@
 
 #include "hbvm/error.hpp"
 #include "printing.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/known_motion.hpp"
 #include "reference/proof/holds.hpp"
 #include "reference/scene_tables.hpp"

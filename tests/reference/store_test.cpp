@@ -151,7 +151,8 @@ TEST(Store, ShipsWhatIsConserved) {
         const Mpfr number = literal<Mpfr>(printed), scale = number == 0 ? size : magnitude(value);
         EXPECT_LE(magnitude(Mpfr(number - value)), unit * scale) << what << " of " << name << " is " << printed;
       };
-      expect("H", state.H, point.energy(scene.q0, scene.p0), point.energy_size(scene.q0, scene.p0));
+      if (scene.problem.driven.empty())
+        expect("H", state.H, point.energy(scene.q0, scene.p0), point.energy_size(scene.q0, scene.p0));
       ASSERT_EQ(state.momenta.size(), momenta.size()) << name;
       for (std::size_t i = 0; i < momenta.size(); ++i) {
         const MomentumValue<Mpfr> start = momentum(scene.problem, momenta[i], scene.q0, scene.p0);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "printing.hpp"
 #include "scene/project.hpp"
 #include "scene_text.hpp"
 #include "words.hpp"

@@ -1,6 +1,7 @@
 #include "scene/places.hpp"
 
 #include "printing.hpp"
+#include "scalar/literal.hpp"
 #include "scene/assemble.hpp"
 
 namespace hbvm::core {

@@ -36,7 +36,7 @@ TEST(ClosedForms, AgreeWithShippedReferences) {
     }
   }
   EXPECT_EQ(scenes, (std::set<std::string>{"simple_pendulum", "conical_pendulum", "swinging_pendulum",
-                                           "spherical_pendulum", "kepler", "free_rigid_body"}));
+                                           "spherical_pendulum", "kepler", "free_rigid_body", "heavy_top_150"}));
 }
 
 }  // namespace

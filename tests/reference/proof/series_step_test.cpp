@@ -1,6 +1,7 @@
 #include "reference/proof/series_step.hpp"
 
 #include "printing.hpp"
+#include "problem/state_evaluator.hpp"
 #include "reference/known_motion.hpp"
 #include "reference/proof/holds.hpp"
 
