@@ -2,6 +2,7 @@
 
 #include "cli/json.hpp"
 #include "cli/program.hpp"
+#include "read_file.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/precision.hpp"
 
