@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <vector>
 
+#include "csv_line.hpp"
 #include "hbvm/error.hpp"
 #include "listed.hpp"
+#include "scalar/literal.hpp"
+#include "scalar/text.hpp"
+#include "scene/scene.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -22,7 +27,7 @@ constexpr std::array languages{
     KnownLanguage{Language::python, "python", ".py"}, KnownLanguage{Language::fortran, "fortran", ".f90"},
     KnownLanguage{Language::c, "c", ".h"}};
 
-/// Times, names of the numbers at each, and these.
+/// Times as decimals, names of the numbers at each, and these.
 struct NumbersByTime {
   std::vector<std::string> names, times;
   std::vector<std::vector<std::string>> rows;
@@ -42,8 +47,11 @@ NumbersByTime numbers_of(const Reference& r) {
   name({"H"}, {first.H}, "H");
   name(r.momentum_names, first.momenta, "momentum");
   name(r.observed_names, first.observed, "observed");
+  const PrecisionScope scope(static_cast<unsigned>(r.digits) + 5);
+  const Constants constants = r.scene_toml.empty() ? Constants() : read_scene(r.scene_toml, r.scene).constants;
   for (const ReferenceState& state : r.times) {
-    all.times.push_back(state.t);
+    // A time may have been asked for as an expression, such as 2*pi.
+    all.times.push_back(is_decimal(state.t) ? state.t : to_text(evaluate<Mpfr>(Expression::parse(state.t), constants)));
     std::vector<std::string>& row = all.rows.emplace_back();
     for (const auto* const part : {&state.q, &state.p, &state.lambda})
       row.insert(row.end(), part->begin(), part->end());
@@ -53,6 +61,7 @@ NumbersByTime numbers_of(const Reference& r) {
   return all;
 }
 
+/// Of Julia, Python and C.
 std::string in_quotes(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -62,7 +71,19 @@ std::string in_quotes(const std::string& text) {
   return result + '"';
 }
 
-/// Of an expression, such as 2*pi, its text; what is no decimal has to be one elsewhere.
+/// Of Fortran: a quote stands twice, and a backslash for itself.
+std::string in_fortran_quotes(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
+}
+
+/// A whole number with a point, without which it would be an integer.
+std::string with_point(const std::string& number) {
+  return number.find_first_of(".eE") == std::string::npos ? number + ".0" : number;
+}
+
+/// Comments with the scene and the digits.
 std::string heading(const Reference& r, const char* comment) {
   return fmt::format("{0} {1}: {2}\n{0} {3} digits after the leading one of each vector's greatest component{4}\n",
                      comment, r.scene, r.title, r.digits, r.proved > 0 ? ", proved" : "");
@@ -76,13 +97,9 @@ std::string joined(const std::vector<std::string>& texts, const std::string& bet
 }
 
 std::string as_csv(const Reference& r) {
-  const auto cell = [](const std::string& text) {
-    return text.find_first_of(",\"") == std::string::npos ? text : in_quotes(text);
-  };
   const NumbersByTime all = numbers_of(r);
-  std::string text = "t," + joined(all.names, ",", cell) + "\n";
-  for (std::size_t n = 0; n < all.rows.size(); ++n)
-    text += cell(all.times[n]) + "," + joined(all.rows[n], ",", cell) + "\n";
+  std::string text = "t," + csv_line(all.names) + "\n";
+  for (std::size_t n = 0; n < all.rows.size(); ++n) text += all.times[n] + "," + csv_line(all.rows[n]) + "\n";
   return text;
 }
 
@@ -98,10 +115,7 @@ std::string by_calls(const Reference& r, const std::string& before, const std::s
 
 /// A module: one array a time, as a line may be continued 255 times only.
 std::string as_fortran(const Reference& r) {
-  const auto number = [](const std::string& text) {
-    const bool has_point = text.find_first_of(".eE") != std::string::npos;
-    return text + (has_point ? "" : ".0") + "_16";
-  };
+  const auto number = [](const std::string& text) { return with_point(text) + "_16"; };
   const NumbersByTime all = numbers_of(r);
   std::size_t longest = 0;
   for (const std::string& name : all.names) longest = std::max(longest, name.size());
@@ -114,15 +128,12 @@ std::string as_fortran(const Reference& r) {
   text += "contains\n  function name_of(i) result(name)\n    integer, intent(in) :: i\n" +
           fmt::format("    character({}) :: name\n    select case (i)\n", longest);
   for (std::size_t i = 0; i < all.names.size(); ++i)
-    text += fmt::format("    case ({}); name = {}\n", i + 1, in_quotes(all.names[i]));
+    text += fmt::format("    case ({}); name = {}\n", i + 1, in_fortran_quotes(all.names[i]));
   return text + "    case default; name = \"\"\n    end select\n  end function\nend module\n";
 }
 
 std::string as_c(const Reference& r) {
-  const auto number = [](const std::string& text) {
-    const bool has_point = text.find_first_of(".eE") != std::string::npos;
-    return "HBVM_NUMBER(" + text + (has_point ? "" : ".0") + ")";
-  };
+  const auto number = [](const std::string& text) { return "HBVM_NUMBER(" + with_point(text) + ")"; };
   const NumbersByTime all = numbers_of(r);
   std::string text = heading(r, "//");
   text +=

@@ -52,6 +52,21 @@ TEST(Literals, HaveTheTypeOfTheirLanguage) {
                {"reference_states[2][5]", "HBVM_NUMBER(0.12345678901234567890)", "HBVM_NUMBER(3.0)"});
 }
 
+/// A time that was asked for as an expression is a decimal elsewhere. Quotes in a name are written as each language
+/// does.
+TEST(Literals, HoldDecimalsAndQuotedNamesOnly) {
+  Reference r = two_states();
+  r.times[1].t = "2*pi";
+  r.observed_names = {"an \"angle\""};
+  for (const Language language : {Language::csv, Language::julia, Language::python, Language::fortran, Language::c}) {
+    const std::string text = to_literals(r, language);
+    expect_words(text, {"6.283185307179586476925"});
+    EXPECT_EQ(text.find("2*pi"), std::string::npos);
+    const bool twice = language == Language::csv || language == Language::fortran;
+    expect_words(text, {twice ? "an \"\"angle\"\"" : "an \\\"angle\\\""});
+  }
+}
+
 TEST(Literals, AreNamedByLanguageAndByFile) {
   EXPECT_EQ(parse_language("julia"), Language::julia);
   EXPECT_THROW(parse_language("cobol"), InputError);
