@@ -20,8 +20,9 @@ std::string proof_of(const Claim& claim, const CoefficientCheck* check);
 /// In how many decimal digits an error of the method that is not 0 would be seen at half the time scale. An error of
 /// one step is of an order Q that k, s and r bound. Q is 2k + 1 for H and H - W, 2 max(r, s) + 1 for g of HBVM, 2s + 2
 /// else. Gauss formulas of Q nodes gain at most some 3 + log2 Q bits of each where a step resolves the motion. What is
-/// not integrated exactly, of any effect or within one formula, may be weaker than the rest: see WeakTerms. \param
-/// log2_scale of the motion's time scale \throws InputError
+/// not integrated exactly, of any effect or within one formula, may be weaker than the rest: see WeakTerms.
+///
+/// \param log2_scale of the motion's time scale \throws InputError
 int digits_to_show(const Claim& claim, int log2_scale);
 
 }  // namespace hbvm::core

@@ -26,8 +26,7 @@ void print_completion(const CLI::App& app) {
       "_hbvm() {{\n"
       "  local word=\"${{COMP_WORDS[COMP_CWORD]}}\" path=\"\" words=\"\" i\n"
       "  local scenes=\"");
-  for (const auto* const scenes : {&built_in_scenes(), &test_set_scenes()})
-    for (const auto& [name, text] : *scenes) fmt::print("{} ", name);
+  for (const auto& [name, text] : all_scenes()) fmt::print("{} ", name);
   fmt::print(
       "\"\n"
       "  for ((i = 1; i < COMP_CWORD && i < 3; ++i)); do\n"

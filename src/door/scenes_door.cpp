@@ -31,8 +31,7 @@ SceneEntry entry_of(const std::string& name, const std::string& text) {
 
 std::vector<SceneEntry> scenes() {
   std::vector<SceneEntry> entries;
-  for (const auto* const list : {&core::built_in_scenes(), &core::test_set_scenes()})
-    for (const auto& [name, text] : *list) entries.push_back(entry_of(name, text));
+  for (const auto& [name, text] : core::all_scenes()) entries.push_back(entry_of(name, text));
   return entries;
 }
 

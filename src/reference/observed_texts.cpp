@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "integrate/observations.hpp"
+#include "interruption.hpp"
 #include "reference/taylor.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
@@ -35,7 +36,7 @@ class Turns {
       : scope_(static_cast<unsigned>(few + std::clamp(digits_lost, double{0}, most_lost))),
         scene_(assemble<Mpfr>(request.scene)),
         observations_(request.scene, scene_.problem),
-        motion_(scene_.problem, scene_.q0, scene_.p0) {
+        motion_(scene_.problem, scene_.q0, scene_.p0, [] { end_if_asked(unfinished); }) {
     look(Mpfr(0));
     for (const Expression& time : request.times) {
       follow(evaluate<Mpfr>(time, request.scene.constants));
@@ -46,6 +47,7 @@ class Turns {
   const std::vector<Vector<Mpfr>>& angles() const { return angles_; }
 
  private:
+  static constexpr const char* unfinished = "the angles of the reference were not followed to their end";
   static constexpr int few = 18;
   static constexpr double most_lost = 1000;
 
@@ -55,7 +57,10 @@ class Turns {
       const Mpfr radius = ldexp(Mpfr(1), static_cast<int>(std::lround(motion_.least_radius())));
       Mpfr most = 1 / std::max(Mpfr(observations_.greatest_rate()), Mpfr(1 / radius));
       if (most > end - now_) most = end - now_;
-      look(now_ + most >= end ? end : Mpfr(now_ + most));
+      const Mpfr next = now_ + most;
+      // Of an angle so fast that no time lies between, the digits tell nothing.
+      look(next > now_ && next < end ? next : end);
+      end_if_asked(unfinished);
     }
   }
 

@@ -618,6 +618,12 @@ Scene read_scene(const std::string& toml, const std::string& name) {
   return scene;
 }
 
+std::vector<std::pair<std::string, std::string>> all_scenes() {
+  std::vector<std::pair<std::string, std::string>> all = built_in_scenes();
+  all.insert(all.end(), test_set_scenes().begin(), test_set_scenes().end());
+  return all;
+}
+
 std::string scene_text(const std::string& path_or_name) {
   for (const auto* const scenes : {&built_in_scenes(), &test_set_scenes()})
     for (const auto& [name, text] : *scenes)
@@ -633,8 +639,7 @@ std::string scene_text(const std::string& path_or_name) {
     if (!file.bad() && (!text.empty() || file.eof())) return text;
   }
   std::vector<std::string> names;
-  for (const auto* const scenes : {&built_in_scenes(), &test_set_scenes()})
-    for (const auto& [name, unused] : *scenes) names.push_back(name);
+  for (const auto& [name, unused] : all_scenes()) names.push_back(name);
   const std::string guess = nearest(path_or_name, names);
   throw InputError("unknown scene '" + path_or_name + "': no readable file and no built-in scene" +
                    (guess.empty() ? std::string("; see `hbvm scenes`") : "; did you mean '" + guess + "'?"));

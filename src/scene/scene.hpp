@@ -172,5 +172,7 @@ const std::string& new_scene();
 const std::vector<std::pair<std::string, std::string>>& built_in_scenes();
 /// And those of studies/test_set: the field's test problems, and scenes in which forces do work.
 const std::vector<std::pair<std::string, std::string>>& test_set_scenes();
+/// The former, then the latter.
+std::vector<std::pair<std::string, std::string>> all_scenes();
 
 }  // namespace hbvm::core
