@@ -1,7 +1,9 @@
 # Writes OUTPUT, a C++ file with the parts of page_parts.hpp: those of FOLDER, and dygraphs from LIBRARY, which may be empty.
 set(parts "")
 
-# The text of files as literals that every compiler takes: of less than 65536 bytes, cut behind a semicolon.
+include(${CMAKE_CURRENT_LIST_DIR}/../../text_literal.cmake)
+
+# The text of files, one after another
 function(embed)
   set(text "")
   foreach(file ${ARGN})
@@ -10,18 +12,8 @@ function(embed)
     string(REGEX REPLACE "/[/*]# sourceMappingURL=[^\n]*" "" content "${content}")
     string(APPEND text "${content}")
   endforeach()
-  set(literals "")
-  string(LENGTH "${text}" length)
-  while(length GREATER 60000)
-    string(SUBSTRING "${text}" 0 60000 head)
-    string(FIND "${head}" ";" cut REVERSE)
-    math(EXPR cut "${cut} + 1")
-    string(SUBSTRING "${text}" 0 ${cut} head)
-    string(SUBSTRING "${text}" ${cut} -1 text)
-    string(APPEND literals "std::string(R\"page(${head})page\") + ")
-    string(LENGTH "${text}" length)
-  endwhile()
-  set(parts "${parts}      ${literals}std::string(R\"page(${text})page\"),\n" PARENT_SCOPE)
+  text_literal(literal "${text}")
+  set(parts "${parts}      ${literal},\n" PARENT_SCOPE)
 endfunction()
 
 embed(${FOLDER}/page.html)
