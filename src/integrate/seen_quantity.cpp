@@ -4,10 +4,13 @@
 
 #include <cmath>
 
+#include "integrate/constraint_moment.hpp"
 #include "integrate/support_force.hpp"
+#include "integrate/work_done.hpp"
 #include "linear/product.hpp"
 #include "nearest.hpp"
 #include "problem/redundant_constraints.hpp"
+#include "problem/state_evaluator.hpp"
 #include "scene/places.hpp"
 
 namespace hbvm::core {
@@ -107,9 +110,10 @@ class SeenQuantities<S>::Names {
     return list;
   }
   static const std::vector<std::string>& functions() {
-    static const std::vector<std::string> names{"distance",  "speed",   "angle", "rate",  "omega", "kinetic", "energy",
-                                                "potential", "tension", "force", "slide", "x",     "y",       "z",
-                                                "vx",        "vy",      "vz",    "px",    "py",    "pz"};
+    static const std::vector<std::string> names{"distance", "speed",     "angle",   "rate",  "omega",  "kinetic",
+                                                "energy",   "potential", "tension", "force", "torque", "slide",
+                                                "work",     "power",     "x",       "y",     "z",      "vx",
+                                                "vy",       "vz",        "px",      "py",    "pz"};
     return names;
   }
 
@@ -163,6 +167,16 @@ class SeenQuantities<S>::Names {
       expect(2, 3,
              "force(a, b, x): on a, along a direction; or force(a, x) of what holds a rigid body where it is fixed");
       return of.size() == 2 ? support(of[0], direction(of[1])) : force(of[0], of[1], direction(of[2]));
+    }
+    if (f == "torque") {
+      expect(d_ == 2 ? 2 : 3, d_ == 2 ? 2 : 3,
+             d_ == 2 ? "torque(a, b): of what holds a rigid body at a, on it"
+                     : "torque(a, b, z): of what holds a rigid body at a, on it and along a direction");
+      return torque(of);
+    }
+    if (f == "work" || f == "power") {
+      expect(0, 1, (f + "(a) of an effect, a constraint or a moving point, or " + f + "() of all").c_str());
+      return f == "work" ? work(of) : power(of);
     }
     if (f == "slide") {
       expect(2, 2, "slide(a, b): how far b is from a along their joint");
@@ -352,8 +366,10 @@ class SeenQuantities<S>::Names {
     std::vector<Index> rods;
     std::vector<Component> points;
     std::vector<Across> across;
+    std::vector<Index> all;  ///< of any form
   };
-  Between between(const std::string& a, const std::string& b, bool rods_alone) const {
+  enum class Kinds { rods, forces, any };
+  Between between(const std::string& a, const std::string& b, Kinds kinds) const {
     for (const std::string& name : {a, b}) displacement(name);
     Between found;
     for (std::size_t i = 0; i < constraints_.size(); ++i)
@@ -364,23 +380,26 @@ class SeenQuantities<S>::Names {
         if (at == std::string::npos || name.find(' ') != at) continue;
         const std::string part = name.substr(at + pair.size());
         const auto number = static_cast<Index>(i);
+        found.all.push_back(number);
         if (name == "rod" + pair) found.rods.push_back(number);
-        if (rods_alone) continue;
+        if (kinds == Kinds::rods) continue;
         for (Index axis = 0; axis < d_; ++axis)
           if (part == std::string(" (point, ") + "xyz"[axis] + ")") found.points.push_back({number, axis, forward});
         if (part.starts_with(" (across"))
           found.across.push_back({number, std::get<DisplacementProduct<S>>(constraints_[i].form).y, forward});
       }
-    if (found.rods.empty() && found.points.empty() && found.across.empty()) {
+    if (found.rods.empty() && found.points.empty() && found.across.empty() &&
+        (kinds != Kinds::any || found.all.empty())) {
       const std::string pairs = pairs_of(a, b);
-      throw InputError(fmt::format("there is no {} between '{}' and '{}'{}", rods_alone ? "rod" : "rod or joint", a, b,
+      throw InputError(fmt::format("there is no {} between '{}' and '{}'{}",
+                                   kinds == Kinds::rods ? "rod" : "rod or joint", a, b,
                                    pairs.empty() ? "" : "; there is one between " + pairs));
     }
     return found;
   }
 
   Quantity tension(const std::string& a, const std::string& b) const {
-    return {[rods = between(a, b, true).rods, u = way(a, b)](const State& state) {
+    return {[rods = between(a, b, Kinds::rods).rods, u = way(a, b)](const State& state) {
       S sum = 0;
       for (const Index rod : rods) sum += state.lambda[rod];
       return S(2 * sum * length(u.now(state)));
@@ -389,7 +408,10 @@ class SeenQuantities<S>::Names {
 
   /// -grad g lambda, with respect to the first place.
   Quantity force(const std::string& a, const std::string& b, const Along& along) const {
-    return {[found = between(a, b, false), u = way(a, b), along](const State& state) {
+    return force(between(a, b, Kinds::forces), way(a, b), along);
+  }
+  Quantity force(const Between& found, const Along& u, const Along& along) const {
+    return {[found, u, along](const State& state) {
       S sum = 0;
       const Vector<S> unit = along.now(state);
       for (const Index rod : found.rods) sum += 2 * state.lambda[rod] * dot(u.now(state), unit);
@@ -407,7 +429,7 @@ class SeenQuantities<S>::Names {
 
   /// Along n = e x f, and in the plane along e turned to the right.
   Quantity slide(const std::string& a, const std::string& b) const {
-    const std::vector<typename Between::Across> across = between(a, b, false).across;
+    const std::vector<typename Between::Across> across = between(a, b, Kinds::forces).across;
     if (across.empty()) throw InputError(fmt::format("nothing slides between '{}' and '{}'", a, b));
     return {[across, u = way(a, b), d = d_](const State& state) {
       const Vector<S> e = displaced(across.front().e, d, state.q);
@@ -426,6 +448,58 @@ class SeenQuantities<S>::Names {
     return {[force, along](const State& state) { return S(dot((*force)(state), along.now(state))); }};
   }
 
+  /// The rigid body on which a place is; none for others.
+  const std::string* body_at(const std::string& place) const {
+    std::string body = place.substr(0, place.find('['));
+    for (const SceneAttachment& attachment : scene_.attachments)
+      if (attachment.name == place) body = attachment.of;
+    const auto found = directors_.find(body);
+    return found == directors_.end() ? nullptr : &found->first;
+  }
+
+  /// About the place a, of all that holds the body there: M - (a - X) x F, where M is about the reference point X.
+  Quantity torque(const Arguments& of) const {
+    const std::string &a = of[0], &b = of[1];
+    if (d_ == 1) throw InputError("'torque' is of a plane or of space, and the scene has dimension = 1");
+    const Between found = between(a, b, Kinds::any);
+    const std::string* const body = body_at(a);
+    if (!body) {
+      if (!body_at(b)) throw InputError("neither '" + a + "' nor '" + b + "' is on a rigid body");
+      Arguments turned_round = of;
+      std::swap(turned_round[0], turned_round[1]);
+      return {[other = torque(turned_round).value](const State& state) { return S(-other(state)); }};
+    }
+    std::vector<Index> directors;
+    for (const std::string& director : directors_.at(*body))
+      directors.push_back(displacement(director).blocks.front().offset);
+    std::vector<Quantity> forces;
+    for (Index i = 0; i < d_; ++i) forces.push_back(force(found, way(a, b), direction(std::string(1, "xyz"[i]))));
+    if (!moment_) moment_ = std::make_shared<ConstraintMoment<S>>(problem_);
+    const Along along =
+        d_ == 3 ? direction(of[2]) : Along{[](const State&) { return Vector<S>::Constant(1, S(1)); }, {}};
+    return {[moment = moment_, all = found.all, directors, forces, arm = way(*body, a), along](const State& state) {
+      Vector<S> F(static_cast<Index>(forces.size()));
+      for (std::size_t i = 0; i < forces.size(); ++i) F[static_cast<Index>(i)] = forces[i].value(state);
+      const Vector<S> w = along.now(state);
+      return S((*moment)(state, all, directors, w) - dot(cross(arm.now(state), F), w));
+    }};
+  }
+
+  Quantity work(const Arguments& of) const {
+    return {[points = working(problem_, of.empty() ? "" : of[0]), &problem = problem_](const State& state) {
+      return work_done(problem, points, state.p);
+    }};
+  }
+  /// That of the exact motion through the state.
+  Quantity power(const Arguments& of) const {
+    const std::vector<std::size_t> points = working(problem_, of.empty() ? "" : of[0]);
+    if (!evaluator_) evaluator_ = std::make_shared<StateEvaluator<S>>(problem_);
+    return {[points, evaluator = evaluator_, &problem = problem_](const State& state) {
+      const auto& forces = evaluator->forces(state.q, state.p);
+      return work_done(problem, points, Vector<S>(forces.applied + forces.constraint));
+    }};
+  }
+
   const Scene& scene_;
   const Problem<S>& problem_;
   Index d_;
@@ -433,7 +507,10 @@ class SeenQuantities<S>::Names {
   std::vector<Constraint<S>> constraints_;
   std::vector<std::string> bodies_, movers_;  ///< what has a place, and what has a mass
   std::map<std::string, Arguments, std::less<>> directors_;
-  mutable std::map<std::string, std::shared_ptr<SupportForce<S>>> supports_;  ///< made where they are asked for
+  // Made where they are asked for
+  mutable std::map<std::string, std::shared_ptr<SupportForce<S>>> supports_;
+  mutable std::shared_ptr<ConstraintMoment<S>> moment_;
+  mutable std::shared_ptr<StateEvaluator<S>> evaluator_;
 };
 
 template <Scalar S>

@@ -42,6 +42,8 @@ struct SeenQuantity {
 ///     | tension(a, b)                  | of the rods between two places; positive if they pull                       |
 ///     | force(a, b, x)                 | of rods and joints between them, on a, along a direction                    |
 ///     | slide(a, b)                    | how far b is from a along the prismatic or cylindrical joint between them   |
+///     | torque(a, b), torque(a, b, z)  | likewise the moment about a on the rigid body that a is on                  |
+///     | work(a), power(a)              | of an effect, a constraint or a moving point; of all without a              |
 ///     | force(a, x)                    | on a rigid body, of what holds it where it is fixed                         |
 ///
 /// A direction is x, y or z of space, or a director.

@@ -5,6 +5,7 @@
 #include "integrate/observations.hpp"
 #include "integrate/output_state.hpp"
 #include "integrate/trajectory.hpp"
+#include "integrate/work_done.hpp"
 #include "run/error_estimate.hpp"
 #include "run/health.hpp"
 #include "run/proved_run.hpp"
@@ -134,13 +135,8 @@ Run told_of(const RunRequest& request) {
 template <Scalar S>
 std::vector<Work> works_of(const Problem<S>& problem, const Vector<S>& p) {
   std::vector<Work> works;
-  for (std::size_t n = 0; n < problem.driven.size(); ++n) {
-    if (n == 0) continue;  // t itself
-    S sum = 0;
-    for (Index j = 0; j < problem.dimension; ++j)
-      sum += p[problem.clock() + static_cast<Index>(n) * problem.dimension + j];
-    works.push_back({problem.driven[n].name, to_text(S(-sum))});
-  }
+  for (const std::size_t n : working(problem))
+    works.push_back({problem.driven[n].name, to_text(work_done(problem, {n}, p))});
   return works;
 }
 

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "integrate/integrate.hpp"
+#include "integrate/observations.hpp"
 #include "scene/assemble.hpp"
+#include "scene/observe.hpp"
 #include "step/hbvm_stepper.hpp"
 
 namespace hbvm::core {
@@ -40,5 +42,13 @@ struct SceneRun {
     return integrate<S>(stepper, state, grid, observers, nullptr, each_step);
   }
 };
+
+/// The values of these observations at the start of a scene, in the working precision.
+inline Vector<Mpfr> seen_at_start(Scene scene, const std::vector<std::string>& observations) {
+  for (const std::string& observation : observations) scene = with_observation(scene, observation, observation);
+  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
+  Observations<Mpfr> seen(scene, start.problem);
+  return seen.see(Mpfr(0), start.q0, start.p0);
+}
 
 }  // namespace hbvm::core

@@ -12,20 +12,12 @@
 namespace hbvm::core {
 namespace {
 
-/// The values of these observations at the start of a scene.
-Vector<Mpfr> at_start(Scene scene, const std::vector<std::string>& observations) {
-  for (const std::string& observation : observations) scene = with_observation(scene, observation, observation);
-  const Assembled<Mpfr> assembled = assemble<Mpfr>(scene);
-  Observations<Mpfr> seen(scene, assembled.problem);
-  return seen.see(Mpfr(0), assembled.q0, assembled.p0);
-}
-
 class SeenQuantityTest : public InDigits<50> {
  protected:
   static void expect_values(const Scene& scene, const std::vector<std::pair<std::string, std::string>>& expected) {
     std::vector<std::string> names;
     for (const auto& [name, value] : expected) names.push_back(name);
-    const Vector<Mpfr> found = at_start(scene, names);
+    const Vector<Mpfr> found = seen_at_start(scene, names);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const Mpfr value = literal<Mpfr>(expected[i].second);
       EXPECT_LE(magnitude(Mpfr(found[static_cast<Index>(i)] - value)), 100 * epsilon<Mpfr>() * (1 + magnitude(value)))
@@ -124,7 +116,7 @@ TEST_F(SeenQuantityTest, ForcesOfJointsMoveBodies) {
       if (body == 4) sum += std::string(" + 2*(post.") + along + " - shaft." + along + ")";
       sums.push_back(sum);
     }
-  const Vector<Mpfr> found = at_start(scene, sums);
+  const Vector<Mpfr> found = seen_at_start(scene, sums);
   const Assembled<Mpfr> start = assemble<Mpfr>(scene);
   StateEvaluator<Mpfr> point(start.problem);
   const auto forces = point.forces(start.q0, start.p0);
@@ -191,7 +183,7 @@ TEST_F(SeenQuantityTest, BodiesOfSpaceTurn) {
 TEST_F(SeenQuantityTest, IsRefusedWithWhatThereIs) {
   const Scene plane = load_scene("double_physical_pendulum"), space = load_scene("heavy_top");
   const auto refusal = [](const Scene& scene, const std::string& text) {
-    return message_of<InputError>([&] { at_start(scene, {text}); });
+    return message_of<InputError>([&] { seen_at_start(scene, {text}); });
   };
   expect_words(refusal(plane, "tension(upper, lower)"), {"observe 'tension(upper, lower)'", "no rod between"});
   expect_words(refusal(plane, "force(upper, lower, x)"),
@@ -211,7 +203,7 @@ TEST_F(SeenQuantityTest, IsRefusedWithWhatThereIs) {
   expect_words(refusal(space, "angle(top.d3)"), {"between two directions"});
   expect_words(refusal(space, "rate(top.d3, z)"), {"omega"});
   expect_words(refusal(space, "omega(top)"), {"along a direction"});
-  expect_words(message_of<IntegrationError>([&] { at_start(space, {"1/(top.d1.vx - top.d1.vx)"}); }),
+  expect_words(message_of<IntegrationError>([&] { seen_at_start(space, {"1/(top.d1.vx - top.d1.vx)"}); }),
                {"has no value at t = 0"});
 }
 

@@ -1,6 +1,6 @@
 #include "integrate/support_force.hpp"
 
-#include "integrate/observations.hpp"
+#include "integrate/runs.hpp"
 #include "scene/assembled.hpp"
 #include "scene/observe.hpp"
 #include "scene/scene_text.hpp"
@@ -8,13 +8,6 @@
 
 namespace hbvm::core {
 namespace {
-
-Vector<Mpfr> seen_at_start(Scene scene, const std::vector<std::string>& observations) {
-  for (const std::string& observation : observations) scene = with_observation(scene, observation, observation);
-  const Assembled<Mpfr> start = assemble<Mpfr>(scene);
-  Observations<Mpfr> seen(scene, start.problem);
-  return seen.see(Mpfr(0), start.q0, start.p0);
-}
 
 /// A chain: `first` hangs on a post, and `second` on it. A spring, a rod and charges pull at points of both.
 std::string chain(const std::string& held, const std::string& more) {
