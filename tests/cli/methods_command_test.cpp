@@ -6,6 +6,8 @@
 namespace hbvm::core {
 namespace {
 
+using Json = nlohmann::json;
+
 /// Each name in the list runs, by itself or with the number that its form asks for.
 TEST(Methods, ListsOnlyMethodsThatRun) {
   const Json methods = Json::parse(ended_with(0, {"methods", "--json"}).out).at("methods");

@@ -6,6 +6,8 @@
 namespace hbvm::core {
 namespace {
 
+using Json = nlohmann::json;
+
 /// Off the circle and with a velocity along the rod.
 std::string inconsistent_pendulum() {
   std::string text = pendulum("1");

@@ -6,6 +6,8 @@
 namespace hbvm::core {
 namespace {
 
+using Json = nlohmann::json;
+
 TEST(Scenes, ListsThePapersFourWithTheirTitles) {
   const Outcome outcome = ended_with(0, {"scenes"});
   EXPECT_EQ(outcome.err, "");
