@@ -41,6 +41,7 @@ TaylorMotion::TaylorMotion(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
     : problem_(problem),
       while_working_(std::move(while_working)),
       order_(order_for(significand_bits<Mpfr>())),
+      gradient_(problem, 1),
       F_(problem.m()),
       weighted_(problem.m()),
       rhs_(problem.nu()),
@@ -281,26 +282,11 @@ void TaylorMotion::set_forms(Index n) {
 }
 
 void TaylorMotion::factor_gram() {
-  const Index m = problem_.m(), nu = problem_.nu();
-  if (nu == 0) return;
-  // Columns of G and of M^-1 G.
-  Matrix<Mpfr> G = Matrix<Mpfr>::Zero(m, nu), W_G = G, gram = Matrix<Mpfr>::Zero(nu, nu);
-  for (std::size_t l = 0; l < forms_.size(); ++l)
-    for (const auto& [j, sign] : forms_[l].columns) G(j, forms_[l].constraint) = sign * form_series(l)[0];
-  for (Index a = 0; a < nu; ++a)
-    for (const auto& block : problem_.mass.blocks())
-      for (Index j = block.offset; j < block.offset + block.size; ++j) {
-        if (!block.full) {
-          W_G(j, a) = block.inverse_mass * G(j, a);
-          continue;
-        }
-        for (Index i = 0; i < block.size; ++i)
-          add_product(W_G(j, a), block.W(j - block.offset, i), G(block.offset + i, a), x_);
-      }
-  for (Index a = 0; a < nu; ++a)
-    for (Index b = 0; b < nu; ++b) set_dot(gram(a, b), &G(0, a), 1, &W_G(0, b), 1, m);
-  gram_.set(gram);
-  if (!gram_.factor())
+  if (problem_.nu() == 0) return;
+  Vector<Mpfr> q(problem_.m());
+  for (Index j = 0; j < q.size(); ++j) q[j] = q_series(j)[0];
+  gradient_.update(lanes(q));
+  if (!gram_.factor(gradient_, problem_.nu()))
     throw IntegrationError("the constraints' gradients are linearly dependent: (3) does not hold at t = " +
                            to_scientific(start_, 10));
 }

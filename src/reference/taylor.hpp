@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "linear/lu.hpp"
+#include "problem/gram_factor.hpp"
 #include "problem/problem.hpp"
 #include "reference/closed_form/closed_form.hpp"
 #include "reference/program_series.hpp"
@@ -173,7 +173,8 @@ class TaylorMotion {
   Index courses_known_ = -1;                  ///< the highest coefficient
   std::vector<std::vector<Mpfr>> on_driven_;  ///< the series of the forces on driven coordinates
   std::vector<Mpfr> q_values_, p_values_, v_values_, form_values_, form_velocities_, lambda_values_;
-  Lu<Mpfr> gram_;
+  ConstraintGradient<Mpfr> gradient_;
+  GramFactor<Mpfr> gram_;
   Vector<Mpfr> F_, weighted_, rhs_, powers_;  ///< grad U less sum G_i lambda, M^-1 of it
   Vector<Mpfr> start_q_, start_p_, q_, p_, lambda_;
   std::vector<AlignedSeries> aligned_lambda_;
