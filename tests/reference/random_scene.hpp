@@ -12,7 +12,8 @@ namespace hbvm::core {
 
 /// A scene of a few bodies with masses, lengths and times over many orders. It has rods, chains, loops, surfaces and
 /// rigid bodies, and some of all the effects. Its start is consistent in any number of digits. By exact expressions
-/// every part moves as a rigid one, or link by link about the one before. The same numbers everywhere.
+/// every part moves as a rigid one, or link by link about the one before. The numbers are the same with any compiler:
+/// no two are drawn among the arguments of one call, whose order is open.
 class RandomScene {
  public:
   explicit RandomScene(std::uint64_t seed) : engine_(seed) {}
@@ -20,10 +21,12 @@ class RandomScene {
   std::string text() {
     d_ = 2 + pick(2);
     const int bodies = 2 + pick(4);
+    const std::vector<std::string> sun = place(-3);
+    const int mass = pick(9) - 4, time = pick(5) - 2, length = pick(7) - 3;
     std::string out = fmt::format(
         "dimension = {}\n[constants]\nL = \"10^({})\"\nT = \"10^({})\"\nM = \"10^({})\"\n[[point]]\nname = \"o\"\n"
         "position = {}\ncharge = 1\n[[point]]\nname = \"sun\"\nposition = {}\n",
-        d_, pick(7) - 3, pick(5) - 2, pick(9) - 4, list(std::vector<std::string>(size(), "0")), list(place(-3)));
+        d_, length, time, mass, list(std::vector<std::string>(size(), "0")), list(sun));
     for (int b = 0; b < bodies; ++b) add_body(b);
     for (const Body& b : bodies_)
       out += fmt::format("[[body]]\nname = \"{}\"\nmass = \"{}*M\"\ncharge = \"{}\"\nposition = {}\nvelocity = {}\n",
@@ -41,7 +44,10 @@ class RandomScene {
 
   int pick(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
   std::size_t size() const { return static_cast<std::size_t>(d_); }
-  std::string fraction() { return fmt::format("({}/{})", pick(41) - 20, 20 + pick(7)); }
+  std::string fraction() {
+    const int denominator = 20 + pick(7), numerator = pick(41) - 20;
+    return fmt::format("({}/{})", numerator, denominator);
+  }
   static std::string list(const std::vector<std::string>& x) {
     std::string out;
     for (const std::string& entry : x) out += (out.empty() ? "[\"" : ", \"") + entry + "\"";
@@ -200,9 +206,10 @@ class RandomScene {
       add("central_gravity", fmt::format("center = \"sun\"\nstrength = \"{}/4*L^3/T^2\"\n", 1 + pick(6)));
     if (pick(4) == 0) add("mutual_gravity", fmt::format("strength = \"{}/8*L^3/T^2/M\"\n", 1 + pick(3)));
     if (pick(4) == 0) add("coulomb", fmt::format("strength = \"{}/40*M*L^3/T^2\"\n", 1 + pick(6)));
-    if (pick(3) == 0)
-      add("spring",
-          fmt::format("stiffness = \"{}/4*M/T^2\"\nrest_length = \"{}/2*L\"\n{}", 1 + pick(4), pick(3), pair));
+    if (pick(3) == 0) {
+      const int rest = pick(3), stiffness = 1 + pick(4);
+      add("spring", fmt::format("stiffness = \"{}/4*M/T^2\"\nrest_length = \"{}/2*L\"\n{}", stiffness, rest, pair));
+    }
     if (pick(4) == 0) {
       const int exponent = 2 + 2 * pick(2);
       add("trap", fmt::format("center = \"o\"\nstiffness = \"{}/4*M/T^2*L^(2-{})\"\nexponent = {}\n", 1 + pick(4),
