@@ -27,7 +27,8 @@ class TestSet : public ::testing::Test {
 TEST_F(TestSet, HasTenTimesOfFiftyDigitsByTwoRoutes) {
   for (const char* const name :
        {"car_axis_t3_50", "andrews_squeezer_t0_03_50", "heavy_top_150_t2_50", "slider_crank_t0_1_50",
-        "four_bars_2_t10_50", "four_bars_10_t10_50", "bricard_t10_50", "fekete_t100_50"}) {
+        "four_bars_2_t10_50", "four_bars_10_t10_50", "bricard_t10_50", "fekete_t100_50", "flyball_governor_t0_1_50",
+        "closed_chain_t5_50", "unequal_double_pendulum_t10_50"}) {
     const Reference reference = stored(name);
     EXPECT_EQ(reference.times.size(), 10u) << name;
     EXPECT_GE(reference.routes.size(), 2u) << name;
@@ -39,7 +40,8 @@ TEST_F(TestSet, HasTenTimesOfFiftyDigitsByTwoRoutes) {
 TEST_F(TestSet, FirstTimesAreFoundAgain) {
   constexpr int few = 20;
   for (const char* const name : {"car_axis_t3_50", "andrews_squeezer_t0_03_50", "heavy_top_150_t2_50",
-                                 "slider_crank_t0_1_50", "four_bars_2_t10_50", "bricard_t10_50"}) {
+                                 "slider_crank_t0_1_50", "four_bars_2_t10_50", "bricard_t10_50", "closed_chain_t5_50",
+                                 "flyball_governor_t0_1_50", "unequal_double_pendulum_t10_50"}) {
     const Reference reference = stored(name);
     const ReferenceState& first = reference.times.front();
     const PrecisionScope scope(few + 10);
@@ -72,6 +74,28 @@ TEST_F(TestSet, EndsAsPublished) {
     const Mpfr theirs = number(angles[i]), ours = number(andrews.times.back().observed[i]);
     EXPECT_LE(magnitude(Mpfr(ours - theirs)), number("3e-10") * magnitude(theirs)) << andrews.observed_names[i];
     EXPECT_GE(magnitude(Mpfr(ours - theirs)), number("1e-13") * magnitude(theirs)) << andrews.observed_names[i];
+  }
+}
+
+/// Nothing turns the governor about its shaft, whatever its springs and dampers do: sum of x p_y - y p_x over bodies
+/// and directors. The others lose no energy.
+TEST_F(TestSet, KeepsWhatNothingChanges) {
+  const Reference governor = stored("flyball_governor_t0_1_50");
+  const auto spin = [](const ReferenceState& state) {
+    Mpfr sum = 0;
+    for (std::size_t i = 0; i + 2 < state.q.size(); i += 3)
+      sum += number(state.q[i]) * number(state.p[i + 1]) - number(state.q[i + 1]) * number(state.p[i]);
+    return sum;
+  };
+  const Mpfr first = spin(governor.times.front()), last = spin(governor.times.back());
+  EXPECT_GT(first, 1);
+  EXPECT_LE(magnitude(Mpfr(last - first)), number("1e-46"));
+  EXPECT_GE(magnitude(Mpfr(number(governor.times.back().H) - number(governor.times.front().H))), number("1e-4"));
+  for (const char* const name : {"closed_chain_t5_50", "unequal_double_pendulum_t10_50"}) {
+    const Reference kept = stored(name);
+    const Mpfr H = number(kept.times.front().H);
+    for (const ReferenceState& state : kept.times)
+      EXPECT_LE(magnitude(Mpfr(number(state.H) - H)), number("1e-46")) << name << " at " << state.t;
   }
 }
 
