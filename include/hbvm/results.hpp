@@ -2,11 +2,14 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "hbvm/cost.hpp"
+#include "hbvm/figure.hpp"
 #include "hbvm/scene.hpp"
 
 namespace hbvm {
@@ -14,9 +17,9 @@ namespace hbvm {
 /// A file of results of any program: names of columns, then a line a time.
 struct ResultsFile {
   std::string name, csv;
-  /// The step it was made with, an expression; empty if it is not known. step_stored() finds it in what files store.
+  /// The step it was made with, an expression. If it is empty, what the file stores of it is taken.
   std::string step = {};
-  bool step_given = false;  ///< by a user: it must be a number; one that is stored may say anything
+  std::string description = {};  ///< JSON that stands beside the file, as `hbvm run` writes it; it may tell the step
 };
 
 /// How many digits of what another program computed are right?
@@ -28,6 +31,8 @@ struct ResultsRequest {
   /// be mapped, nor "time", "q_3", "p_3" and "v_3". Of "bob.px" and "output.bob.px" of a trajectory of hbvm run the
   /// second, which is tangential, is taken.
   std::vector<std::pair<std::string, std::string>> map = {};
+  /// Also plan the cheapest run with as many digits at the last time as the best file has. It may take minutes.
+  bool cost = false;
   std::function<void(double part)> progress = {};  ///< called now and then, from any thread
   std::stop_token stop = {};
 };
@@ -47,15 +52,32 @@ struct StartDifference {
   bool opposite = false;  ///< only the sign is another
 };
 
+/// What most of an error is.
+enum class LostBy {
+  growth,  ///< the first error that was seen, magnified by the motion itself
+  g,       ///< positions leave the constraints
+  hidden,  ///< momenta leave the tangent space
+  energy,  ///< H is another
+  motion,  ///< none of these: another motion that keeps to all of them, such as one that runs late
+};
+
+/// "the growth of the first error", "leaving the constraints g"...
+std::string name_of(LostBy part);
+
 struct FileComparison {
   std::string name;
   std::vector<std::string> times;   ///< those that were compared
   std::vector<std::string> unused;  ///< "2 times before the start", one a reason
   bool stored = false;              ///< the reference was found in the store, and not computed
   std::vector<ComponentDigits> components;
-  /// log10 of what H and the constraints g are off by, over the size of their terms, at each time. Empty unless the
-  /// state is complete.
-  std::vector<double> H_drift, g_drift;
+  /// log10 of what each state is off by. H is compared with that of the exact state. H and the constraints g are over
+  /// the size of their terms. Hidden is what p is off the tangent space, over |p|. Empty unless the state is complete.
+  std::vector<double> H_drift, g_drift, hidden_drift;
+  /// Digits that the growth of the first error alone would leave at each time. They are those of the exact motion from
+  /// the first state, moved to the constraints. Where states are not complete, an estimate by two other changes of the
+  /// start.
+  std::vector<double> by_growth;
+  LostBy mostly = LostBy::motion;      ///< what the error at the last time is
   bool has_start = false;              ///< a row at t = 0
   std::vector<StartDifference> start;  ///< what is another there, to more than the digits of the file explain
   double step = 0;                     ///< as the file has it, or between its first two times; NaN if there is one time
@@ -70,14 +92,20 @@ struct OrderBetween {
   double order = 0;
 };
 
+/// An order of convergence lies within value +- uncertainty.
+struct MeasuredOrder {
+  double value = 0, uncertainty = 0;
+};
+
 struct Comparison {
   int digits = 0;  ///< of the reference
   std::vector<FileComparison> files;
-  /// Digits that an error of the size of the first file's first would have left at its times by the growth of errors
-  /// alone.
-  std::vector<double> by_growth;
   /// The order between each file and that of the next smaller step, whatever their names.
   std::vector<OrderBetween> orders;
+  /// The order of all files. Of five steps or more it is judged as `hbvm audit` does. Of fewer it is that of the two
+  /// smallest steps, and as uncertain as the one before differs from it. There is none of fewer than three.
+  std::optional<MeasuredOrder> measured_order = {};
+  std::optional<Plan> plan = {};  ///< if it was asked for
 
   /// The least right digits of all files, components and times that were compared. A component without digits to count
   /// has the place of its error after the point.
@@ -91,6 +119,9 @@ struct Comparison {
 /// be read, naming line and column; IntegrationError, Interrupted
 Comparison compare_results(const ResultsRequest& request);
 
+/// Digits against time: a panel a file, a curve a component, and what the growth of errors alone would leave.
+/// \param scene its name
+Figure figure_of(const Comparison& against, const std::string& scene);
 /// For people, as `hbvm reference --against` prints it.
 std::string to_text(const Comparison& against);
 /// One JSON object, as `hbvm reference --against --json` prints it.

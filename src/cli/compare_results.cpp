@@ -8,13 +8,15 @@
 #include <filesystem>
 #include <iostream>
 
-#include "compare/comparison.hpp"
+#include "comparison_page.hpp"
+#include "door/door.hpp"
 #include "hbvm/error.hpp"
 #include "output_files.hpp"
-#include "processes/draw.hpp"
+#include "picture_file.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
 #include "report/csvw.hpp"
+#include "scene/set_number.hpp"
 #include "signals.hpp"
 
 namespace hbvm::core {
@@ -47,14 +49,23 @@ std::vector<ResultsFile> read_results(const ComparisonArguments& arguments) {
     ResultsFile file{name, read_file(name)};
     const std::string description = csvw_file(name);
     std::error_code ignored;
-    file.step = !arguments.steps.empty() ? arguments.steps[files.size()]
-                                         : step_stored(file.csv, std::filesystem::is_regular_file(description, ignored)
-                                                                     ? read_file(description)
-                                                                     : std::string());
-    file.step_given = !arguments.steps.empty();
+    if (!arguments.steps.empty()) file.step = arguments.steps[files.size()];
+    if (std::filesystem::is_regular_file(description, ignored)) file.description = read_file(description);
     files.push_back(std::move(file));
   }
   return files;
+}
+
+/// What makes the comparison again.
+std::string command_of(const hbvm::Scene& scene, const ComparisonArguments& arguments) {
+  std::string command = "hbvm reference " + scene.name() + settings_in_command(scene_of(scene));
+  const auto add = [&](const char* option, const std::vector<std::string>& values) {
+    for (const std::string& value : values) command += fmt::format(" {} '{}'", option, value);
+  };
+  add("--against", arguments.files);
+  add("--map", arguments.map);
+  add("--steps", arguments.steps);
+  return command + (arguments.cost ? " --cost" : "");
 }
 
 /// \throws CLI::RuntimeError if it is not what was asked for
@@ -77,8 +88,8 @@ void judge(const Comparison& against, const ComparisonArguments& arguments) {
 }  // namespace
 
 void ComparisonArguments::refuse_alone() const {
-  if (!map.empty() || plot || !steps.empty() || order || digits)
-    throw InputError("reference: --map, --plot, --steps, --expect-order and --require go with --against");
+  if (!map.empty() || !plots.empty() || !steps.empty() || order || digits || cost)
+    throw InputError("reference: --map, --plot, --steps, --expect-order, --require and --cost go with --against");
 }
 
 void add_comparison_options(CLI::App& command, ComparisonArguments& arguments) {
@@ -100,22 +111,27 @@ void add_comparison_options(CLI::App& command, ComparisonArguments& arguments) {
                      "With --against: exit code 1 unless the two smallest steps show this order, or a quarter less");
   command.add_option("--require", arguments.digits,
                      "With --against: exit code 1 unless so many digits of all components are right at all times");
-  command.add_option("--plot", arguments.plot, "With --against: digits against time, SVG, PDF or PNG");
+  command.add_flag("--cost", arguments.cost,
+                   "With --against: also plan the cheapest run with as many digits, which may take minutes");
+  command
+      .add_option(
+          "--plot", arguments.plots,
+          "With --against: digits against time, .svg, .pdf or .png; as .html a page with the verdict and tables")
+      ->allow_extra_args(false);
 }
 
-void compare_results(const Scene& scene, bool json, const ComparisonArguments& arguments) {
-  ComparisonRequest request;
-  request.scene = scene;
-  request.files = read_results(arguments);
+void compare_results(const hbvm::Scene& scene, bool json, const ComparisonArguments& arguments) {
+  const std::vector<PictureFile> pictures(arguments.plots.begin(), arguments.plots.end());
+  ResultsRequest request{.scene = scene, .files = read_results(arguments)};
   request.map = read_map(arguments.map);
+  request.cost = arguments.cost;
   ProgressBar bar("reference");
   end_runs_on_signals();
   request.progress = bar.part_done("the comparison was not finished");
-  const Comparison against = compare_with_reference(request);
-  if (arguments.plot) {
-    draw(comparison_figure(request, against, "against"), *arguments.plot);
-    say_written(*arguments.plot);
-  }
+  const Comparison against = hbvm::compare_results(request);
+  for (const PictureFile& picture : pictures)
+    picture.write([&] { return figure_of(against, scene.name()); },
+                  [&] { return comparison_page(against, scene.name(), command_of(scene, arguments)); });
   std::cout << (json ? to_json(against) + "\n" : to_text(against)) << std::flush;
   judge(against, arguments);
 }

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "hbvm/results.hpp"
 
 namespace hbvm::core {
 
 /// What `hbvm reference --against` is asked for.
 struct ComparisonArguments {
-  std::vector<std::string> files, map, steps;
-  std::optional<std::string> plot;
+  std::vector<std::string> files, map, steps, plots;
   std::optional<double> order, digits;
+  bool cost = false;
 
   /// \throws InputError if there is any of it without files
   void refuse_alone() const;
@@ -22,8 +22,8 @@ struct ComparisonArguments {
 void add_comparison_options(CLI::App& command, ComparisonArguments& arguments);
 
 /// Compares the files with the reference and prints what is right.
-/// \throws InputError as compare_with_reference() does; CLI::RuntimeError with exit code 1 if the order or the digits
-/// that were asked for are not there
-void compare_results(const Scene& scene, bool json, const ComparisonArguments& arguments);
+/// \throws InputError as compare_results() of hbvm/results.hpp does; CLI::RuntimeError with exit code 1 if the order or
+/// the digits that were asked for are not there
+void compare_results(const hbvm::Scene& scene, bool json, const ComparisonArguments& arguments);
 
 }  // namespace hbvm::core

@@ -228,9 +228,8 @@ void check(const ReferenceArguments& o) {
 bool is_proof(const std::string& file) { return file.ends_with(".proof"); }
 
 void reference_command(const ReferenceArguments& o) {
-  const auto scene = [&] {
-    return scene_of(SceneArgument{*o.scene, o.settings.settings, o.settings.observations}.load());
-  };
+  const auto loaded = [&] { return SceneArgument{*o.scene, o.settings.settings, o.settings.observations}.load(); };
+  const auto scene = [&] { return scene_of(loaded()); };
   if (!o.against.files.empty()) {
     if (!o.scene)
       throw InputError("reference --against: a scene is missing, as in hbvm reference SCENE --against FILE.csv");
@@ -238,7 +237,7 @@ void reference_command(const ReferenceArguments& o) {
       throw InputError(
           "reference --against compares at the times of the file, with as many digits as that takes: it "
           "goes with no --until, --at, --digits, --route, --out, --checkpoint, --prove or --force");
-    return compare_results(scene(), o.json, o.against);
+    return compare_results(loaded(), o.json, o.against);
   }
   o.against.refuse_alone();
   if (o.prove && (o.route || o.checkpoint))

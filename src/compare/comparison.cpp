@@ -13,12 +13,12 @@
 #include <optional>
 #include <sstream>
 
+#include "audit/convergence.hpp"
+#include "compare/lost_digits.hpp"
 #include "hbvm/error.hpp"
 #include "integrate/observations.hpp"
 #include "listed.hpp"
 #include "problem/driven_course.hpp"
-#include "problem/energy_terms.hpp"
-#include "problem/state_evaluator.hpp"
 #include "reference/compute_reference.hpp"
 #include "reference/reference_motion.hpp"
 #include "reference/store.hpp"
@@ -46,9 +46,6 @@ namespace core {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// log10 |x|, of 0 less than any.
-double log10_of(const Mpfr& x) { return log2_of(x) / std::log2(double{10}); }
 
 /// Significant digits of the longest number.
 int digits_of(const ResultsTable& rows) {
@@ -220,15 +217,17 @@ double order_between(const FileComparison& coarse, const FileComparison& fine) {
   return same_end && std::abs(steps) > 0 ? (coarse.error - fine.error) / steps : unknown;
 }
 
-/// What the text of a file's step says; nothing if it is not known, or if what is stored of it cannot be read.
-std::optional<double> step_said(const ResultsFile& file, const Constants& constants) {
-  if (file.step.empty()) return std::nullopt;
+/// What the text of a file's step says, which may be a stored one. Nothing if there is none, or if what is stored
+/// cannot be read.
+std::optional<double> step_said(const ResultsFile& file, const std::string& text, const Constants& constants) {
+  const bool given = !file.step.empty();
+  if (text.empty()) return std::nullopt;
   try {
-    const Mpfr step = magnitude(evaluate<Mpfr>(Expression::parse(file.step), constants));
+    const Mpfr step = magnitude(evaluate<Mpfr>(Expression::parse(text), constants));
     if (step > 0) return approximately(step);
-    if (file.step_given) throw InputError("it is 0");
+    if (given) throw InputError("it is 0");
   } catch (const InputError& error) {
-    if (file.step_given) throw InputError("--steps: '" + file.step + "', of " + file.name + ": " + error.what());
+    if (given) throw InputError("--steps: '" + file.step + "', of " + file.name + ": " + error.what());
   }
   return std::nullopt;
 }
@@ -236,6 +235,186 @@ std::optional<double> step_said(const ResultsFile& file, const Constants& consta
 double step_between(const ResultsColumns& columns, const ResultsTable& rows) {
   const ResultsColumns::Reading& time = *columns.find("t");
   return rows.cells.size() > 1 ? approximately(Mpfr(columns.value(time, 1) - columns.value(time, 0))) : unknown;
+}
+
+/// Compares files one after another with what is exact at their times.
+class Referee {
+ public:
+  Referee(const ComparisonRequest& request, int digits)
+      : request_(request),
+        digits_(digits),
+        scene_(assemble<Mpfr>(request.scene)),
+        gauge_(scene_.problem),
+        observations_(request.scene, scene_.problem),
+        start_(scene_.problem, observations_, Mpfr(0), scene_.q0, scene_.p0) {}
+
+  FileComparison compare(const ResultsFile& file, const ResultsTable& rows,
+                         const std::function<void(double)>& progress) {
+    FileComparison out;
+    out.name = file.name;
+    const ResultsColumns columns(request_, file, rows);
+    columns.check_numbers();
+    const std::vector<std::size_t> chosen = choose_rows(columns, rows, out);
+    compare_start(columns, rows, start_, out);
+    const std::string step = file.step.empty() ? step_stored(file.csv, file.description) : file.step;
+    const std::optional<double> said = step_said(file, step, request_.scene.constants);
+    out.step = said ? *said : step_between(columns, rows);
+    if (said) out.step_text = step;
+    // The exact numbers that the file has, not some that are near them.
+    for (const std::size_t row : chosen) out.times.push_back(columns.text(*columns.find("t"), row));
+    for (const ResultsColumns::Reading& reading : columns.readings())
+      if (reading.ours != "t") out.components.push_back({reading.ours, {}, 0});
+    const std::vector<Exact> exact = exact_states(out, progress);
+    std::array<Mpfr, Exact::kinds> greatest{};  // of each kind at any of the times
+    for (const Exact& state : exact)
+      for (const auto kind : {Exact::position, Exact::momentum, Exact::velocity})
+        raise_to(greatest[kind], max_norm(state.all(kind)));
+    for (std::size_t n = 0; n < chosen.size(); ++n) {
+      const std::optional<State> theirs = compare_row(columns, chosen[n], exact[n], greatest, out);
+      if (n > 0 || !theirs) continue;
+      try {
+        follow(*theirs, exact, out);
+      } catch (const IntegrationError&) {  // there is no motion from such a state
+        out.by_growth.clear();
+      }
+    }
+    return out;
+  }
+
+  /// What the growth of errors alone would leave of the first digits of files whose states are not complete. Of two
+  /// changes of the start, that counts which grows more.
+  void estimate_growth(std::vector<FileComparison>& files) const {
+    std::map<Mpfr, std::array<double, 2>> grown;  // by the time
+    for (const FileComparison& file : files)
+      if (file.by_growth.empty())
+        for (const std::string& t : file.times) grown.try_emplace(literal<Mpfr>(t));
+    if (grown.empty()) return;
+    std::vector<Mpfr> times;
+    for (const auto& [t, unused] : grown) times.push_back(t);
+    const Mpfr change = pow(Mpfr(10), -digits_ / 2);
+    const auto growth = growth_of_changes(scene_.problem, scene_.q0, scene_.p0, change, times);
+    for (std::size_t n = 0; n < times.size(); ++n) grown[times[n]] = growth[n];
+    const double most = digits_;
+    for (FileComparison& file : files) {
+      if (!file.by_growth.empty()) continue;
+      double first = most;
+      for (const ComponentDigits& c : file.components)
+        if (c.digits.front() < first) first = c.digits.front();
+      const std::array<double, 2> start = grown[literal<Mpfr>(file.times.front())];
+      for (const std::string& t : file.times) {
+        const std::array<double, 2> now = grown[literal<Mpfr>(t)];
+        const double lost = std::max(now[0] - start[0], now[1] - start[1]);
+        file.by_growth.push_back(std::clamp(first - lost, double{0}, most));
+      }
+    }
+  }
+
+ private:
+  std::vector<Exact> exact_states(FileComparison& out, const std::function<void(double)>& progress) {
+    ReferenceRequest wanted;
+    wanted.scene = request_.scene;
+    wanted.digits = digits_;
+    wanted.progress = progress;
+    for (const std::string& t : out.times) wanted.times.push_back(Expression::parse(t));
+    std::vector<Exact> exact;
+    for (const ReferenceState& state : states_of(wanted, out.stored)) {
+      Vector<Mpfr> p = Vector<Mpfr>::Zero(scene_.problem.m());
+      p.head(scene_.problem.mass.of_bodies()) = vector_of<Mpfr>(state.p);
+      const Mpfr t = evaluate<Mpfr>(Expression::parse(state.t), request_.scene.constants);
+      exact.emplace_back(scene_.problem, observations_, t, with_driven(scene_.problem, vector_of<Mpfr>(state.q), t),
+                         std::move(p));
+    }
+    return exact;
+  }
+
+  struct State {
+    Vector<Mpfr> q, p;
+  };
+
+  /// The exact motion from their first state, and digits of it: so much would be left if they made no further error.
+  void follow(State theirs, const std::vector<Exact>& exact, FileComparison& out) {
+    gauge_.make_consistent(theirs.q, theirs.p);
+    TaylorMotion motion(scene_.problem, theirs.q, theirs.p);
+    const Mpfr start = literal<Mpfr>(out.times.front());
+    for (std::size_t n = 0; n < exact.size(); ++n) {
+      motion.advance_to(literal<Mpfr>(out.times[n]) - start);
+      double worst = -static_cast<double>(digits_);
+      for (const auto kind : {Exact::position, Exact::momentum})
+        for (Index j = 0; j < scene_.problem.mass.of_bodies(); ++j) {
+          const Mpfr error = (kind == Exact::position ? motion.q() : motion.p())[j] - exact[n].all(kind)[j];
+          const Mpfr size = exact[n].size({kind, j});
+          if (error != 0 && size > 0) worst = std::max(worst, log10_of(error) - log10_of(size));
+        }
+      out.by_growth.push_back(std::max(-worst, double{0}));
+    }
+  }
+
+  /// \return the state, if it is complete
+  std::optional<State> compare_row(const ResultsColumns& columns, std::size_t row, const Exact& exact,
+                                   const std::array<Mpfr, Exact::kinds>& greatest, FileComparison& out) {
+    const Index m = scene_.problem.mass.of_bodies();
+    std::array<Vector<Mpfr>, Exact::kinds> theirs_of;
+    for (std::size_t kind = 0; kind < Exact::kinds; ++kind) theirs_of[kind] = exact.all(static_cast<Exact::Kind>(kind));
+    std::array<Index, Exact::kinds> known{};
+    double worst = -std::numeric_limits<double>::infinity();
+    std::size_t component = 0;
+    for (const ResultsColumns::Reading& reading : columns.readings()) {
+      if (reading.ours == "t") continue;
+      const Exact::Place at = Exact::place(columns, reading.ours);
+      Mpfr theirs = columns.value(reading, row);
+      if (at.kind == Exact::observed && observations_.is_angle(at.j)) turn_towards(theirs, exact.value(at));
+      Mpfr size = exact.size(at);
+      if (size == 0) size = greatest[at.kind];
+      const Mpfr error = magnitude(Mpfr(theirs - exact.value(at)));
+      ComponentDigits& digits = out.components[component++];
+      digits.digits.push_back(right_digits(error, size, digits_));
+      if (size == 0) raise_to(digits.off_zero, approximately(error));
+      if (error > 0 && size > 0) worst = std::max(worst, log10_of(error) - log10_of(size));
+      theirs_of[at.kind][at.j] = theirs;
+      ++known[at.kind];
+    }
+    out.error = worst;
+    if (known[Exact::position] != m) return std::nullopt;
+    if (known[Exact::momentum] != m && known[Exact::velocity] == m)
+      scene_.problem.mass.momentum(theirs_of[Exact::velocity], theirs_of[Exact::momentum]);
+    const bool has_constraints = scene_.problem.nu() > 0;
+    const bool is_complete = known[Exact::momentum] == m || known[Exact::velocity] == m;
+    if (is_complete) {
+      const StateDrift drift = gauge_(theirs_of[Exact::position], theirs_of[Exact::momentum],
+                                      exact.all(Exact::position), exact.all(Exact::momentum));
+      out.H_drift.push_back(drift.H);
+      if (has_constraints) out.hidden_drift.push_back(drift.hidden);
+    }
+    if (has_constraints) out.g_drift.push_back(gauge_.of_g(theirs_of[Exact::position]));
+    if (!is_complete) return std::nullopt;
+    return State{theirs_of[Exact::position], theirs_of[Exact::momentum]};
+  }
+
+  const ComparisonRequest& request_;
+  int digits_;
+  Assembled<Mpfr> scene_;
+  DriftGauge gauge_;
+  Observations<Mpfr> observations_;
+  Exact start_;
+};
+
+/// The order of all files by their errors at the end, each of which is known to the digits of its file.
+std::optional<MeasuredOrder> measured_order(const Comparison& against, const std::vector<std::size_t>& ordered,
+                                            const std::vector<ResultsTable>& rows) {
+  const std::size_t between = against.orders.size();
+  if (between < 2) return std::nullopt;
+  const double binary = std::log2(double{10});
+  std::vector<Rung> rungs;
+  for (const std::size_t f : ordered) {
+    const FileComparison& file = against.files[f];
+    constexpr int of_double = 15;
+    rungs.push_back({std::log2(file.step), file.error * binary, -binary * std::min(digits_of(rows[f]), of_double)});
+  }
+  if (const std::optional<Rate> rate = convergence_rate(rungs); rate && std::isfinite(rate->uncertainty))
+    return MeasuredOrder{rate->value, rate->uncertainty};
+  const double last = against.orders[between - 1].order, before = against.orders[between - 2].order;
+  if (!std::isfinite(last) || !std::isfinite(before)) return std::nullopt;
+  return MeasuredOrder{last, std::abs(last - before)};
 }
 
 }  // namespace
@@ -263,121 +442,27 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
   for (const ResultsTable& r : rows) result.digits = std::max(result.digits, digits_of(r));
   result.digits = std::clamp(result.digits + more_digits, least_digits, greatest_digits);
   const PrecisionScope scope(static_cast<unsigned>(result.digits + 10));
-  const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
-  const Index m = scene.problem.mass.of_bodies();
-  EnergyTerms<Mpfr> energy(scene.problem);
-  energy.evaluate(scene.q0, scene.p0);
-  const Mpfr H0 = energy.H();
-  StateEvaluator<Mpfr> point(scene.problem);
-  Observations<Mpfr> observations(request.scene, scene.problem);
-  const Exact start_of_scene(scene.problem, observations, Mpfr(0), scene.q0, scene.p0);
-  for (std::size_t f = 0; f < request.files.size(); ++f) {
-    FileComparison& out = result.files.emplace_back();
-    out.name = request.files[f].name;
-    const ResultsColumns columns(request, request.files[f], rows[f]);
-    columns.check_numbers();
-    const std::vector<std::size_t> chosen = choose_rows(columns, rows[f], out);
-    const ResultsColumns::Reading& time = *columns.find("t");
-    compare_start(columns, rows[f], start_of_scene, out);
-    const std::optional<double> said = step_said(request.files[f], request.scene.constants);
-    out.step = said ? *said : step_between(columns, rows[f]);
-    if (said) out.step_text = request.files[f].step;
-    ReferenceRequest wanted;
-    wanted.scene = request.scene;
-    wanted.digits = result.digits;
-    wanted.progress = [&](double part) {
+  Referee referee(request, result.digits);
+  for (std::size_t f = 0; f < request.files.size(); ++f)
+    result.files.push_back(referee.compare(request.files[f], rows[f], [&](double part) {
       if (request.progress)
         request.progress((static_cast<double>(f) + part) / static_cast<double>(request.files.size()));
-    };
-    for (const std::size_t row : chosen) {
-      // The exact number that the file has, not one that is near it.
-      const std::string text = columns.text(time, row);
-      out.times.push_back(text);
-      wanted.times.push_back(Expression::parse(text));
-    }
-    const std::vector<ReferenceState> reference = states_of(wanted, out.stored);
-    for (const ResultsColumns::Reading& reading : columns.readings())
-      if (reading.ours != "t") out.components.push_back({reading.ours, {}, 0});
-    std::vector<Exact> exact;
-    std::array<Mpfr, Exact::kinds> greatest{};  // of each kind at any of the times
-    for (const ReferenceState& state : reference) {
-      Vector<Mpfr> p = Vector<Mpfr>::Zero(scene.problem.m());
-      p.head(m) = vector_of<Mpfr>(state.p);
-      const Mpfr t = evaluate<Mpfr>(Expression::parse(state.t), request.scene.constants);
-      exact.emplace_back(scene.problem, observations, t, with_driven(scene.problem, vector_of<Mpfr>(state.q), t),
-                         std::move(p));
-      for (const auto kind : {Exact::position, Exact::momentum, Exact::velocity})
-        raise_to(greatest[kind], max_norm(exact.back().all(kind)));
-    }
-    for (std::size_t n = 0; n < chosen.size(); ++n) {
-      std::array<Vector<Mpfr>, Exact::kinds> theirs_of;
-      for (std::size_t kind = 0; kind < Exact::kinds; ++kind)
-        theirs_of[kind] = exact[n].all(static_cast<Exact::Kind>(kind));
-      std::array<Index, Exact::kinds> known{};
-      double worst = -std::numeric_limits<double>::infinity();
-      std::size_t component = 0;
-      for (const ResultsColumns::Reading& reading : columns.readings()) {
-        if (reading.ours == "t") continue;
-        const Exact::Place at = Exact::place(columns, reading.ours);
-        Mpfr theirs = columns.value(reading, chosen[n]);
-        if (at.kind == Exact::observed && observations.is_angle(at.j)) turn_towards(theirs, exact[n].value(at));
-        Mpfr size = exact[n].size(at);
-        if (size == 0) size = greatest[at.kind];
-        const Mpfr error = magnitude(Mpfr(theirs - exact[n].value(at)));
-        ComponentDigits& digits = out.components[component++];
-        digits.digits.push_back(right_digits(error, size, result.digits));
-        if (size == 0) raise_to(digits.off_zero, approximately(error));
-        if (error > 0 && size > 0) worst = std::max(worst, log10_of(error) - log10_of(size));
-        theirs_of[at.kind][at.j] = theirs;
-        ++known[at.kind];
-      }
-      out.error = worst;
-      if (known[Exact::momentum] != m && known[Exact::velocity] == m)
-        scene.problem.mass.momentum(theirs_of[Exact::velocity], theirs_of[Exact::momentum]);
-      if (known[Exact::position] == m && (known[Exact::momentum] == m || known[Exact::velocity] == m) &&
-          scene.problem.is_conservative()) {
-        energy.evaluate(theirs_of[Exact::position], theirs_of[Exact::momentum]);
-        out.H_drift.push_back(log10_of(Mpfr(energy.H() - H0)) - log10_of(energy.size()));
-      }
-      if (known[Exact::position] == m && scene.problem.nu() > 0)
-        out.g_drift.push_back(log10_of(max_norm(point.constraints(theirs_of[Exact::position]))) -
-                              log10_of(point.constraint_size(theirs_of[Exact::position])));
-    }
-  }
+    }));
+  referee.estimate_growth(result.files);
+  for (FileComparison& file : result.files) file.mostly = most_lost_by(file, -file.error);
   const std::vector<std::size_t> ordered = by_step(result.files);
   for (std::size_t i = 0; i + 1 < ordered.size(); ++i)
     result.orders.push_back(
         {ordered[i], ordered[i + 1], order_between(result.files[ordered[i]], result.files[ordered[i + 1]])});
-  // The growth of a small change of the start until the first file's times.
-  {
-    const FileComparison& first = result.files.front();
-    double most = result.digits;
-    for (const ComponentDigits& c : first.components)
-      if (c.digits.front() < most) most = c.digits.front();
-    const Mpfr delta = literal<Mpfr>("1e-" + std::to_string(result.digits / 2));
-    Vector<Mpfr> q0 = scene.q0, p0 = scene.p0;
-    q0.head(m) *= 1 + delta;
-    p0.head(m) *= 1 - delta;
-    TaylorMotion motion(scene.problem, scene.q0, scene.p0), other(scene.problem, q0, p0);
-    double grown_first = unknown;
-    for (const std::string& time : first.times) {
-      const Mpfr t = literal<Mpfr>(time);
-      motion.advance_to(t);
-      other.advance_to(t);
-      const double grown = log10_of(distance(Vector<Mpfr>(motion.q().head(m)), Vector<Mpfr>(other.q().head(m))));
-      if (std::isnan(grown_first)) grown_first = grown;
-      result.by_growth.push_back(
-          std::clamp(most - (grown - grown_first), double{0}, static_cast<double>(result.digits)));
-    }
-  }
+  result.measured_order = measured_order(result, ordered, rows);
   return result;
 }
 
-Figure comparison_figure(const ComparisonRequest& request, const Comparison& against, const std::string& name) {
+Figure comparison_figure(const Comparison& against, const std::string& scene) {
   const PrecisionScope scope(20);
   Figure figure;
-  figure.name = name;
-  figure.caption = "Right digits beside the reference of " + plain(request.scene.name);
+  figure.name = "against";
+  figure.caption = "Right digits beside the reference of " + plain(scene);
   for (const FileComparison& file : against.files) {
     Panel panel;
     panel.title = panel_title(file.name);
@@ -390,11 +475,9 @@ Figure comparison_figure(const ComparisonRequest& request, const Comparison& aga
       for (std::size_t n = 0; n < times.size(); ++n) curve.points.push_back({times[n], c.digits[n]});
       panel.curves.push_back(std::move(curve));
     }
-    if (figure.panels.empty()) {
-      Polyline growth{.points = {}, .look = Polyline::Look::dashed};
-      for (std::size_t n = 0; n < times.size(); ++n) growth.points.push_back({times[n], against.by_growth[n]});
-      panel.lines.push_back(std::move(growth));
-    }
+    Polyline growth{.points = {}, .look = Polyline::Look::dashed};
+    for (std::size_t n = 0; n < times.size(); ++n) growth.points.push_back({times[n], file.by_growth[n]});
+    panel.lines.push_back(std::move(growth));
     figure.panels.push_back(std::move(panel));
   }
   figure.footnote = "dashed: what the growth of the first error alone would leave";

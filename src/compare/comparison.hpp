@@ -32,8 +32,8 @@ struct ComparisonRequest {
 Comparison compare_with_reference(const ComparisonRequest& request);
 inline constexpr std::size_t most_times = 50;
 
-/// Digits against time: a panel a file, a curve a component; of the first also what the growth of errors alone would
-/// leave.
-Figure comparison_figure(const ComparisonRequest& request, const Comparison& against, const std::string& name);
+/// Digits against time: a panel a file, a curve a component, and what the growth of errors alone would leave.
+/// \param scene its name
+Figure comparison_figure(const Comparison& against, const std::string& scene);
 
 }  // namespace hbvm::core

@@ -21,18 +21,27 @@ std::string shown_time(const std::string& text) {
   return fmt::format("{}", shown);
 }
 
-/// 10^exponent with two digits, whatever its size.
-std::string power_text(double exponent) {
-  double whole = std::floor(exponent);
-  std::string digits = fmt::format("{:.1f}", std::pow(10, exponent - whole));
-  if (digits == "10.0") {
-    digits = "1.0";
-    ++whole;
-  }
-  return fmt::format("{}e{:.0f}", digits, whole);
+/// Those of an error of 0 are all.
+std::string digits_text(double digits) {
+  return std::isnan(digits) ? "-" : std::isinf(digits) ? "all" : fmt::format("{:.1f}", digits);
 }
 
-std::string digits_text(double digits) { return std::isnan(digits) ? "-" : fmt::format("{:.1f}", digits); }
+/// Digits that one part of the error alone would leave at each time.
+struct LossColumn {
+  std::string title;
+  std::vector<double> digits;
+};
+
+std::vector<LossColumn> loss_columns(const FileComparison& file) {
+  std::vector<LossColumn> columns{{"growth", file.by_growth}};
+  for (const auto& [title, drift] :
+       {std::pair{"g", &file.g_drift}, {"hidden", &file.hidden_drift}, {"H", &file.H_drift}}) {
+    if (drift->empty()) continue;
+    columns.push_back({title, {}});
+    for (const double log10 : *drift) columns.back().digits.push_back(-log10);
+  }
+  return columns;
+}
 
 std::string start_of(const FileComparison& file) {
   if (!file.has_start) return "  no row at t = 0: that it starts as the scene does is not seen\n";
@@ -70,25 +79,24 @@ std::string loss_of(const FileComparison& file) {
                      shown_time(file.times[where]), most, what->name);
 }
 
-std::string text_of(const FileComparison& file, const std::vector<double>& by_growth) {
+std::string text_of(const FileComparison& file) {
   std::string text = file.name + "\n" + start_of(file);
   for (const std::string& reason : file.unused) text += fmt::format("  not used: {}\n", reason);
   std::size_t width = 14;
   for (const ComponentDigits& c : file.components) width = std::max(width, c.name.size());
-  text += fmt::format("  {:<16} {:>7}  {:<{}}{:>16}{:>9}{:>9}\n", "t", "digits", "least right", width,
-                      by_growth.empty() ? "" : "growth leaves", "H off", "g off");
+  const std::vector<LossColumn> columns = loss_columns(file);
+  text += fmt::format("  {:<16} {:>7}  {:<{}}  ", "t", "digits", "least right", width);
+  for (const LossColumn& column : columns) text += fmt::format("{:>9}", column.title);
+  text += "\n";
   constexpr std::size_t most_lines = 20;
   const std::size_t lines = std::min(most_lines, file.times.size());
-  const auto power = [](const std::vector<double>& drift, std::size_t n) {
-    return n < drift.size() ? std::isinf(drift[n]) ? std::string("0") : power_text(drift[n]) : std::string("-");
-  };
   for (std::size_t i = 1; i <= lines; ++i) {
     const std::size_t n = file.times.size() * i / lines - 1;
     const ComponentDigits* const least = least_right(file, n);
-    text += fmt::format("  {:<16} {:>7}  {:<{}}{:>16}{:>9}{:>9}\n", shown_time(file.times[n]),
-                        least ? digits_text(least->digits[n]) : "-", least ? least->name : "", width,
-                        n < by_growth.size() ? fmt::format("{:.1f}", by_growth[n]) : "", power(file.H_drift, n),
-                        power(file.g_drift, n));
+    text += fmt::format("  {:<16} {:>7}  {:<{}}  ", shown_time(file.times[n]),
+                        least ? digits_text(least->digits[n]) : "-", least ? least->name : "", width);
+    for (const LossColumn& column : columns) text += fmt::format("{:>9}", digits_text(column.digits[n]));
+    text += "\n";
   }
   text += "  at the end:";
   for (const ComponentDigits& c : file.components) text += fmt::format(" {} {}", c.name, digits_text(c.digits.back()));
@@ -96,7 +104,7 @@ std::string text_of(const FileComparison& file, const std::vector<double>& by_gr
   for (const ComponentDigits& c : file.components)
     if (std::any_of(c.digits.begin(), c.digits.end(), [](double d) { return std::isnan(d); }))
       text += fmt::format("  {} is exactly 0, which has no digits: off by {:.3g}\n", c.name, c.off_zero);
-  return text + loss_of(file);
+  return text + loss_of(file) + fmt::format("  the error at the end is mostly {}\n", name_of(file.mostly));
 }
 
 std::string step_text(const FileComparison& file) {
@@ -105,13 +113,29 @@ std::string step_text(const FileComparison& file) {
 
 }  // namespace
 
+std::string name_of(LostBy part) {
+  switch (part) {
+    case LostBy::growth:
+      return "the first error, magnified by the motion itself";
+    case LostBy::g:
+      return "leaving the constraints g";
+    case LostBy::hidden:
+      return "leaving the hidden constraint";
+    case LostBy::energy:
+      return "a change of H";
+    case LostBy::motion:
+      break;
+  }
+  return "along the motion, which keeps H and the constraints better, as where it runs late";
+}
+
 std::string to_text(const Comparison& against) {
   const bool stored = std::all_of(against.files.begin(), against.files.end(), [](const auto& f) { return f.stored; });
   std::string text = fmt::format(
-      "right digits beside a reference of {} digits, {}; H and g are off relative to the size of their terms\n",
+      "right digits beside a reference of {} digits, {}, and what one part of the error alone would leave: the growth\n"
+      "of the first error by the motion itself, leaving g, leaving the hidden constraint, and what H is off by\n",
       against.digits, stored ? "stored" : "computed now");
-  for (std::size_t f = 0; f < against.files.size(); ++f)
-    text += text_of(against.files[f], f == 0 ? against.by_growth : std::vector<double>());
+  for (const FileComparison& file : against.files) text += text_of(file);
   for (const OrderBetween& c : against.orders) {
     const FileComparison &a = against.files[c.coarse], &b = against.files[c.fine];
     text += fmt::format(
@@ -122,6 +146,10 @@ std::string to_text(const Comparison& against) {
                           shown_time(a.times.back()), shown_time(b.times.back()),
                           a.step == b.step ? "; the steps that they were made with are said by --steps" : ""));
   }
+  if (against.measured_order)
+    text += fmt::format("order of convergence of all: {:.2f} +- {:.1g}\n", against.measured_order->value,
+                        against.measured_order->uncertainty);
+  if (against.plan) text += "the same digits of the positions, as cheaply as the planner finds\n" + against.plan->text;
   return text;
 }
 

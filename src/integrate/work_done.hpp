@@ -7,7 +7,7 @@
 
 namespace hbvm::core {
 
-/// The driven points of a problem but t itself, by their numbers among all: each keeps the work of an effect, a
+/// The driven points of a problem but t itself, by their numbers among all. Each keeps the work of an effect, a
 /// constraint or a moving point.
 template <Scalar S>
 std::vector<std::size_t> working(const Problem<S>& problem) {
@@ -26,8 +26,8 @@ S work_done(const Problem<S>& problem, const std::vector<std::size_t>& points, c
   return sum;
 }
 
-/// Which of the working points a name means: all that "torque" is the kind of, "effect 2", or a moving point by its
-/// name; without a name all.
+/// Which of the working points a name means: all that "torque" is the kind of, "effect 2", or a moving point. Without
+/// a name, all.
 /// \throws InputError, with what there is, for a name that means none
 template <Scalar S>
 std::vector<std::size_t> working(const Problem<S>& problem, const std::string& name);

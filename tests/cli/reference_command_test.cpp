@@ -2,6 +2,7 @@
 
 #include "cli/json.hpp"
 #include "cli/program.hpp"
+#include "hbvm/results.hpp"
 #include "read_file.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/precision.hpp"
@@ -195,8 +196,9 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   const auto against = [](const std::string& results) {
     return Arguments{"reference", "simple_pendulum", "--against", results};
   };
-  expect_words(ended_with(0, against(files)).out,
-               {"right digits beside a reference of ", ", computed now; H and g", "1 time at the start"});
+  expect_words(
+      ended_with(0, against(files)).out,
+      {"right digits beside a reference of ", ", computed now, and what one part", "the error at the end is mostly"});
   const ordered_json j = json_of({"reference", "--scene", "simple_pendulum", "--against", files});
   ASSERT_EQ(j["files"].size(), 4u);
   ASSERT_EQ(j["orders"].size(), 3u);
@@ -207,6 +209,14 @@ TEST(ReferenceCommand, TellsHowManyDigitsOfATrajectoryAreRight) {
   expect_words(ended_with(1, against(files) + Arguments{"--expect-order", "4"}).err, {"the order is 2.0"});
   expect_words(ended_with(1, against(files) + Arguments{"--require", "12"}).err, {"digits are right, and not 12"});
   ended_with(2, against(files) + Arguments{"--steps", "1,2"});
+  EXPECT_NEAR(j.at("order").at("value").get<double>(), 2, 0.05);
+  EXPECT_EQ(j["files"][0].at("mostly"), name_of(LostBy::energy));
+  const std::string page = folder / "page.html";
+  EXPECT_EQ(ended_with(0, against(files) + Arguments{"--plot", page}).err, written({page}));
+  expect_words(read_file(page),
+               {"Right digits beside the reference of simple_pendulum", "the error is mostly", "16.csv"});
+  const ordered_json priced = json_of(against(folder / "64.csv") + Arguments{"--cost"});
+  EXPECT_GE(priced.at("cost").at("digits").get<int>(), 1);
   ended_with(2, {"reference", "simple_pendulum", "--steps", "1"});
   const std::string file = folder / "hbvm.csv";
   ended_with(0, run_of("simple_pendulum", "hbvm:8,8", "1/8", "4") + Arguments{"--precision", "mpfr:40", "--out", file});

@@ -177,13 +177,29 @@ TEST(Comparison, TakesTheStepsThatAreGiven) {
   // To t = 1 and 2, over a vector of size 1 or less.
   EXPECT_NEAR(against.least_digits(), 4, 0.5);
   // One that is stored may be no number; one that is given must be one.
-  for (const char* step : {"0", "0.01 s"}) {
-    request.files[1].step = step;
-    request.files[1].step_given = false;
+  for (const std::string step : {"0", "0.01 s"}) {
+    request.files[1].step.clear();
+    request.files[1].description = R"({"hbvm:step": ")" + step + "\"}";
     EXPECT_EQ(compare_with_reference(request).files[1].step, 1) << step;
-    request.files[1].step_given = true;
+    request.files[1].step = step;
     EXPECT_THROW(compare_with_reference(request), InputError) << step;
   }
+}
+
+/// By the judge of five steps, and by the two smallest of fewer.
+TEST(Comparison, MeasuresTheOrderOfAll) {
+  const auto order_of = [](const std::vector<int>& steps) {
+    ComparisonRequest request = shared_times(steps);
+    for (ResultsFile& file : request.files) file.step = "1/" + file.name.substr(2, file.name.find('.') - 2);
+    return compare_with_reference(request).measured_order;
+  };
+  for (const std::vector<int>& steps : {std::vector<int>{10, 20, 40, 80, 160}, {160, 10, 40}}) {
+    const std::optional<MeasuredOrder> order = order_of(steps);
+    ASSERT_TRUE(order);
+    EXPECT_NEAR(order->value, 4, 1e-6);
+    EXPECT_LT(order->uncertainty, 1e-4);
+  }
+  EXPECT_FALSE(order_of({10, 20}));
 }
 
 TEST(Comparison, FindsTheStepThatIsStored) {
@@ -272,13 +288,13 @@ TEST(Comparison, RefusesWhatItCannotRead) {
 TEST(Comparison, DrawsDigitsAgainstTime) {
   ComparisonRequest request = request_of(pendulum(9));
   request.files.push_back({"some/where/of_another_program.csv", pendulum(20)});
-  const Figure figure = comparison_figure(request, compare_with_reference(request), "against");
+  const Figure figure = comparison_figure(compare_with_reference(request), "simple_pendulum");
   ASSERT_EQ(figure.panels.size(), 2u);
   for (const Panel& panel : figure.panels) {
     EXPECT_EQ(panel.curves.size(), 4u);
     EXPECT_EQ(panel.curves[0].points.size(), 3u);
+    EXPECT_EQ(panel.lines.size(), 1u) << "what the growth of errors would leave";
   }
-  EXPECT_EQ(figure.panels[0].lines.size(), 1u);
   EXPECT_EQ(figure.panels[1].title, plain("of_another_program.csv"));
   EXPECT_NE(figure.panels[1].title, "of_another_program.csv") << "the words of a figure take _ for a subscript";
 }

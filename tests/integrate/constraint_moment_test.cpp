@@ -22,7 +22,7 @@ class ConstraintMomentTest : public InDigits<50> {
   }
 };
 
-/// A beam of mass 3 that is held at its end, with its centre 2 away: the moment m g a, about any of its points.
+/// A beam of mass 3 is held at its end, and its centre is 2 away from there. The moment is m g a.
 TEST_F(ConstraintMomentTest, OfABeamAtItsEnd) {
   const std::string plane = R"toml(dimension = 2
 point = [{ name = "wall", position = [1, 1] }]

@@ -75,7 +75,7 @@ def _csv(results: Results, names: Names) -> tuple[str, str]:
 
 
 def against(
-    raw_scene: Any, results: Sequence[Results], columns: Names, steps: Sequence[Exact], progress: Progress
+    raw_scene: Any, results: Sequence[Results], columns: Names, steps: Sequence[Exact], cost: bool, progress: Progress
 ) -> Against:
     if steps and len(steps) != len(results):
         raise InputError(f"there are {len(steps)} steps for {len(results)} results")
@@ -86,7 +86,7 @@ def against(
         files.append((f"{name} {number + 1}" if len(results) > 1 and not os.path.isfile(name) else name, csv, step))
     pairs = [(str(theirs), ours) for theirs, ours in columns.items()] if isinstance(columns, Mapping) else []
     with Bar(progress, "reference") as callback:
-        found, text, least = _hbvm.compare_results(scene=raw_scene, files=files, map=pairs, progress=callback)
+        found, text, least = _hbvm.compare_results(scene=raw_scene, files=files, map=pairs, cost=cost, progress=callback)
     return Against(json.loads(found), text, least)
 
 

@@ -89,7 +89,12 @@ class Reference(Record):
         return [state["agreed"] for state in self._facts["times"]]
 
     def against(
-        self, *results: Results, columns: Names = None, steps: Sequence[Exact] = (), progress: Progress = None
+        self,
+        *results: Results,
+        columns: Names = None,
+        steps: Sequence[Exact] = (),
+        cost: bool = False,
+        progress: Progress = None,
     ) -> Against:
         """How many digits of results of any program are right, at their own times.
 
@@ -97,6 +102,7 @@ class Reference(Record):
         columns   what their columns are, {theirs: ours}: theirs an expression in their names, ours "t" or a name of q,
                   p or a velocity, {"sin(theta)": "bob.x"}. Of an array the names of its columns, ["t", "bob.x"].
         steps     that each was made with: the order of convergence is told then
+        cost      also plan the cheapest run with as many digits as the best of them, which may take minutes
 
         >>> import hbvm
         >>> ref = hbvm.reference("kepler", at=2, digits=20)
@@ -104,8 +110,10 @@ class Reference(Record):
         >>> found = ref.against(*mine, steps=("1/64", "1/128"))
         >>> abs(found.orders[0] - 2) < 0.1
         True
+        >>> found.files[0].mostly
+        'along the motion, which keeps H and the constraints better, as where it runs late'
         """
-        return against(_hbvm.Scene(*self._scene), results, columns, steps, progress)
+        return against(_hbvm.Scene(*self._scene), results, columns, steps, cost, progress)
 
     def table(self) -> str:
         """Names and numbers with all digits, time by time."""

@@ -92,7 +92,7 @@ def assert_conserves(
 
 
 def _beside(results: Results, scene: SceneLike, columns: Names) -> Against:
-    return against(scene_of(scene)._raw(), [results], columns, (), None)
+    return against(scene_of(scene)._raw(), [results], columns, (), False, None)
 
 
 def _least(found: Against) -> tuple[str, str, float]:

@@ -45,16 +45,16 @@ void add_comparison(py::module_& module) {
   module.def(
       "compare_results",
       [](const Scene& scene, const std::vector<File>& files,
-         const std::vector<std::pair<std::string, std::string>>& map, py::object progress) {
+         const std::vector<std::pair<std::string, std::string>>& map, bool cost, py::object progress) {
         Supervision supervision(std::move(progress));
-        ResultsRequest request{.scene = scene, .files = {}, .map = map};
+        ResultsRequest request{.scene = scene, .files = {}, .map = map, .cost = cost};
         for (const auto& [name, csv, step] : files) request.files.push_back({name, csv, step});
         request.progress = supervision.parts();
         request.stop = supervision.token();
         const Comparison found = supervision.of([&] { return compare_results(request); });
         return std::tuple(to_json(found), to_text(found), found.least_digits());
       },
-      py::kw_only(), py::arg("scene"), py::arg("files"), py::arg("map"), py::arg("progress"));
+      py::kw_only(), py::arg("scene"), py::arg("files"), py::arg("map"), py::arg("cost"), py::arg("progress"));
 }
 
 }  // namespace

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "hbvm/results.hpp"
+#include "problem/energy_terms.hpp"
+#include "problem/state_evaluator.hpp"
+#include "scalar/log2_of.hpp"
+
+namespace hbvm::core {
+
+/// log10 |x|, of 0 less than any.
+inline double log10_of(const Mpfr& x) { return log2_of(x) / std::log2(double{10}); }
+
+/// What a state is off by, as log10, beside the exact state at the same time.
+struct StateDrift {
+  double H = 0;       ///< H less that of the exact state, over the size of its terms
+  double g = 0;       ///< the greatest |g|, over the size of its terms
+  double hidden = 0;  ///< p less its tangential part, over |p|; NaN where there is no tangent space
+};
+
+/// Measures what states are off by. The problem must outlive it.
+class DriftGauge {
+ public:
+  explicit DriftGauge(const Problem<Mpfr>& problem);
+
+  StateDrift operator()(const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Vector<Mpfr>& exact_q,
+                        const Vector<Mpfr>& exact_p);
+  /// g alone, where p is not known.
+  double of_g(const Vector<Mpfr>& q);
+  /// Moves a state that is near to the constraints, and to their tangent space there.
+  /// \throws IntegrationError if the constraints' gradients are dependent there
+  void make_consistent(Vector<Mpfr>& q, Vector<Mpfr>& p);
+
+ private:
+  const Problem<Mpfr>& problem_;
+  EnergyTerms<Mpfr> energy_;
+  StateEvaluator<Mpfr> point_;
+};
+
+/// log10 of how far two motions are from that of a scene at ascending times, over the size of q or p, whichever is
+/// more. Their starts differ by small changes: q by the factor 1 + change, and p by that or by 1 - change.
+std::vector<std::array<double, 2>> growth_of_changes(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
+                                                     const Vector<Mpfr>& p0, const Mpfr& change,
+                                                     const std::vector<Mpfr>& times);
+
+/// What explains most of a file's error at its last time. That is the part that alone would leave the fewest digits, if
+/// these are no more than one above what is left. Of parts within a digit of that, leaving g counts first and then
+/// leaving the hidden constraint, since both change H, too. \param left digits
+LostBy most_lost_by(const FileComparison& file, double left);
+
+}  // namespace hbvm::core
