@@ -77,7 +77,7 @@ struct FileComparison {
   /// the first state, moved to the constraints. Where states are not complete, an estimate by two other changes of the
   /// start.
   std::vector<double> by_growth;
-  LostBy mostly = LostBy::motion;      ///< what the error at the last time is
+  std::optional<LostBy> mostly = {};   ///< what the error at the last time is, if the states are complete
   bool has_start = false;              ///< a row at t = 0
   std::vector<StartDifference> start;  ///< what is another there, to more than the digits of the file explain
   double step = 0;                     ///< as the file has it, or between its first two times; NaN if there is one time

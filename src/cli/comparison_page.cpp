@@ -75,7 +75,8 @@ std::string verdict_of(const Comparison& against, const std::string& scene) {
     const FileComparison& file = against.files[f];
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(file.name), file.times.back(),
                         digits_text(-file.error), digits_text(file.by_growth.back()), left_by(file.g_drift),
-                        left_by(file.hidden_drift), left_by(file.H_drift), order_of(against, f), name_of(file.mostly));
+                        left_by(file.hidden_drift), left_by(file.H_drift), order_of(against, f),
+                        file.mostly ? name_of(*file.mostly) : "-");
   }
   text += "\n";
   if (against.measured_order)

@@ -449,7 +449,8 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
         request.progress((static_cast<double>(f) + part) / static_cast<double>(request.files.size()));
     }));
   referee.estimate_growth(result.files);
-  for (FileComparison& file : result.files) file.mostly = most_lost_by(file, -file.error);
+  for (FileComparison& file : result.files)
+    if (!file.H_drift.empty()) file.mostly = most_lost_by(file, -file.error);
   const std::vector<std::size_t> ordered = by_step(result.files);
   for (std::size_t i = 0; i + 1 < ordered.size(); ++i)
     result.orders.push_back(

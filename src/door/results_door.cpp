@@ -52,7 +52,7 @@ std::string to_json(const Comparison& against) {
     entry["log10_g_drift"] = file.g_drift;
     entry["log10_hidden_drift"] = file.hidden_drift;
     entry["by_growth"] = file.by_growth;
-    entry["mostly"] = name_of(file.mostly);
+    entry["mostly"] = file.mostly ? core::OrderedJson(name_of(*file.mostly)) : core::OrderedJson(nullptr);
     entry["step"] = file.step;
     entry["reference"] = file.stored ? "stored" : "computed now";
     j["files"].push_back(entry);

@@ -33,7 +33,8 @@ struct LossColumn {
 };
 
 std::vector<LossColumn> loss_columns(const FileComparison& file) {
-  std::vector<LossColumn> columns{{"growth", file.by_growth}};
+  std::vector<LossColumn> columns;
+  if (file.times.size() > 1) columns.push_back({"growth", file.by_growth});
   for (const auto& [title, drift] :
        {std::pair{"g", &file.g_drift}, {"hidden", &file.hidden_drift}, {"H", &file.H_drift}}) {
     if (drift->empty()) continue;
@@ -104,7 +105,8 @@ std::string text_of(const FileComparison& file) {
   for (const ComponentDigits& c : file.components)
     if (std::any_of(c.digits.begin(), c.digits.end(), [](double d) { return std::isnan(d); }))
       text += fmt::format("  {} is exactly 0, which has no digits: off by {:.3g}\n", c.name, c.off_zero);
-  return text + loss_of(file) + fmt::format("  the error at the end is mostly {}\n", name_of(file.mostly));
+  text += loss_of(file);
+  return file.mostly ? text + fmt::format("  the error at the end is mostly {}\n", name_of(*file.mostly)) : text;
 }
 
 std::string step_text(const FileComparison& file) {

@@ -285,6 +285,14 @@ TEST(Comparison, RefusesWhatItCannotRead) {
     expect_words(message_of([&, csv = csv] { compare_with_reference(request_of(csv)); }), {says});
 }
 
+/// Of positions alone neither H nor the hidden constraint is known.
+TEST(Comparison, SaysNothingOfWhatIsNotThere) {
+  const FileComparison file = compare_with_reference(request_of("t,bob.x\n1,0.8\n2,0.8\n")).files.front();
+  EXPECT_FALSE(file.mostly);
+  EXPECT_TRUE(file.H_drift.empty() && file.g_drift.empty() && file.hidden_drift.empty());
+  EXPECT_EQ(file.by_growth.size(), 2U);
+}
+
 TEST(Comparison, DrawsDigitsAgainstTime) {
   ComparisonRequest request = request_of(pendulum(9));
   request.files.push_back({"some/where/of_another_program.csv", pendulum(20)});
