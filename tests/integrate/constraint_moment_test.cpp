@@ -60,21 +60,8 @@ TEST_F(ConstraintMomentTest, IsRefusedWhereNoBodyIsHeld) {
 
 /// dL/dt of each body is the sum of r x F and of the moments of its joints, of its weight and a spring.
 TEST_F(ConstraintMomentTest, OfJointsTurnBodies) {
-  const Scene scene = read_scene(mechanism +
-                                     "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [3, -10, 1]\n"
-                                     "[[effect]]\nkind = \"spring\"\nstiffness = 2\nbetween = [\"post\", { of = "
-                                     "\"shaft\", at = [0, 0, 0] }]\n",
-                                 "mechanism.toml");
+  const Scene scene = read_scene(mechanism + mechanism_effects, "mechanism.toml");
   const std::string axes = "xyz";
-  const std::vector<std::array<std::string, 2>> joints{{"base[0, 0, 0]", "slider[0, 0, 0]"},
-                                                       {"corner", "plate[0, 0, 0]"},
-                                                       {"plate[0, 0, 1]", "fork[0, 0, 0]"},
-                                                       {"fork[0, 0, 1]", "shaft[0, 0, 0]"}};
-  const std::vector<std::array<std::string, 5>> bodies{{"base", "2", "0", "0", "1/10"},
-                                                       {"slider", "1", "0", "0", "0"},
-                                                       {"plate", "1", "1/4", "0", "0"},
-                                                       {"fork", "1", "0", "0", "1/2"},
-                                                       {"shaft", "1", "0", "0", "0"}};
   // The component i of r x F, of vectors that are written by their components.
   const auto across = [&](std::size_t i, const auto& r, const auto& F) {
     const char j = axes[(i + 1) % 3], k = axes[(i + 2) % 3];
@@ -90,10 +77,10 @@ TEST_F(ConstraintMomentTest, OfJointsTurnBodies) {
                    i, [&](char c) { return std::string(1, c) + "(" + a + ")"; },
                    [&](char c) { return "force(" + a + ", " + b + ", " + c + ")"; });
       };
-      if (body > 0) add_joint(joints[body - 1][1], joints[body - 1][0]);
-      if (body < 4) add_joint(joints[body][0], joints[body][1]);
-      const std::string &name = bodies[body][0], &mass = bodies[body][1], &x = bodies[body][2], &y = bodies[body][3],
-                        &z = bodies[body][4];
+      if (body > 0) add_joint(mechanism_joints[body - 1][1], mechanism_joints[body - 1][0]);
+      if (body < 4) add_joint(mechanism_joints[body][0], mechanism_joints[body][1]);
+      const auto& entries = mechanism_bodies[body];
+      const std::string &name = entries[0], &mass = entries[1], &x = entries[2], &y = entries[3], &z = entries[4];
       const auto place = [&](char c) { return name + "." + c; };
       const auto center = [&](char c) {
         return place(c) + " + " + x + "*" + name + ".d1." + c + " + " + y + "*" + name + ".d2." + c + " + " + z + "*" +

@@ -93,26 +93,18 @@ TEST_F(SeenQuantityTest, ForcesAreWhatABodyIsMovedBy) {
 
 /// m a of each body of a mechanism is its weight and the forces of its joints.
 TEST_F(SeenQuantityTest, ForcesOfJointsMoveBodies) {
-  const Scene scene = read_scene(
-      mechanism +
-          "[[effect]]\nkind = \"uniform_gravity\"\nacceleration = [3, -10, 1]\n"
-          "[[effect]]\nkind = \"spring\"\nstiffness = 2\nbetween = [\"post\", { of = \"shaft\", at = [0, 0, 0] "
-          "}]\n",
-      "mechanism.toml");
+  const Scene scene = read_scene(mechanism + mechanism_effects, "mechanism.toml");
   const auto between = [](const std::string& a, const std::string& b, char along) {
     return "force(" + a + ", " + b + ", " + along + ")";
   };
   // Each body with the joint to the one before it, on both sides.
-  const std::vector<std::array<std::string, 2>> joints{{"base[0, 0, 0]", "slider[0, 0, 0]"},
-                                                       {"corner", "plate[0, 0, 0]"},
-                                                       {"plate[0, 0, 1]", "fork[0, 0, 0]"},
-                                                       {"fork[0, 0, 1]", "shaft[0, 0, 0]"}};
   std::vector<std::string> sums;
   for (std::size_t body = 0; body < 5; ++body)
     for (const char along : {'x', 'y', 'z'}) {
       std::string sum;
-      if (body > 0) sum = between(joints[body - 1][1], joints[body - 1][0], along);
-      if (body < 4) sum += (sum.empty() ? "" : " + ") + between(joints[body][0], joints[body][1], along);
+      if (body > 0) sum = between(mechanism_joints[body - 1][1], mechanism_joints[body - 1][0], along);
+      if (body < 4)
+        sum += (sum.empty() ? "" : " + ") + between(mechanism_joints[body][0], mechanism_joints[body][1], along);
       if (body == 4) sum += std::string(" + 2*(post.") + along + " - shaft." + along + ")";
       sums.push_back(sum);
     }
@@ -123,20 +115,15 @@ TEST_F(SeenQuantityTest, ForcesOfJointsMoveBodies) {
   const Vector<Mpfr> rate = forces.applied + forces.constraint;
   Vector<Mpfr> acceleration(60);
   start.problem.mass.velocity(lanes(rate), lanes(acceleration));
-  const std::vector<std::array<const char*, 4>> bodies{{"2", "0", "0", "1/10"},
-                                                       {"1", "0", "0", "0"},
-                                                       {"1", "1/4", "0", "0"},
-                                                       {"1", "0", "0", "1/2"},
-                                                       {"1", "0", "0", "0"}};
   for (Index body = 0; body < 5; ++body) {
-    const auto& [mass, x, y, z] = bodies[static_cast<std::size_t>(body)];
+    const auto& [name, mass, x, y, z] = mechanism_bodies[static_cast<std::size_t>(body)];
     Vector<Mpfr> moved = acceleration.segment(12 * body, 3);
     moved += literal<Mpfr>(x) * acceleration.segment(12 * body + 3, 3) +
              literal<Mpfr>(y) * acceleration.segment(12 * body + 6, 3) +
              literal<Mpfr>(z) * acceleration.segment(12 * body + 9, 3);
     const Vector<Mpfr> expected = (moved - Vector<Mpfr>{{Mpfr(3), Mpfr(-10), Mpfr(1)}}) * literal<Mpfr>(mass);
-    EXPECT_LE(distance<Mpfr>(found.segment(3 * body, 3), expected), 10'000 * epsilon<Mpfr>()) << body;
-    EXPECT_GE(max_norm(expected), Mpfr(1) / 100) << body;
+    EXPECT_LE(distance<Mpfr>(found.segment(3 * body, 3), expected), 10'000 * epsilon<Mpfr>()) << name;
+    EXPECT_GE(max_norm(expected), Mpfr(1) / 100) << name;
   }
 }
 

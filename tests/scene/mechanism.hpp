@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace hbvm::core {
 
@@ -89,5 +91,29 @@ between = [{ of = "fork", at = [0, 0, 1] }, { of = "shaft", at = [0, 0, 0] }]
 axis = [0, 0, 1]
 second_axis = [0, 0, -2]
 )toml";
+
+/// What may act on it: a weight of (3, -10, 1) times the mass, and a spring of stiffness 2 on the shaft.
+inline const std::string mechanism_effects = R"toml([[effect]]
+kind = "uniform_gravity"
+acceleration = [3, -10, 1]
+
+[[effect]]
+kind = "spring"
+stiffness = 2
+between = ["post", { of = "shaft", at = [0, 0, 0] }]
+)toml";
+
+/// The joint of each body to the next, by the places that it is between.
+inline const std::vector<std::array<std::string, 2>> mechanism_joints{{"base[0, 0, 0]", "slider[0, 0, 0]"},
+                                                                      {"corner", "plate[0, 0, 0]"},
+                                                                      {"plate[0, 0, 1]", "fork[0, 0, 0]"},
+                                                                      {"fork[0, 0, 1]", "shaft[0, 0, 0]"}};
+
+/// Name, mass, and the centre of mass in the frame of each body.
+inline const std::vector<std::array<std::string, 5>> mechanism_bodies{{"base", "2", "0", "0", "1/10"},
+                                                                      {"slider", "1", "0", "0", "0"},
+                                                                      {"plate", "1", "1/4", "0", "0"},
+                                                                      {"fork", "1", "0", "0", "1/2"},
+                                                                      {"shaft", "1", "0", "0", "0"}};
 
 }  // namespace hbvm::core
