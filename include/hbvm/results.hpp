@@ -61,7 +61,7 @@ enum class LostBy {
   motion,  ///< none of these: another motion that keeps to all of them, such as one that runs late
 };
 
-/// "the growth of the first error", "leaving the constraints g"...
+/// "leaving the constraints g", what follows "the error is mostly".
 std::string name_of(LostBy part);
 
 struct FileComparison {

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <vector>
 
+#include "compare/lost_digits.hpp"
+#include "csv_line.hpp"
 #include "folder_report/folder_report.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
@@ -41,13 +44,6 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-std::string digits_text(double digits) {
-  return std::isnan(digits) ? "-" : std::isinf(digits) ? "all" : fmt::format("{:.1f}", digits);
-}
-
-/// Of a drift at the last time: digits that it alone would leave.
-std::string left_by(const std::vector<double>& drift) { return drift.empty() ? "-" : digits_text(-drift.back()); }
-
 /// A name within a table of Markdown.
 std::string cell(const std::string& text) {
   std::string safe;
@@ -73,10 +69,10 @@ std::string verdict_of(const Comparison& against, const std::string& scene) {
       scene, against.digits);
   for (std::size_t f = 0; f < against.files.size(); ++f) {
     const FileComparison& file = against.files[f];
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(file.name), file.times.back(),
-                        digits_text(-file.error), digits_text(file.by_growth.back()), left_by(file.g_drift),
-                        left_by(file.hidden_drift), left_by(file.H_drift), order_of(against, f),
-                        file.mostly ? name_of(*file.mostly) : "-");
+    text += fmt::format("| {} | {} | {} |", cell(file.name), file.times.back(), digits_text(-file.error));
+    for (const ErrorPart& part : parts_of_error(file))
+      text += fmt::format(" {} |", part.digits.empty() ? "-" : digits_text(part.digits.back()));
+    text += fmt::format(" {} | {} |\n", order_of(against, f), file.mostly ? name_of(*file.mostly) : "-");
   }
   text += "\n";
   if (against.measured_order)
@@ -100,9 +96,9 @@ std::string verdict_of(const Comparison& against, const std::string& scene) {
 
 /// Right digits of each component at each time, as CSV.
 std::string table_of(const FileComparison& file) {
-  std::string text = "t";
-  for (const ComponentDigits& c : file.components) text += ",\"" + c.name + "\"";
-  text += "\n";
+  std::vector<std::string> names;
+  for (const ComponentDigits& c : file.components) names.push_back(c.name);
+  std::string text = "t," + csv_line(names) + "\n";
   for (std::size_t n = 0; n < file.times.size(); ++n) {
     text += file.times[n];
     for (const ComponentDigits& c : file.components) text += "," + digits_text(c.digits[n]);

@@ -1,17 +1,21 @@
 #include "compare/lost_digits.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <utility>
 
 #include "hbvm/error.hpp"
+#include "interruption.hpp"
 #include "linear/product.hpp"
 #include "reference/taylor.hpp"
 
 namespace hbvm::core {
+
+void end_comparison_if_asked() { end_if_asked("the comparison was not finished"); }
 
 DriftGauge::DriftGauge(const Problem<Mpfr>& problem) : problem_(problem), energy_(problem), point_(problem) {}
 
@@ -42,9 +46,10 @@ void DriftGauge::make_consistent(Vector<Mpfr>& q, Vector<Mpfr>& p) {
   constexpr int most = 60;
   const Index m = problem_.mass.of_bodies();
   const Vector<Mpfr> at_rest = Vector<Mpfr>::Zero(problem_.m());
-  for (int n = 0; n < most && problem_.nu() > 0; ++n) {
+  for (int n = 0; problem_.nu() > 0; ++n) {
     const Vector<Mpfr> g = point_.constraints(q);
     if (max_norm(g) <= 10 * epsilon<Mpfr>() * point_.constraint_size(q)) break;
+    if (n == most) throw IntegrationError("the state is too far from the constraints");
     const Vector<Mpfr> rates = point_.hidden_constraints(q, at_rest) - g;
     const Vector<Mpfr> impulse = point_.with_rates(q, at_rest, rates);
     Vector<Mpfr> moved = at_rest;
@@ -58,13 +63,13 @@ std::vector<std::array<double, 2>> growth_of_changes(const Problem<Mpfr>& proble
                                                      const Vector<Mpfr>& p0, const Mpfr& change,
                                                      const std::vector<Mpfr>& times) {
   const Index m = problem.mass.of_bodies();
-  TaylorMotion motion(problem, q0, p0);
+  TaylorMotion motion(problem, q0, p0, end_comparison_if_asked);
   std::deque<TaylorMotion> others;
   for (const int sign : {1, -1}) {
     Vector<Mpfr> q = q0, p = p0;
     q.head(m) *= 1 + change;
     p.head(m) *= 1 + sign * change;
-    others.emplace_back(problem, q, p);
+    others.emplace_back(problem, q, p, end_comparison_if_asked);
   }
   const auto off = [m](const Vector<Mpfr>& x, const Vector<Mpfr>& y) {
     const Vector<Mpfr> of_bodies = x.head(m);
@@ -83,18 +88,30 @@ std::vector<std::array<double, 2>> growth_of_changes(const Problem<Mpfr>& proble
   return grown;
 }
 
+std::array<ErrorPart, 4> parts_of_error(const FileComparison& file) {
+  std::array<ErrorPart, 4> parts{{{LostBy::growth, "growth", {}},
+                                  {LostBy::g, "g", file.g_drift},
+                                  {LostBy::hidden, "hidden", file.hidden_drift},
+                                  {LostBy::energy, "H", file.H_drift}}};
+  for (ErrorPart& part : parts)
+    for (double& log10 : part.digits) log10 = -log10;
+  if (file.by_growth.size() > 1) parts.front().digits = file.by_growth;
+  return parts;
+}
+
+std::string digits_text(double digits) {
+  return std::isnan(digits) ? "-" : std::isinf(digits) ? "all" : fmt::format("{:.1f}", digits);
+}
+
 LostBy most_lost_by(const FileComparison& file, double left) {
-  const auto of = [](const std::vector<double>& drift) { return drift.empty() ? INFINITY : -drift.back(); };
-  const std::array<std::pair<LostBy, double>, 4> parts{
-      {{LostBy::g, of(file.g_drift)},
-       {LostBy::hidden, of(file.hidden_drift)},
-       {LostBy::energy, of(file.H_drift)},
-       {LostBy::growth, file.by_growth.size() > 1 ? file.by_growth.back() : INFINITY}}};
+  std::array<ErrorPart, 4> parts = parts_of_error(file);
+  const auto at_end = [](const ErrorPart& part) { return part.digits.empty() ? INFINITY : part.digits.back(); };
   double least = INFINITY;
-  for (const auto& part : parts) least = std::min(least, part.second);
+  for (const ErrorPart& part : parts) least = std::min(least, at_end(part));
   constexpr double near = 1;
   if (least > left + near) return LostBy::motion;
-  return std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.second <= least + near; })->first;
+  std::rotate(parts.begin(), parts.begin() + 1, parts.end());
+  return std::ranges::find_if(parts, [&](const ErrorPart& part) { return at_end(part) <= least + near; })->part;
 }
 
 }  // namespace hbvm::core

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "hbvm/results.hpp"
@@ -13,6 +14,9 @@ namespace hbvm::core {
 
 /// log10 |x|, of 0 less than any.
 inline double log10_of(const Mpfr& x) { return log2_of(x) / std::log2(double{10}); }
+
+/// \throws Interrupted if the work is to end
+void end_comparison_if_asked();
 
 /// What a state is off by, as log10, beside the exact state at the same time.
 struct StateDrift {
@@ -31,7 +35,7 @@ class DriftGauge {
   /// g alone, where p is not known.
   double of_g(const Vector<Mpfr>& q);
   /// Moves a state that is near to the constraints, and to their tangent space there.
-  /// \throws IntegrationError if the constraints' gradients are dependent there
+  /// \throws IntegrationError if the constraints' gradients are dependent there, or the state is too far away
   void make_consistent(Vector<Mpfr>& q, Vector<Mpfr>& p);
 
  private:
@@ -45,6 +49,19 @@ class DriftGauge {
 std::vector<std::array<double, 2>> growth_of_changes(const Problem<Mpfr>& problem, const Vector<Mpfr>& q0,
                                                      const Vector<Mpfr>& p0, const Mpfr& change,
                                                      const std::vector<Mpfr>& times);
+
+/// One part of the error of a file, and digits that it alone would leave at each time. None if it is not known.
+struct ErrorPart {
+  LostBy part;
+  const char* title;  ///< "growth", "g", "hidden", "H"
+  std::vector<double> digits;
+};
+
+/// Those parts, in the order of their titles above. Nothing is seen to grow at one time.
+std::array<ErrorPart, 4> parts_of_error(const FileComparison& file);
+
+/// "7.3"; "all" of an error of 0, and "-" where there are none to count.
+std::string digits_text(double digits);
 
 /// What explains most of a file's error at its last time. That is the part that alone would leave the fewest digits, if
 /// these are no more than one above what is left. Of parts within a digit of that, leaving g counts first and then

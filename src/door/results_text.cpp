@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
+#include "compare/lost_digits.hpp"
 #include "hbvm/results.hpp"
 
 namespace hbvm {
@@ -21,36 +23,13 @@ std::string shown_time(const std::string& text) {
   return fmt::format("{}", shown);
 }
 
-/// Those of an error of 0 are all.
-std::string digits_text(double digits) {
-  return std::isnan(digits) ? "-" : std::isinf(digits) ? "all" : fmt::format("{:.1f}", digits);
-}
-
-/// Digits that one part of the error alone would leave at each time.
-struct LossColumn {
-  std::string title;
-  std::vector<double> digits;
-};
-
-std::vector<LossColumn> loss_columns(const FileComparison& file) {
-  std::vector<LossColumn> columns;
-  if (file.times.size() > 1) columns.push_back({"growth", file.by_growth});
-  for (const auto& [title, drift] :
-       {std::pair{"g", &file.g_drift}, {"hidden", &file.hidden_drift}, {"H", &file.H_drift}}) {
-    if (drift->empty()) continue;
-    columns.push_back({title, {}});
-    for (const double log10 : *drift) columns.back().digits.push_back(-log10);
-  }
-  return columns;
-}
-
 std::string start_of(const FileComparison& file) {
   if (!file.has_start) return "  no row at t = 0: that it starts as the scene does is not seen\n";
   std::string text = file.start.empty() ? "" : "  ITS START IS ANOTHER, and so is all that follows:\n";
   for (const StartDifference& d : file.start)
-    text +=
-        fmt::format("    {} is {}, and {} in the scene{}\n", d.name, d.theirs, d.ours,
-                    d.opposite ? ": of the other sign" : fmt::format(": {} digits are right", digits_text(d.digits)));
+    text += fmt::format(
+        "    {} is {}, and {} in the scene{}\n", d.name, d.theirs, d.ours,
+        d.opposite ? ": of the other sign" : fmt::format(": {} digits are right", core::digits_text(d.digits)));
   return text;
 }
 
@@ -85,9 +64,10 @@ std::string text_of(const FileComparison& file) {
   for (const std::string& reason : file.unused) text += fmt::format("  not used: {}\n", reason);
   std::size_t width = 14;
   for (const ComponentDigits& c : file.components) width = std::max(width, c.name.size());
-  const std::vector<LossColumn> columns = loss_columns(file);
+  const std::array<core::ErrorPart, 4> parts = core::parts_of_error(file);
   text += fmt::format("  {:<16} {:>7}  {:<{}}  ", "t", "digits", "least right", width);
-  for (const LossColumn& column : columns) text += fmt::format("{:>9}", column.title);
+  for (const core::ErrorPart& part : parts)
+    if (!part.digits.empty()) text += fmt::format("{:>9}", part.title);
   text += "\n";
   constexpr std::size_t most_lines = 20;
   const std::size_t lines = std::min(most_lines, file.times.size());
@@ -95,12 +75,14 @@ std::string text_of(const FileComparison& file) {
     const std::size_t n = file.times.size() * i / lines - 1;
     const ComponentDigits* const least = least_right(file, n);
     text += fmt::format("  {:<16} {:>7}  {:<{}}  ", shown_time(file.times[n]),
-                        least ? digits_text(least->digits[n]) : "-", least ? least->name : "", width);
-    for (const LossColumn& column : columns) text += fmt::format("{:>9}", digits_text(column.digits[n]));
+                        least ? core::digits_text(least->digits[n]) : "-", least ? least->name : "", width);
+    for (const core::ErrorPart& part : parts)
+      if (!part.digits.empty()) text += fmt::format("{:>9}", core::digits_text(part.digits[n]));
     text += "\n";
   }
   text += "  at the end:";
-  for (const ComponentDigits& c : file.components) text += fmt::format(" {} {}", c.name, digits_text(c.digits.back()));
+  for (const ComponentDigits& c : file.components)
+    text += fmt::format(" {} {}", c.name, core::digits_text(c.digits.back()));
   text += "\n";
   for (const ComponentDigits& c : file.components)
     if (std::any_of(c.digits.begin(), c.digits.end(), [](double d) { return std::isnan(d); }))

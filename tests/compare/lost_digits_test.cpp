@@ -5,8 +5,11 @@
 #include <cmath>
 #include <functional>
 #include <set>
+#include <stop_token>
 
 #include "compare/comparison.hpp"
+#include "hbvm/error.hpp"
+#include "interruption.hpp"
 #include "linear/product.hpp"
 #include "printing.hpp"
 #include "reference/taylor.hpp"
@@ -106,6 +109,26 @@ TEST_F(LostDigits, JudgesAnyState) {
   EXPECT_TRUE(std::isnan(zero.hidden_drift.back()));
   EXPECT_EQ(zero.mostly, LostBy::g);
   EXPECT_EQ(zero.by_growth.size(), 4U);
+}
+
+/// Whoever asks for an end gets it while the growth is looked for.
+TEST_F(LostDigits, AnswersThatTheWorkIsToEnd) {
+  std::stop_source asked;
+  asked.request_stop();
+  const StopRequest request{asked.get_token(), nullptr};
+  const StopScope scope(&request);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("simple_pendulum"));
+  EXPECT_THROW(growth_of_changes(scene.problem, scene.q0, scene.p0, literal<Mpfr>("1e-9"), {Mpfr(1)}), Interrupted);
+}
+
+/// Where no state near by fulfils the constraints it is said, and no motion is followed from it.
+TEST_F(LostDigits, RefusesToMoveAStateFromFarAway) {
+  const Assembled<Mpfr> scene = assemble<Mpfr>(load_scene("simple_pendulum"));
+  Vector<Mpfr> q = Vector<Mpfr>::Zero(2), p = scene.p0;
+  EXPECT_THROW(DriftGauge(scene.problem).make_consistent(q, p), IntegrationError);
+  q = scene.q0 * literal<Mpfr>("1.001");
+  DriftGauge(scene.problem).make_consistent(q, p);
+  EXPECT_LE(distance<Mpfr>(q, scene.q0), 100 * epsilon<Mpfr>());
 }
 
 /// Every part has words of its own.
