@@ -1,7 +1,5 @@
 #include "linear/aligned_matrix.hpp"
 
-#include <gmp.h>
-
 #include <algorithm>
 #include <limits>
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "linear/limbs.hpp"
 #include "linear/matrix.hpp"
 
 namespace hbvm::core {
@@ -26,8 +27,6 @@ class AlignedMatrix {
   bool times(Mpfr* r, const Mpfr* x, Index stride);
 
  private:
-  using Limb = unsigned long;
-
   Index rows_ = 0, columns_ = 0;
   long bits_ = 0, limbs_ = 0, exponent_ = 0;  ///< of the largest entry
   std::vector<Limb> entries_;                 ///< row by row

@@ -1,7 +1,5 @@
 #include "linear/aligned_series.hpp"
 
-#include <gmp.h>
-
 #include <algorithm>
 
 #include "linear/limb_products.hpp"
@@ -39,7 +37,7 @@ void AlignedSeries::shift(Index count, long up) {
       std::copy_n(x + whole, kept, x);
       std::fill_n(x + kept, whole, Limb{0});
     }
-    if (kept > 0 && bits != 0) mpn_rshift(x, x, kept, bits);
+    if (kept > 0 && bits != 0) shift_limbs_down(x, x, kept, bits);
     count_limbs(n);
   }
 }
@@ -73,8 +71,8 @@ void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, In
   for (Index i = 0; i <= last - first; ++i) longest = std::max(longest, own[i] + other[-i]);
   const long limbs = std::max(longest - L, 1);
   static thread_local LimbProducts products;
-  const mp_limb_t* const x = a.at(first);
-  const mp_limb_t* const y = b.at(n - first) + (L - limbs);
+  const Limb* const x = a.at(first);
+  const Limb* const y = b.at(n - first) + (L - limbs);
   const signed char* const sign = &a.sign_[static_cast<std::size_t>(first)];
   const signed char* const other_sign = &b.sign_[static_cast<std::size_t>(n - first)];
   products.set(static_cast<std::size_t>(last - first + 1), [=](std::size_t l) -> LimbProducts::Signed {
@@ -82,7 +80,7 @@ void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, In
     const Index below = std::max<Index>(own[i] - limbs, 0);
     return {x + i * L + below, y - i * L - below, sign[i] * other_sign[-i]};
   });
-  mp_limb_t* const sum = a.sum_.data();
+  Limb* const sum = a.sum_.data();
   products.set_upper_sum(sum, limbs);
   set_limb_sum(raw(r), sum, limbs + 2, a.exponent_ + b.exponent_ - limb_bits * (L - limbs));
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "linear/limbs.hpp"
 #include "linear/matrix.hpp"
 
 namespace hbvm::core {
@@ -26,7 +27,6 @@ class AlignedSeries {
                               Index last);
 
  private:
-  using Limb = unsigned long;
   Limb* at(Index n) { return &digits_[static_cast<std::size_t>(n * limbs_)]; }
   const Limb* at(Index n) const { return &digits_[static_cast<std::size_t>(n * limbs_)]; }
   /// Takes a larger unit: 2^up as large.

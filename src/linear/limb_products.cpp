@@ -3,21 +3,24 @@
 #include <algorithm>
 #include <utility>
 
-#include "linear/limb_sum.hpp"
-
 namespace hbvm::core {
 
 namespace {
 
-/// A sum of products of limbs: each needs three instructions beside the multiplication.
-class Column {
+/// A sum of products of limbs.
+template <long parts>
+class ColumnOf;
+
+/// Each needs three instructions beside the multiplication.
+template <>
+class ColumnOf<1> {
  public:
-  void add(mp_limb_t x, mp_limb_t y) {
-    high_ += static_cast<mp_limb_t>(__builtin_add_overflow(low_, static_cast<Double>(x) * y, &low_));
+  void add(Limb x, Limb y) {
+    high_ += static_cast<Limb>(__builtin_add_overflow(low_, static_cast<Double>(x) * y, &low_));
   }
   /// The lowest limb; the others are left for the next column.
-  mp_limb_t take() {
-    const auto lowest = static_cast<mp_limb_t>(low_);
+  Limb take() {
+    const auto lowest = static_cast<Limb>(low_);
     low_ = low_ >> limb_bits | static_cast<Double>(high_) << limb_bits;
     high_ = 0;
     return lowest;
@@ -26,8 +29,36 @@ class Column {
  private:
   __extension__ using Double = unsigned __int128;
   Double low_ = 0;
-  mp_limb_t high_ = 0;
+  Limb high_ = 0;
 };
+
+/// Of halves, where a processor multiplies no more. Sums of up to 2^30 halves fit in a limb.
+template <>
+class ColumnOf<2> {
+ public:
+  void add(Limb x, Limb y) {
+    const Limb x0 = x & half, x1 = x >> bits, y0 = y & half, y1 = y >> bits;
+    const Limb low = x0 * y0, first = x0 * y1, second = x1 * y0, high = x1 * y1;
+    sums_[0] += low & half;
+    sums_[1] += (low >> bits) + (first & half) + (second & half);
+    sums_[2] += (first >> bits) + (second >> bits) + (high & half);
+    sums_[3] += high >> bits;
+  }
+  Limb take() {
+    const Limb lowest = sums_[0], next = sums_[1] + (lowest >> bits), carry = next >> bits;
+    sums_[0] = sums_[2] + carry;
+    sums_[1] = sums_[3];
+    sums_[2] = sums_[3] = 0;
+    return (lowest & half) | next << bits;
+  }
+
+ private:
+  static constexpr int bits = limb_bits / 2;
+  static constexpr Limb half = (Limb{1} << bits) - 1;
+  Limb sums_[4] = {};
+};
+
+using Column = ColumnOf<limb_parts>;
 
 /// Up to here numbers of each length have a loop of their own.
 constexpr std::size_t most_unrolled = 8;
@@ -38,7 +69,7 @@ constexpr long least_by_parts = 16;
 
 /// Column by column, of all products at once.
 template <std::size_t limbs>
-void LimbProducts::set_columns(mp_limb_t* sum, Products products) {
+void LimbProducts::set_columns(Limb* sum, Products products) {
   Column column;
   const auto add = [&]<std::size_t lowest, std::size_t... j>(std::integral_constant<std::size_t, lowest>,
                                                              std::index_sequence<j...>) {
@@ -53,7 +84,7 @@ void LimbProducts::set_columns(mp_limb_t* sum, Products products) {
   sum[limbs + 1] = column.take();
 }
 
-void LimbProducts::set_columns(mp_limb_t* sum, long limbs, Products products) {
+void LimbProducts::set_columns(Limb* sum, long limbs, Products products) {
   Column column;
   for (long lowest = 0; lowest < limbs; ++lowest) {
     for (const Product& product : products)
@@ -66,22 +97,22 @@ void LimbProducts::set_columns(mp_limb_t* sum, long limbs, Products products) {
 
 /// The upper parts of both factors wholly; of either's lower m limbs only the m highest of the other reach so far up
 /// (Mulders, Appl. Algebra Eng. Commun. Comput. 11, 2000).
-void LimbProducts::set_by_parts(mp_limb_t* sum, long limbs, Products products) {
+void LimbProducts::set_by_parts(Limb* sum, long limbs, Products products) {
   const long lower = 3 * limbs / 8, upper = limbs - lower, skipped = upper - lower - 1;
   scratch_.resize(static_cast<std::size_t>(2 * upper));
   crossed_.clear();
-  std::fill_n(sum, limbs + 2, mp_limb_t{0});
+  std::fill_n(sum, limbs + 2, Limb{0});
   for (const Product& product : products) {
-    mpn_mul_n(scratch_.data(), product.x + lower, product.y + lower, upper);
-    mpn_add(sum, sum, limbs + 2, scratch_.data() + skipped, limbs + 1);
+    multiply_limbs(scratch_.data(), product.x + lower, product.y + lower, upper);
+    add_limbs(sum, limbs + 2, scratch_.data() + skipped, limbs + 1);
     crossed_.push_back({product.x, product.y + upper});
     crossed_.push_back({product.x + upper, product.y});
   }
   set_columns(scratch_.data(), lower, crossed_);
-  mpn_add(sum, sum, limbs + 2, scratch_.data(), lower + 2);
+  add_limbs(sum, limbs + 2, scratch_.data(), lower + 2);
 }
 
-void LimbProducts::set_one_sign(mp_limb_t* sum, long limbs, Products products) {
+void LimbProducts::set_one_sign(Limb* sum, long limbs, Products products) {
   const bool unrolled = [&]<std::size_t... n>(std::index_sequence<n...>) {
     return ((limbs == static_cast<long>(n + 1) && (set_columns<n + 1>(sum, products), true)) || ...);
   }
@@ -93,12 +124,12 @@ void LimbProducts::set_one_sign(mp_limb_t* sum, long limbs, Products products) {
     set_by_parts(sum, limbs, products);
 }
 
-void LimbProducts::set_upper_sum(mp_limb_t* sum, long limbs) {
+void LimbProducts::set_upper_sum(Limb* sum, long limbs) {
   set_one_sign(sum, limbs, {positive_.data(), positives_});
   if (negatives_ == 0) return;
   taken_.resize(static_cast<std::size_t>(limbs + 2));
   set_one_sign(taken_.data(), limbs, {negative_.data(), negatives_});
-  mpn_sub_n(sum, sum, taken_.data(), limbs + 2);
+  subtract_limbs(sum, limbs + 2, taken_.data(), limbs + 2);
 }
 
 }  // namespace hbvm::core

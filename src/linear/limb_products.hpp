@@ -1,10 +1,10 @@
 #pragma once
 
-#include <gmp.h>
-
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "linear/limbs.hpp"
 
 namespace hbvm::core {
 
@@ -13,7 +13,7 @@ class LimbProducts {
  public:
   /// x y, whose limbs, lowest first, must stay, times a sign: 1, -1, or 0, which adds nothing.
   struct Signed {
-    const mp_limb_t *x, *y;
+    const Limb *x, *y;
     int sign;
   };
   /// Takes the products that next() returns for n = 0, 1, ... count - 1.
@@ -38,23 +38,23 @@ class LimbProducts {
 
   /// sum, in two's complement with limbs + 2 limbs, = the sum of all over b^(limbs - 1), b = 2^limb_bits, without
   /// products of limbs of lower order. Each misses less than `limbs` units of the sum's second limb.
-  void set_upper_sum(mp_limb_t* sum, long limbs);
+  void set_upper_sum(Limb* sum, long limbs);
 
  private:
   struct Product {
-    const mp_limb_t *x, *y;
+    const Limb *x, *y;
   };
   using Products = std::span<const Product>;
   template <std::size_t limbs>
-  static void set_columns(mp_limb_t* sum, Products products);
-  static void set_columns(mp_limb_t* sum, long limbs, Products products);
-  void set_by_parts(mp_limb_t* sum, long limbs, Products products);
-  void set_one_sign(mp_limb_t* sum, long limbs, Products products);
+  static void set_columns(Limb* sum, Products products);
+  static void set_columns(Limb* sum, long limbs, Products products);
+  void set_by_parts(Limb* sum, long limbs, Products products);
+  void set_one_sign(Limb* sum, long limbs, Products products);
 
   std::vector<Product> positive_, negative_;
   std::size_t positives_ = 0, negatives_ = 0;
   std::vector<Product> crossed_;
-  std::vector<mp_limb_t> taken_, scratch_;
+  std::vector<Limb> taken_, scratch_;
 };
 
 }  // namespace hbvm::core

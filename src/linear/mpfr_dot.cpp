@@ -1,7 +1,5 @@
 #include "linear/mpfr_dot.hpp"
 
-#include <gmp.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -30,8 +28,8 @@ bool dot(mpfr_ptr r, const Mpfr* x, long x_stride, const Mpfr* y, long y_stride,
 
   // The sum in two's complement: a limb below the last of a product's upper half, and one above for sign and carries.
   const long width = limbs + 2;
-  mp_limb_t sum[max_limbs + 2], product[2 * max_limbs], shifted[max_limbs + 1];
-  std::fill_n(sum, width, mp_limb_t{0});
+  Limb sum[max_limbs + 2], product[2 * max_limbs], shifted[max_limbs + 1], rooms[2][max_limbs];
+  std::fill_n(sum, width, Limb{0});
   for (long i = 0; i < n; ++i) {
     mpfr_srcptr const a = raw(x[i * x_stride]);
     mpfr_srcptr const b = raw(y[i * y_stride]);
@@ -39,17 +37,17 @@ bool dot(mpfr_ptr r, const Mpfr* x, long x_stride, const Mpfr* y, long y_stride,
     const mpfr_exp_t down = largest - mpfr_get_exp(a) - mpfr_get_exp(b);
     const long whole = static_cast<long>(down / limb_bits);
     if (whole > limbs) continue;  // below the last limb
-    mpn_mul_n(product, digits_of(a), digits_of(b), limbs);
+    multiply_limbs(product, digits_of(a, rooms[0]), digits_of(b, rooms[1]), limbs);
     const long kept = limbs + 1 - whole;
-    const mp_limb_t* top = product + 2 * limbs - kept;
+    const Limb* top = product + 2 * limbs - kept;
     if (const auto bits = static_cast<unsigned>(down % limb_bits); bits != 0) {
-      mpn_rshift(shifted, top, kept, bits);
+      shift_limbs_down(shifted, top, kept, bits);
       top = shifted;
     }
     if ((mpfr_signbit(a) != 0) == (mpfr_signbit(b) != 0))
-      mpn_add(sum, sum, width, top, kept);
+      add_limbs(sum, width, top, kept);
     else
-      mpn_sub(sum, sum, width, top, kept);
+      subtract_limbs(sum, width, top, kept);
   }
 
   set_limb_sum(r, sum, width, largest);

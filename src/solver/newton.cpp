@@ -28,9 +28,12 @@ double scaled(const S& x, long exponent) {
 template <Scalar S>
 void set_scaled(S& r, double y, long exponent) {
   if constexpr (std::same_as<S, Mpfr>) {
-    if (!std::isfinite(y)) return static_cast<void>(mpfr_set_d(raw(r), y, MPFR_RNDN));
-    // As a whole number, which is quicker than mpfr_set_d.
     constexpr int bits = std::numeric_limits<double>::digits;
+    if (!std::isfinite(y) || bits > std::numeric_limits<long>::digits) {
+      mpfr_set_d(raw(r), y, MPFR_RNDN);
+      return static_cast<void>(mpfr_mul_2si(raw(r), raw(r), exponent, MPFR_RNDN));
+    }
+    // As a whole number, which is quicker than mpfr_set_d.
     int own = 0;
     const auto whole = static_cast<long>(std::ldexp(std::frexp(y, &own), bits));
     mpfr_set_si_2exp(raw(r), whole, own - bits + exponent, MPFR_RNDN);

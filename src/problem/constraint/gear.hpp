@@ -49,8 +49,7 @@ struct Gear {
     auto w = direction(trace, term, input, second, input.has_vector("second_axis") ? "second_axis" : "axis");
     if (b < 0) w.second = -w.second;
     w = power(w, std::abs(b));
-    const Traced<S> g = z.first * w.second + z.second * w.first;
-    compile(trace, g.id(), static_cast<std::size_t>(2 * d), 0, {{}}, term);
+    compile(trace, product(z, w).second.id(), static_cast<std::size_t>(2 * d), 0, {{}}, term);
     // No rotation of space keeps it, and every translation does.
     const Index rotations = d == 2 ? 1 : 3;
     term.symmetry.kind = Symmetry::computed;
@@ -91,10 +90,16 @@ struct Gear {
     return {along(plane[0]), along(plane[1])};
   }
 
+  static Complex product(const Complex& z, const Complex& w) {
+    const Traced<S> squares = z.second * w.second;
+    const Traced<S> real = z.first * w.first - squares;
+    const Traced<S> crossed = z.second * w.first;
+    return {real, z.first * w.second + crossed};
+  }
+
   static Complex power(const Complex& z, int exponent) {
     Complex result = z;
-    for (int i = 1; i < exponent; ++i)
-      result = {result.first * z.first - result.second * z.second, result.first * z.second + result.second * z.first};
+    for (int i = 1; i < exponent; ++i) result = product(result, z);
     return result;
   }
 };

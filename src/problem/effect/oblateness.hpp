@@ -24,8 +24,10 @@ struct Oblateness {
     const T r2 = body.squared_distance(), r = body.distance();
     const T radius = body.number("radius");
     const T factor = body.number("strength") * body.number("J2") * radius * radius / 2 * body.masses[0];
-    const T z2 = along * along / (Interaction<T>::dot(direction, direction) * r2);
-    return -(factor * (3 * z2 - 1) / (r2 * r));
+    const T below = Interaction<T>::dot(direction, direction) * r2;
+    const T z2 = along * along / below;
+    const T r3 = r2 * r;
+    return -(factor * (3 * z2 - 1) / r3);
   }
 };
 

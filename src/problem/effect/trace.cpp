@@ -122,15 +122,21 @@ std::vector<typename Trace<S>::Id> Trace<S>::gradient(Id output, std::size_t inp
       case Op::abs:
         return pass(node.a, multiply(y, apply(Op::sign, node.a)));
       case Op::sign:
-        return;             // constant but at 0
-      case Op::reciprocal:  // d(1/x) = -(1/x)^2 dx
-        return pass(node.a, multiply(multiply(constant(S(-1)), y), multiply(i, i)));
-      case Op::sqrt:  // d sqrt(x) = dx / (2 sqrt(x))
-        return pass(node.a, multiply(multiply(constant(S(S(1) / 2)), y), apply(Op::reciprocal, i)));
+        return;               // constant but at 0
+      case Op::reciprocal: {  // d(1/x) = -(1/x)^2 dx
+        const Id square = multiply(i, i);
+        return pass(node.a, multiply(multiply(constant(S(-1)), y), square));
+      }
+      case Op::sqrt: {  // d sqrt(x) = dx / (2 sqrt(x))
+        const Id over = apply(Op::reciprocal, i);
+        return pass(node.a, multiply(multiply(constant(S(S(1) / 2)), y), over));
+      }
       case Op::sin:
         return pass(node.a, multiply(y, apply(Op::cos, node.a)));
-      case Op::cos:
-        return pass(node.a, multiply(multiply(constant(S(-1)), y), apply(Op::sin, node.a)));
+      case Op::cos: {
+        const Id sine = apply(Op::sin, node.a);
+        return pass(node.a, multiply(multiply(constant(S(-1)), y), sine));
+      }
       case Op::exp:
         return pass(node.a, multiply(y, i));
       case Op::log:
@@ -143,8 +149,10 @@ std::vector<typename Trace<S>::Id> Trace<S>::gradient(Id output, std::size_t inp
         const Id sech = apply(Op::reciprocal, apply(Op::cosh, node.a));
         return pass(node.a, multiply(y, multiply(sech, sech)));
       }
-      case Op::atan:  // d atan(x) = dx / (1 + x^2)
-        return pass(node.a, multiply(y, apply(Op::reciprocal, add(constant(S(1)), multiply(node.a, node.a)))));
+      case Op::atan: {  // d atan(x) = dx / (1 + x^2)
+        const Id square = multiply(node.a, node.a);
+        return pass(node.a, multiply(y, apply(Op::reciprocal, add(constant(S(1)), square))));
+      }
       case Op::sinc:
       case Op::sinhc:
       case Op::atanhc:

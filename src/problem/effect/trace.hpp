@@ -13,6 +13,10 @@ namespace hbvm::core {
 /// constants are folded, and constant factors move outwards. So the Program compiled from it does what one would write
 /// by hand.
 ///
+/// The order in which operations are recorded decides in which order the terms of a derivative are added, and so its
+/// last digit. Which of two operands is computed first, the language leaves to the compiler. So where both vary, a
+/// formula names one of them before it uses it.
+///
 /// Leaves are inputs (what the formula is differentiated by), parameters (one value per body or pair, as a mass)
 /// and constants (the same for all).
 template <Scalar S>

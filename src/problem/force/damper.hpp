@@ -17,7 +17,8 @@ struct Damper {
   template <class T>
   static std::vector<T> F(const ForceArguments<T>& pair) {
     const std::vector<T>&x = pair.x[0], &v = pair.v[0];
-    const T rate = pair.dot(x, v) / pair.dot(x, x);
+    const T squared = pair.dot(x, x);
+    const T rate = pair.dot(x, v) / squared;
     return pair.times(-(pair.number("coefficient") * rate), x);
   }
 };

@@ -55,7 +55,11 @@ struct ForceArguments {
   /// w x a; in the plane w has the one component across it.
   static std::vector<T> turned(const std::vector<T>& w, const std::vector<T>& a) {
     if (w.size() == 1) return {-(w[0] * a[1]), w[0] * a[0]};
-    return {w[1] * a[2] - w[2] * a[1], w[2] * a[0] - w[0] * a[2], w[0] * a[1] - w[1] * a[0]};
+    const auto component = [&](std::size_t i, std::size_t j) {
+      const T taken = w[j] * a[i];
+      return w[i] * a[j] - taken;
+    };
+    return {component(1, 2), component(2, 0), component(0, 1)};
   }
 };
 

@@ -99,8 +99,10 @@ class FormulaEvaluation {
         return sin(a);
       case Kind::cos:
         return cos(a);
-      case Kind::tan:
-        return sin(a) / cos(a);
+      case Kind::tan: {
+        const T cosine = cos(a);
+        return sin(a) / cosine;
+      }
       case Kind::exp:
         return exp(a);
       case Kind::log:
@@ -111,16 +113,21 @@ class FormulaEvaluation {
         return cosh(a);
       case Kind::tanh:
         return tanh(a);
-      case Kind::asin:
-        return atan(a / sqrt((1 - a) * (a + 1)));
-      case Kind::acos:
-        return 2 * atan(sqrt((1 - a) / (a + 1)));
+      case Kind::asin: {
+        const T above = a + 1;
+        return atan(a / sqrt((1 - a) * above));
+      }
+      case Kind::acos: {
+        const T above = a + 1;
+        return 2 * atan(sqrt((1 - a) / above));
+      }
       case Kind::atan:
         return atan(a);
       case Kind::atan2: {
         // Half the angle, whose tangent has no pole but at the angle pi.
         const T x = value(node.right);
-        return 2 * atan(a / (sqrt(x * x + a * a) + x));
+        const T square = a * a;
+        return 2 * atan(a / (sqrt(x * x + square) + x));
       }
       case Kind::abs:
         return abs(a);
