@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "clock.hpp"
+#include "problem/in_double.hpp"
 #include "reference/taylor.hpp"
+#include "solver/jacobian.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -62,6 +64,13 @@ SeriesCount series_of(const Problem<Mpfr>& problem) {
   return count;
 }
 
+/// Of the Jacobian of one stage, whose unknowns stand in the order in which the band is narrow.
+double half_bandwidth(const Problem<Mpfr>& problem) {
+  const Problem<double> rounded = in_double(problem);
+  const Hbvm<double> one_stage = make_hbvm<double>(1, 1);
+  return static_cast<double>(Jacobian<double>(rounded, one_stage).half_bandwidth());
+}
+
 }  // namespace
 
 Effort effort_of_taylor(const Problem<Mpfr>& problem, const MotionNature& nature, unsigned digits) {
@@ -90,10 +99,11 @@ Effort effort_of_hbvm(const Problem<Mpfr>& problem, const MotionNature& nature, 
                products = 4 * s * s * unknowns + s * series_of(problem).products;
   // The Jacobian in double, and the coefficients of the method.
   constexpr double nanosecond = double{1} / 1'000'000'000, operations = 4;
-  const double jacobian = std::pow(s * unknowns, 3) / 3 * nanosecond;
+  const double n = s * unknowns, band = std::min(n, s * (1 + half_bandwidth(problem)));
+  const double jacobian = std::min(2 * n * band * band, std::pow(n, 3) / 3) * nanosecond;
   const double setting_up = operations * std::pow(s, 3) * product;
   return {"hbvm", setting_up + steps * (sweeps * products / 2 * product + jacobian),
-          (12 * s * s + 20 * s * unknowns) * bytes_of_number(digits) + 8 * std::pow(s * unknowns, 2)};
+          (12 * s * s + 20 * s * unknowns) * bytes_of_number(digits) + 8 * n * std::min(3 * band, n)};
 }
 
 std::string duration_text(double seconds) {

@@ -25,6 +25,17 @@ TEST(Effort, GrowsWithDigitsAndSteps) {
   EXPECT_GT(effort_of_hbvm(scene.problem, nature, 5000).seconds, longest_effort);
 }
 
+TEST(Effort, OfAChainGrowsWithItsLengthAndNotWithItsCube) {
+  const PrecisionScope scope(30);
+  const MotionNature nature{1, -1, 50};
+  const Assembled<Mpfr> ten = assemble<Mpfr>(load_scene("four_bars_10"));
+  const Assembled<Mpfr> forty = assemble<Mpfr>(load_scene("four_bars_40"));
+  const double ratio =
+      effort_of_hbvm(forty.problem, nature, 50).seconds / effort_of_hbvm(ten.problem, nature, 50).seconds;
+  EXPECT_GT(ratio, 3);
+  EXPECT_LT(ratio, 6);
+}
+
 TEST(Effort, IsSaidInUnitsOfItsSize) {
   EXPECT_EQ(duration_text(1.5), "1.5 seconds");
   EXPECT_EQ(duration_text(300), "5 minutes");
