@@ -6,17 +6,22 @@
 
 namespace hbvm::core {
 
-/// Processor time of this thread in seconds. A call costs a system call: for whole blocks of steps.
+/// Elapsed time in seconds, cheap enough to read around every part of a sweep.
+inline double elapsed_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Processor time of this thread in seconds, or in a browser, which tells of none, elapsed time. A call costs a system
+/// call: for whole blocks of steps.
 inline double thread_seconds() {
+#ifdef __EMSCRIPTEN__
+  return elapsed_seconds();
+#else
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   constexpr long nanoseconds = 1'000'000'000;
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / nanoseconds;
-}
-
-/// Elapsed time in seconds, cheap enough to read around every part of a sweep.
-inline double elapsed_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+#endif
 }
 
 /// The day in UTC, as "2026-11-28".

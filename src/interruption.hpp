@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstring>
 #include <stop_token>
+#include <string>
 
 #include "hbvm/error.hpp"
 
@@ -34,6 +36,15 @@ class StopScope {
  private:
   const StopRequest* before_;
 };
+
+/// "SIGINT", or "signal 2" where the C library has no names.
+inline std::string name_of_signal(int signal) {
+#ifdef __GLIBC__
+  return std::string("SIG") + sigabbrev_np(signal);
+#else
+  return "signal " + std::to_string(signal);
+#endif
+}
 
 /// For work that takes long, again and again. \throws Interrupted if it is asked to end
 inline void end_if_asked(const char* what) {

@@ -153,7 +153,8 @@ class Plot {
 
 void run_command(const RunArguments& o, const CLI::App& command) {
   if (o.every < 1 || o.every > TimeGrid<double>::max_steps)
-    throw InputError("--every " + std::to_string(o.every) + " is not between 1 and 10^12");
+    throw InputError("--every " + std::to_string(o.every) + " is not between 1 and " +
+                     TimeGrid<double>::max_steps_text);
   if (!(o.every_seconds >= 0)) throw InputError("--every-seconds is negative");
   if (o.state && o.json) throw InputError("--state does not go with --json, which has the state with all digits");
   if (o.states && !o.json) throw InputError("--states goes with --json; a trajectory in a file is --out FILE.csv");

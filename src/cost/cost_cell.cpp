@@ -1,7 +1,6 @@
 #include "cost/cost_cell.hpp"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,6 +8,9 @@
 #include <future>
 #include <numeric>
 #include <optional>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "clock.hpp"
 #include "cost/calibration.hpp"
@@ -28,6 +30,7 @@ double median(std::vector<double> values) {
   return n == 0 ? 0 : (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
 
+#ifdef __GLIBC__
 long bytes_in_use() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<long>(info.uordblks + info.hblkhd);
@@ -50,6 +53,15 @@ long in_new_heap(const F& f, int most = 16) {
                     })
       .get();
 }
+#else
+/// Other libraries do not tell how much they have given: 0.
+long bytes_in_use() { return 0; }
+
+template <class F>
+long in_new_heap(const F& f) {
+  return f();
+}
+#endif
 
 void add_counts_of(CostMeasurement& m, const Account& account) {
   for (const AccountLine& line : account.lines) {

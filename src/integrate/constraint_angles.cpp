@@ -10,7 +10,7 @@ namespace hbvm::core {
 namespace {
 
 /// 1/sin^2 up to which a factorisation in double is right to three digits: its error is some 1/sin^2 epsilon.
-constexpr double trusted = 1L << 40;
+constexpr double trusted = 1LL << 40;
 
 }  // namespace
 

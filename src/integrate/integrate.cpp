@@ -1,7 +1,6 @@
 #include "integrate/integrate.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 
 #include "clock.hpp"
@@ -76,7 +75,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
       checkpoints->save(contents);
     if (asked && !failure) {
       const int signal = stop_request->number();
-      throw Interrupted(signal, (signal != 0 ? std::string("interrupted by SIG") + sigabbrev_np(signal) : "stopped") +
+      throw Interrupted(signal, (signal != 0 ? "interrupted by " + name_of_signal(signal) : "stopped") +
                                     " after step " + std::to_string(n) + ", t = " + to_text(result.end.t));
     }
   }

@@ -30,7 +30,8 @@ TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Con
   const S half = S(1) / 2;
   const S quotient = floor(S(until_ / step_ + half));
   if (!(quotient <= S(max_steps)))
-    throw InputError("step '" + step.text() + "' is too small: more than 10^12 steps until '" + until.text() + "'");
+    throw InputError("step '" + step.text() + "' is too small: more than " + max_steps_text + " steps until '" +
+                     until.text() + "'");
   steps_ = static_cast<long>(quotient);
   const S miss = magnitude(S(S(steps_) * step_ - until_));
   if (steps_ == 0 || miss > 4 * epsilon<S>() * until_)

@@ -12,7 +12,10 @@ enum class Direction { forward, backward };
 template <Scalar S>
 class TimeGrid {
  public:
-  static constexpr long max_steps = 1'000'000'000'000;
+  /// A browser counts to 2^31.
+  static constexpr bool counts_far = sizeof(long) > 4;
+  static constexpr long max_steps = static_cast<long>(counts_far ? 1'000'000'000'000LL : 1'000'000'000LL);
+  static constexpr const char* max_steps_text = counts_far ? "10^12" : "10^9";
 
   /// N = round(until/step).
   /// \throws InputError unless step and until are positive, |N step - until| <= 4 epsilon until and N <= max_steps

@@ -5,8 +5,10 @@
 #include <charconv>
 #include <exception>
 #include <fstream>
-#include <thread>
+#include <future>
+#include <mutex>
 
+#include "beside.hpp"
 #include "checksum.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
@@ -176,11 +178,10 @@ std::vector<std::optional<std::string>> run_cells(const std::vector<WorkCell>& c
         }
       }
     };
-    {
-      std::vector<std::jthread> threads;
-      for (int i = 1; i < options.jobs; ++i) threads.emplace_back(work);
-      work();
-    }
+    std::vector<std::future<void>> others;
+    for (int i = 1; i < options.jobs; ++i) others.push_back(std::async(beside, work));
+    work();
+    for (const std::future<void>& other : others) other.wait();
     if (error) std::rethrow_exception(error);
   });
 }

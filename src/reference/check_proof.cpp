@@ -8,6 +8,7 @@
 #include <future>
 #include <thread>
 
+#include "beside.hpp"
 #include "interruption.hpp"
 #include "reference/proved_states.hpp"
 #include "scalar/literal.hpp"
@@ -94,7 +95,7 @@ std::vector<StepCourse> check_steps(const KeptProof& proof, const Assembled<Mpfr
   };
   std::vector<std::future<void>> workers;
   const std::size_t count = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, courses.size());
-  for (std::size_t i = 0; i < count; ++i) workers.push_back(std::async(std::launch::async, work));
+  for (std::size_t i = 0; i < count; ++i) workers.push_back(std::async(beside, work));
   std::exception_ptr failure;
   for (std::future<void>& worker : workers) try {
       worker.get();

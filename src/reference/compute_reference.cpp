@@ -8,6 +8,7 @@
 #include <future>
 #include <mutex>
 
+#include "beside.hpp"
 #include "checksum.hpp"
 #include "clock.hpp"
 #include "interruption.hpp"
@@ -137,7 +138,7 @@ class Attempt {
     std::vector<std::pair<Route, std::future<std::optional<RouteRun>>>> futures;
     for (const Route route : all_routes)
       if (request_.only ? *request_.only == route : route != Route::hbvm || !without_hbvm_)
-        futures.emplace_back(route, std::async(std::launch::async, [this, route, asker = stop_request] {
+        futures.emplace_back(route, std::async(beside, [this, route, asker = stop_request] {
                                const StopScope scope(asker);
                                const ThreadCaches freed;
                                return run(route);

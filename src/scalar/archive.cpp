@@ -69,7 +69,7 @@ void Archive::keep(double& x) {
   if (!reading_) {
     char buffer[40];
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::hex).ptr;
-    return write({buffer, end});
+    return write({buffer, static_cast<std::size_t>(end - buffer)});
   }
   const std::string_view token = read();
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), x, std::chars_format::hex);

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <limits>
+
 #include "scalar/scalar.hpp"
 
 namespace hbvm::core {
 
 /// log2 |x| to less than a unit: the e with 2^(e-1) <= |x| < 2^e; of 0, less than that of any number.
-inline constexpr long exponent_of_zero = -(1L << 40);
+/// Sums of a few of them are numbers, too.
+inline constexpr long exponent_of_zero = std::numeric_limits<long>::min() / 4;
 template <Scalar S>
 long binary_exponent(const S& x) {
   if (x == 0) return exponent_of_zero;

@@ -140,7 +140,7 @@ std::string TomlTable::optional_string(std::string_view key) {
 long TomlTable::integer(std::string_view key) {
   const toml::node& node = require(key);
   const auto value = node.value_exact<std::int64_t>();
-  if (!value) fail(node, "'" + std::string(key) + "' must be a whole number");
+  if (!value || !std::in_range<long>(*value)) fail(node, "'" + std::string(key) + "' must be a whole number");
   return static_cast<long>(*value);
 }
 
