@@ -14,6 +14,8 @@
 #include "run/run_figure.hpp"
 #include "run/run_page.hpp"
 #include "run/scene_run.hpp"
+#include "scalar/with_scalar.hpp"
+#include "scene/assemble.hpp"
 #include "scene/observe.hpp"
 #include "scene/set_number.hpp"
 #include "scene/sketch.hpp"
@@ -21,6 +23,13 @@
 
 namespace hbvm {
 namespace core {
+
+/// That of a run without one. The step is told by few digits, in which nearly every start is consistent: whether the
+/// scene's is, the run's own precision decides first.
+Expression step_that_suits(const Scene& scene, const Expression& until, const std::string& precision) {
+  with_scalar(Precision::parse(precision), [&]<Scalar S>() { static_cast<void>(assemble<S>(scene)); });
+  return usual_step(scene, until);
+}
 
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start) {
   Scene scene = scene_of(asked.scene);
@@ -33,7 +42,7 @@ RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::st
   RunRequest request{scene,
                      parse_method(asked.method),
                      parse_solver(asked.solver),
-                     asked.step ? expression_of(*asked.step, "step") : usual_step(scene, until),
+                     asked.step ? expression_of(*asked.step, "step") : step_that_suits(scene, until, asked.precision),
                      until,
                      Precision::parse(asked.precision),
                      asked.account,

@@ -159,6 +159,19 @@ TEST(DoorRun, RefusesWhatTheProgramRefuses) {
   expect_refused(&RunRequest::precision, "mpfr:3");
 }
 
+TEST(DoorRun, RefusesAStartInItsOwnPrecisionWithoutAStep) {
+  const Scene off = read_scene(
+      "dimension = 2\npoint = [{ name = 'o', position = [0, 0] }]\n"
+      "body = [{ name = 'a', mass = 1, position = [1, '1/100'], velocity = [0, 0] }]\n"
+      "constraint = [{ kind = 'rod', between = ['o', 'a'], length = 1 }]\n");
+  try {
+    static_cast<void>(run({.scene = off, .until = 1}));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--precision double"), std::string::npos) << error.what();
+  }
+}
+
 /// A method that needs more than the steps know, by name and without a call before.
 TEST(DoorRun, KnowsEveryMethod) {
   RunRequest request = pendulum();
