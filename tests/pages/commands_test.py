@@ -123,7 +123,7 @@ def run_page(page, commands, text=""):
 
 
 found = []
-pages = [source / "README.md", source / "src/README.md", *sorted((source / "studies").glob("*.md")), *sorted((source / "studies").glob("*/*.md"))]
+pages = [source / "README.md", source / "src/README.md", source / "src/browser/README.md", *sorted((source / "studies").glob("*.md")), *sorted((source / "studies").glob("*/*.md"))]
 for page in pages:
     text = page.read_text()
     commands = list(commands_of(text))

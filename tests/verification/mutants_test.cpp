@@ -68,7 +68,7 @@ TEST(Mutants, AHundredInAllFolders) {
   EXPECT_GE(names.size(), 100U);
   EXPECT_LE(excused, 3);
   // The changes are tried with the tests in C++; those of the Python module are in Python.
-  const std::set<std::string> left_out{"install", "python"};
+  const std::set<std::string> left_out{"browser", "install", "python"};
   for (const auto& entry : fs::directory_iterator(project / "src")) {
     const std::string folder = entry.path().filename().string();
     EXPECT_TRUE(!entry.is_directory() || left_out.contains(folder) || folders.contains(folder)) << folder;

@@ -1,0 +1,31 @@
+'use strict';
+
+/// The front page's pendulum: four runs, one after the other, each a row of a table.
+
+const rows = [
+  ['Runge-Kutta 4', 'rk4', 'double'], ['HBVM(10,5)', 'hbvm:10,5', 'double'], ['HBVM(20,10)', 'hbvm:20,10', '34'],
+  ['HBVM(32,16)', 'hbvm:32,16', '50'],
+];
+
+async function show() {
+  const table = document.getElementById('digits');
+  const head = table.createTHead().insertRow();
+  for (const name of ['method', 'digits used', 'error of the energy', 'right digits'])
+    head.append(Object.assign(document.createElement('th'), {textContent: name, scope: 'col'}));
+  const body = table.createTBody();
+  for (const [name, method, precision] of rows) {
+    const row = body.insertRow();
+    for (const text of [name, precision === 'double' ? '16' : precision, '…', '…']) row.insertCell().textContent = text;
+    const words = ['compare', 'simple_pendulum', '--methods', method, 'rk4', '--step', '1/8', '--until', '10'];
+    const result = await new Engine().run([...words, '--precision', precision, '--reference', '--json']);
+    if (result.code !== 0) {
+      row.cells[2].textContent = result.err.replace('hbvm: ', '');
+      continue;
+    }
+    const [run] = JSON.parse(result.out).runs;
+    row.cells[2].textContent = shortNumber(run.e_H);
+    row.cells[3].textContent = Number(run.digits).toFixed(1);
+  }
+}
+
+window.addEventListener('load', show);
