@@ -21,10 +21,10 @@ word = sys.argv[3] if len(sys.argv) > 3 else ""
 problems = []
 done_before = set()  # commands of pages before
 
-PROGRAMS = r"(?:build/release/)?hbvm|(?:studies|tests)/(?:\w+/)*(?:run|before|compare)"
+PROGRAMS = r"(?:build/release/)?hbvm|(?:studies|tests)/(?:\w+/)*(?:run|before|compare)|src/browser/build"
 COMMAND = re.compile(rf"(?:{PROGRAMS})(?:\s|$)")
 # What starts a block of commands: one of the programs, or a shell's word.
-BLOCK = re.compile(rf"(?:(?:{PROGRAMS})(?:\s|$)|(?:cp|for|python3|g\+\+)\s)")
+BLOCK = re.compile(rf"(?:(?:{PROGRAMS})(?:\s|$)|(?:cp|for|node|python3|g\+\+)\s)")
 # "hbvm report FOLDER", "hbvm:K,S": a reader is to put something there.
 FORM = re.compile(r"(?:^|[\s/:,'\"])[A-Z]+(?:$|[\s/:,.'\"])|\.\.\.")
 
