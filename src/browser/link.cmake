@@ -1,6 +1,6 @@
 enable_language(C)
 target_sources(hbvm_program PRIVATE ${CMAKE_CURRENT_LIST_DIR}/library/no_processes.c)
-# A page waits for every byte. What runs long is in the core, which grows by a third at -O3 and is hardly faster.
+# A page waits for every byte, and what runs long is in the core.
 target_compile_options(hbvm_effects PRIVATE -O2)
 target_compile_options(hbvm_core PRIVATE -O2)
 foreach(target hbvm hbvm_program_parts hbvm_program)

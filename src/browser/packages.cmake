@@ -1,8 +1,8 @@
-# The packages of a build for the browser: headers of the system, and the libraries that libraries.sh builds. The
-# system's headers are linked into a folder of their own, away from those of its C library.
-set(HBVM_BROWSER_LIBRARIES "" CACHE PATH "Where src/browser/libraries.sh put its libraries")
+# The packages of a build for the browser: headers of the system, and the libraries that build makes. The system's
+# headers are linked into a folder of their own, away from those of its C library.
+set(HBVM_BROWSER_LIBRARIES "" CACHE PATH "Where src/browser/build put its libraries")
 if(NOT EXISTS ${HBVM_BROWSER_LIBRARIES}/lib/libmpfr.a)
-  message(FATAL_ERROR "HBVM_BROWSER_LIBRARIES holds no libraries: run tests/run --web, which builds them")
+  message(FATAL_ERROR "HBVM_BROWSER_LIBRARIES holds no libraries: run src/browser/build, which builds them")
 endif()
 set(borrowed ${CMAKE_BINARY_DIR}/borrowed)
 file(MAKE_DIRECTORY ${borrowed})

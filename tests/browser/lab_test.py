@@ -94,9 +94,11 @@ def tests(site, page, folder, pictures):
     until(page, TITLE + ".includes('Mine')", "the edited scene is shown")
 
     # One method alone, in fifty digits; then one that is stopped.
-    page.open(lab, address(scene="simple_pendulum", methods=["hbvm:12,6"], step="1/8", until="2", precision="50"))
+    page.open(lab, address(scene="simple_pendulum", methods=["hbvm:12,6"], step="1/8", until="2", precision="50",
+                           reference=True))
     until(page, DONE, "one method in 50 digits")
     check(float(page.evaluate(CELLS)[1]) < 1e-45, f"H in 50 digits: {page.evaluate(CELLS)}")
+    check(10 < float(page.evaluate(CELLS)[4]) < 50, f"right digits of one method: {page.evaluate(CELLS)}")
     page.evaluate("""(() => {
       document.getElementById('precision').value = '200';
       document.getElementById('until').value = '10000';
@@ -106,6 +108,13 @@ def tests(site, page, folder, pictures):
                 " / of /.test(document.getElementById('status').textContent)", "progress is shown")
     page.evaluate("document.getElementById('stop').click()")
     until(page, "!document.getElementById('run').disabled", "a run is stopped", 5)
+
+    code = page.evaluate("""(() => {
+      const early = new Engine(), ended = early.run(['--version']);
+      early.stop();
+      return ended.then(({code}) => code);
+    })()""")
+    check(code == 130, f"a command that is stopped before it begins: {code}")
 
     # Any command.
     page.evaluate("""(() => {

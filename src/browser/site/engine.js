@@ -12,12 +12,19 @@ function shortNumber(text) {
   return `${sign}${mantissa}e${Number(exponent) + whole.length - 1 - first}`;
 }
 
+/// How many digits of all positions are right in what `run --error --json` says; null if they were not asked for.
+function digitsOf({error, q}) {
+  const digits = (error?.digits ?? []).slice(0, q.length).filter((number) => number !== null);
+  return digits.length ? Math.min(...digits) : null;
+}
+
 /// The program in a worker, one instance a command. `hbvmEngine`, of engine_data.js, has its script and its module.
 /// Everything is in the page's own files: nothing is asked for from elsewhere, and a page opened as a file works, too.
 class Engine {
-  /// The compiled module; made once.
+  /// The compiled module; made once, as soon as engine_data.js is there.
   static module() {
     Engine.compiled ??= (async () => {
+      if (document.readyState !== 'complete') await new Promise((loaded) => window.addEventListener('load', loaded));
       const packed = Uint8Array.from(atob(hbvmEngine.module), (c) => c.charCodeAt(0));
       const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
       return WebAssembly.compile(await new Response(unpacked).arrayBuffer());
@@ -27,24 +34,40 @@ class Engine {
 
   /// Runs `hbvm words...`. `files` maps names to texts that are there before; those named in `wanted` are read after it.
   /// progress(line) is called with what the program's bar says.
-  /// Resolves to {code, out, err, files}; a stopped command has the code 130.
+  /// Resolves to {code, out, err, files}; a stopped command has the code 130, also one that has not begun.
   run(words, {files = {}, wanted = [], progress = () => {}} = {}) {
-    return new Promise((resolve, reject) => {
+    return new Promise((resolve) => {
+      const result = (code, err) => resolve({code, out: '', err, files: {}});
+      let stopped = false;
+      this.stop = () => {
+        stopped = true;
+        result(130, 'stopped');
+      };
       Engine.module().then((module) => {
+        if (stopped) return;
         const script = new Blob([hbvmEngine.script, '\n', `(function ${Engine.inWorker})()`], {type: 'text/javascript'});
         const address = URL.createObjectURL(script);
         const worker = new Worker(address);
-        const end = (result) => {
+        const end = () => {
           worker.terminate();
           URL.revokeObjectURL(address);
           this.stop = () => {};
-          resolve(result);
         };
-        this.stop = () => end({code: 130, out: '', err: 'stopped', files: {}});
-        worker.onmessage = ({data}) => (data.progress === undefined ? end(data) : progress(data.progress));
-        worker.onerror = (event) => end({code: 1, out: '', err: `hbvm: ${event.message}`, files: {}});
+        this.stop = () => {
+          end();
+          result(130, 'stopped');
+        };
+        worker.onmessage = ({data}) => {
+          if (data.progress !== undefined) return progress(data.progress);
+          end();
+          resolve(data);
+        };
+        worker.onerror = (event) => {
+          end();
+          result(1, `hbvm: ${event.message}`);
+        };
         worker.postMessage({module, words, files, wanted});
-      }, reject);
+      }).catch((error) => result(1, `hbvm: ${error.message}`));
     });
   }
 

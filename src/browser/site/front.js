@@ -16,15 +16,15 @@ async function show() {
   for (const [name, method, precision] of rows) {
     const row = body.insertRow();
     for (const text of [name, precision === 'double' ? '16' : precision, '…', '…']) row.insertCell().textContent = text;
-    const words = ['compare', 'simple_pendulum', '--methods', method, 'rk4', '--step', '1/8', '--until', '10'];
-    const result = await new Engine().run([...words, '--precision', precision, '--reference', '--json']);
+    const words = ['run', 'simple_pendulum', '--method', method, '--step', '1/8', '--until', '10'];
+    const result = await new Engine().run([...words, '--precision', precision, '--error', '--json']);
     if (result.code !== 0) {
       row.cells[2].textContent = result.err.replace('hbvm: ', '');
       continue;
     }
-    const [run] = JSON.parse(result.out).runs;
+    const run = JSON.parse(result.out);
     row.cells[2].textContent = shortNumber(run.e_H);
-    row.cells[3].textContent = Number(run.digits).toFixed(1);
+    row.cells[3].textContent = digitsOf(run).toFixed(1);
   }
 }
 

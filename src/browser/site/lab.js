@@ -63,7 +63,6 @@ function showSliders(set = {}) {
     const value = document.createElement('output');
     const tell = () => { value.textContent = valueAt(slider); };
     slider.addEventListener('input', tell);
-    slider.addEventListener('change', remember);
     tell();
     row.append(name, slider, value);
     box.append(row);
@@ -129,15 +128,18 @@ function remember() {
 
 const inShell = (word) => (/^[\w.,:/=+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
 
+/// Those that hold for every integrator.
+function settingWords({set, step, until, precision}) {
+  return [...Object.entries(set).flatMap(([path, value]) => ['--set', `${path}=${value}`]),
+    ...(step ? ['--step', step] : []), '--until', until, '--precision', precision];
+}
+
 /// The words of the command, for the shell with the shipped scene's name, for the engine with the file's.
 function commandWords(scene = null) {
   const chosen = state(), own = 'text' in chosen;
   const several = chosen.methods.length > 1;
-  const words = [several ? 'compare' : 'run', scene ?? (own ? file : chosen.scene)];
-  for (const [path, value] of Object.entries(chosen.set)) words.push('--set', `${path}=${value}`);
-  words.push(several ? '--methods' : '--method', ...chosen.methods);
-  if (chosen.step) words.push('--step', chosen.step);
-  words.push('--until', chosen.until, '--precision', chosen.precision);
+  const words = [several ? 'compare' : 'run', scene ?? (own ? file : chosen.scene), several ? '--methods' : '--method',
+    ...chosen.methods, ...settingWords(chosen)];
   if (chosen.reference) words.push(several ? '--reference' : '--error');
   return words;
 }
@@ -206,7 +208,7 @@ async function run() {
   }
   by('page').srcdoc = page;
   const found = JSON.parse(result.out);
-  showTable(found.runs ?? [found]);
+  showTable(found.runs ?? [{...found, digits: digitsOf(found)}]);
   by('status').textContent = 'Done.';
 }
 
@@ -230,17 +232,16 @@ by('scene').addEventListener('change', () => {
   by('text').value = hbvmScenes[by('scene').value];
   showSliders();
   tellScene();
-  remember();
 });
 by('text').addEventListener('change', () => {
   showSliders(changes());
   tellScene();
-  remember();
 });
 by('add').addEventListener('click', () => {
   addMethod('hbvm:4,2');
   remember();
 });
+// After what the controls themselves do on a change.
 by('controls').addEventListener('change', remember);
 by('controls').addEventListener('submit', (event) => {
   event.preventDefault();
@@ -252,10 +253,8 @@ by('save-page').addEventListener('click', () => save(`${by('scene').value}.html`
 by('save-scene').addEventListener('click', () => save(`${by('scene').value}.toml`, by('text').value, 'text/plain'));
 by('save-csv').addEventListener('click', async () => {
   const chosen = state();
-  const words = ['run', file, '--method', chosen.methods[0], '--until', chosen.until, '--precision', chosen.precision];
-  if (chosen.step) words.push('--step', chosen.step);
-  for (const [path, value] of Object.entries(chosen.set)) words.push('--set', `${path}=${value}`);
-  const result = await command([...words, '--out', 'motion.csv'], ['motion.csv']);
+  const words = ['run', file, '--method', chosen.methods[0], ...settingWords(chosen), '--out', 'motion.csv'];
+  const result = await command(words, ['motion.csv']);
   if (result.files['motion.csv']) save(`${chosen.scene}.csv`, result.files['motion.csv'], 'text/csv');
   else by('status').textContent = result.err;
 });
