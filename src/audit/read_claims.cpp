@@ -26,9 +26,8 @@ MethodPtr method_of(const std::string& text, const std::filesystem::path& folder
   const MethodSpec spec = MethodSpec::parse(text);
   const bool is_file = !is_method_name(spec.family);
   if (!is_file && spec.family != "tableau") return parse_method(text);
-  TableauArguments arguments = TableauArguments::parse(is_file ? text : spec.arguments);
-  arguments.name = located(arguments.name, folder);
-  return tableau_method(arguments);
+  const auto [name, formulation] = FormulatedName::parse(is_file ? text : spec.arguments);
+  return tableau_method(located(name, folder) + formulation.suffix());
 }
 
 int counted_from_one(TomlTable& reader, const char* key) {

@@ -63,7 +63,7 @@ std::vector<Claim> claims_about(const std::string& method) {
   if (fs::is_regular_file(method) || (!known && names_a_file)) return tableau_claims(read_tableau(method));
   const MethodPtr parsed = parse_method(method);
   const TableauMethod* const tableau = as_tableau(*parsed);
-  if (tableau && tableau->on_constraints() == OnConstraints::drift) return tableau_claims(tableau->tableau());
+  if (tableau && tableau->formulation().on_constraints == OnConstraints::drift) return tableau_claims(tableau->tableau());
   return method_claims(parsed);
 }
 

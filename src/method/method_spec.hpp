@@ -12,11 +12,11 @@ namespace hbvm::core {
 struct MethodSpec {
   std::string family, arguments;
 
-  /// Splits at the first colon, or before the first plus if there is no colon.
+  /// Splits at the first colon, or before the first plus if that comes earlier.
   static MethodSpec parse(std::string_view text) {
-    const std::size_t colon = text.find(':'), end = colon == std::string_view::npos ? text.find('+') : colon;
+    const std::size_t end = text.find_first_of(":+");
     if (end == std::string_view::npos) return {std::string(text), {}};
-    return {std::string(text.substr(0, end)), std::string(text.substr(end == colon ? end + 1 : end))};
+    return {std::string(text.substr(0, end)), std::string(text.substr(text[end] == ':' ? end + 1 : end))};
   }
   std::string text() const {
     return arguments.empty() || arguments.front() == '+' ? family + arguments : family + ":" + arguments;

@@ -131,7 +131,21 @@ void StateEvaluator<S>::find_multiplier(const Vector<S>& q, const Vector<S>& p, 
     gradient_.transposed_times(a, lanes(std::as_const(acceleration_)), &multiplier_[a]);
     multiplier_[a] += curvature(problem_.constraints[static_cast<std::size_t>(a)], problem_.dimension, q, v_);
   }
+  if (stabilised_) {
+    constraints(q);
+    for (Index a = 0; a < problem_.nu(); ++a) {
+      gradient_.transposed_times(a, lanes(std::as_const(v_)), &hidden_[a]);
+      multiplier_[a] += of_rates_ * hidden_[a] + of_values_ * g_[a];
+    }
+  }
   solve_gram(multiplier_);
+}
+
+template <Scalar S>
+void StateEvaluator<S>::stabilise(const S& alpha, const S& beta) {
+  of_rates_ = 2 * alpha;
+  of_values_ = beta * beta;
+  stabilised_ = true;
 }
 
 template <Scalar S>

@@ -39,6 +39,8 @@ class StateEvaluator {
   /// (grad g^T M^-1 grad g)^-1 (nabla^2 g (M^-1 p, M^-1 p) + grad g^T M^-1 grad U).
   /// \throws IntegrationError as tangential does
   const Vector<S>& multiplier(const Vector<S>& q, const Vector<S>& p);
+  /// From now on multipliers hold g'' + 2 alpha g' + beta^2 g = 0, as those of Baumgarte, instead of g'' = 0.
+  void stabilise(const S& alpha, const S& beta);
   /// -grad g(q) lambda with that multiplier, where `force` is grad U(q) + F, 1 x m. Of driven coordinates it has the
   /// powers.
   const Vector<S>& constraint_force(const Vector<S>& q, const Vector<S>& p, const Matrix<S>& force);
@@ -73,6 +75,8 @@ class StateEvaluator {
   Vector<S> U_, v_, acceleration_, g_, hidden_, tangential_, multiplier_;
   Matrix<S> force_, row_, gram_matrix_;
   Forces forces_;
+  S of_rates_ = 0, of_values_ = 0;  ///< 2 alpha and beta^2
+  bool stabilised_ = false;
 };
 
 }  // namespace hbvm::core

@@ -136,19 +136,19 @@ long ConstraintProjection<S>::find_position(const Vector<S>& free, const S& fact
 }
 
 template <Scalar S>
-const Matrix<S>& ConstraintProjection<S>::make_tangential(Vector<S>& p) {
+const Matrix<S>& ConstraintProjection<S>::make_tangential(Vector<S>& p, ConstraintGradient<S>& along) {
   {
     const PartCall counted(parts_[tangential]);
     problem_.mass.velocity(lanes(std::as_const(p)), lanes(v_));
     course_.set_velocities(lanes(v_));
     for (Index a = 0; a < mu_.size(); ++a) found().transposed_times(a, lanes(std::as_const(v_)), &mu_(0, a));
   }
-  if (!solve(found(), found(), mu_))
+  if (!solve(found(), along, mu_))
     throw StageFailure(FailureCause::near_singular_constraints, "the constraints' gradients are linearly dependent",
                        "0", 0);
   for (Index a = 0; a < mu_.size(); ++a) set_negative(shift_.data()[a], mu_.data()[a]);
   for (Index j = problem_.clock(); j < p.size(); ++j) set(v_[j], p[j]);
-  found().add_times(shift_, lanes(p));
+  along.add_times(shift_, lanes(p));
   for (Index j = problem_.clock(); j < p.size(); ++j) set(p[j], v_[j]);
   return mu_;
 }

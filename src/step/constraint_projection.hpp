@@ -26,7 +26,9 @@ class ConstraintProjection {
   void set_position(const Vector<S>& q);
   /// p -= grad g(q) mu with grad g(q)^T M^-1 p = 0, at the position that was found last. \return mu
   /// \throws StageFailure if the gradients are linearly dependent there
-  const Matrix<S>& make_tangential(Vector<S>& p);
+  const Matrix<S>& make_tangential(Vector<S>& p) { return make_tangential(p, found()); }
+  /// The same along the directions in which positions are moved: p -= grad g(q0) mu.
+  const Matrix<S>& make_tangential_along_directions(Vector<S>& p) { return make_tangential(p, directions()); }
 
   /// That position's gradients are the next directions.
   void advance() { now_ = 1 - now_; }
@@ -36,6 +38,7 @@ class ConstraintProjection {
  private:
   enum Part { shifts, gradients, matrix, factors, solution, tangential };
   void describe_parts();
+  const Matrix<S>& make_tangential(Vector<S>& p, ConstraintGradient<S>& along);
   /// x = (left^T M^-1 right)^-1 x. \return false if that is singular
   bool solve(ConstraintGradient<S>& left, const ConstraintGradient<S>& right, Matrix<S>& x);
   /// Whether g_ is what rounding makes of it at q: where lambda is nearly 0, its own digits say nothing.

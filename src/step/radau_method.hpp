@@ -4,7 +4,8 @@
 
 namespace hbvm::core {
 
-/// Radau IIA, see radau(): "S" or "S+project". RungeKuttaStepper says what becomes of constraints. \throws InputError
+/// Radau IIA, see radau(): "S", or "S+project" and the other formulations. RungeKuttaStepper says what becomes of
+/// constraints. \throws InputError
 MethodPtr radau_method(std::string_view arguments);
 
 }  // namespace hbvm::core

@@ -6,6 +6,7 @@
 #include "nearest.hpp"
 #include "step/composition.hpp"
 #include "step/energy_momentum.hpp"
+#include "step/formulation.hpp"
 #include "step/hbvm_method.hpp"
 #include "step/lobatto.hpp"
 #include "step/odeint_methods.hpp"
@@ -86,10 +87,10 @@ const MethodAlias* alias_named(std::string_view name) {
 
 MethodPtr method_of(const MethodFamily& family, const MethodSpec& spec) {
   if (family.form == family.name && !spec.arguments.empty()) {
-    constexpr std::string_view project = "+project";
-    if (!family.projects || spec.arguments != project)
-      throw InputError("method " + spec.family + " takes no arguments" + (family.projects ? " but +project" : "") +
-                       ", and has '" + spec.arguments + "'");
+    if (!family.formulated || !FormulatedName::parse(spec.arguments).name.empty())
+      throw InputError("method " + spec.family + " takes no arguments" +
+                       (family.formulated ? " but " + std::string(formulations) : "") + ", and has '" + spec.arguments +
+                       "'");
   }
   return family.make(spec);
 }

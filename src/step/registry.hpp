@@ -18,7 +18,7 @@ struct MethodFamily {
   std::string_view order = {};           ///< of its members: "2S"
   std::string_view work = {};            ///< what a step costs
   std::string_view note = {};
-  bool projects = false;  ///< whether "+project" ends its steps on the constraints
+  bool formulated = false;  ///< whether a formulation may stand behind it, as in "rk4+project"
 };
 
 /// All there are.

@@ -4,6 +4,7 @@
 #include "linear/arrays.hpp"
 #include "linear/product.hpp"
 #include "scalar/in_place.hpp"
+#include "scalar/literal.hpp"
 #include "step/move_driven.hpp"
 #include "step/stage_iteration.hpp"
 
@@ -22,10 +23,11 @@ bool is_strictly_lower(const Matrix<S>& A) {
 
 template <Scalar S>
 RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKutta<S>& method,
-                                        OnConstraints on_constraints)
+                                        const Formulation& formulation)
     : problem_(problem),
       A_(method.A),
       explicit_(is_strictly_lower(method.A)),
+      ggl_(formulation.on_constraints == OnConstraints::ggl && problem.nu() > 0),
       potential_(problem.potential, explicit_ ? Index(1) : method.b.size()),
       P_(Matrix<S>::Zero(method.b.size(), problem.m())),
       P_before_(P_),
@@ -48,12 +50,24 @@ RungeKuttaStepper<S>::RungeKuttaStepper(const Problem<S>& problem, const RungeKu
       arrival_(problem, 1),
       pull_(Matrix<S>::Zero(1, problem.nu())),
       lane_(force_),
+      free_(problem.m()),
       before_(Vector<S>::Zero(problem.m()), Vector<S>::Zero(problem.m())) {
   const Index s = method.b.size();
   if (s < 1 || A_.rows() != s || A_.cols() != s) throw InputError("A must have as many rows and columns as b entries");
   if (problem.nu() > 0 || !problem.is_conservative()) point_.emplace(problem);
   if (problem.nu() > 0) {
-    if (on_constraints == OnConstraints::project) projection_.emplace(problem);
+    if (formulation.ends_on_constraints()) projection_.emplace(problem);
+    if (formulation.on_constraints == OnConstraints::baumgarte)
+      point_->stabilise(literal<S>(formulation.alpha.text()), literal<S>(formulation.beta.text()));
+  }
+  if (ggl_) {
+    last_weight_ = method.b[s - 1];
+    bool held = explicit_ && last_weight_ != 0;
+    for (Index i = 1; i < s; ++i) held = held && A_(i, i - 1) != 0;
+    if (!held)
+      throw InputError(
+          "+ggl takes an explicit method whose last weight and entries just below the diagonal are not 0, as " +
+          std::string("euler, heun, rk4 or dopri5: they carry the multipliers"));
   }
   describe_parts();
 }
@@ -105,6 +119,7 @@ void RungeKuttaStepper<S>::stages_in_turn(const State<S>& state) {
   for (Index i = 0; i < s; ++i) {
     stage(i, state.q, V_, q_);
     stage(i, state.p, F_, p_);
+    if (ggl_) hold(i, q_, p_);
     if (problem_.is_conservative()) {
       problem_.mass.velocity(lanes(std::as_const(p_)), lanes(v_));
       potential_.force(lanes(std::as_const(q_)), force_);
@@ -112,7 +127,7 @@ void RungeKuttaStepper<S>::stages_in_turn(const State<S>& state) {
       point_->set_velocity(q_, p_, v_);
       point_->set_applied(q_, p_, force_);
     }
-    if (problem_.nu() > 0) add_constraint_force(q_, p_, force_, 0);
+    if (problem_.nu() > 0 && !ggl_) add_constraint_force(q_, p_, force_, 0);
     for (Index j = 0; j < m; ++j) {
       set(V_(i, j), v_[j]);
       set(F_(i, j), force_(0, j));
@@ -176,9 +191,40 @@ void RungeKuttaStepper<S>::add_constraint_force(const Vector<S>& Q, const Vector
 }
 
 template <Scalar S>
+void RungeKuttaStepper<S>::hold(Index i, Vector<S>& q, Vector<S>& p) {
+  if (i == 0) return projection_->set_directions(q);
+  set_product(factor_, h_, A_(i, i - 1));
+  set(free_, q);
+  set_zero(pull_);
+  projection_->find_position(free_, factor_, pull_, q);
+  for (Index j = 0; j < q.size(); ++j) {
+    set(v_[j], V_(i - 1, j));
+    set(lane_(0, j), F_(i - 1, j));
+  }
+  projection_->directions().add_weighted_times(pull_, lanes(v_));
+  const Matrix<S>& mu = projection_->make_tangential_along_directions(p);
+  for (Index a = 0; a < mu.size(); ++a) {
+    set_quotient(pull_(0, a), mu(0, a), factor_);
+    set_negative(pull_(0, a), pull_(0, a));
+  }
+  projection_->directions().add_times(pull_, lanes(lane_));
+  for (Index j = 0; j < q.size(); ++j) {
+    set(V_(i - 1, j), v_[j]);
+    set(F_(i - 1, j), lane_(0, j));
+  }
+  projection_->advance();
+}
+
+template <Scalar S>
 void RungeKuttaStepper<S>::settle(State<S>& state) {
   if (problem_.nu() == 0) return;
-  if (projection_) {
+  if (ggl_) {
+    set_zero(pull_);
+    set(q_, state.q);
+    set_product(factor_, h_, last_weight_);
+    projection_->find_position(q_, factor_, pull_, state.q);
+    projection_->make_tangential_along_directions(state.p);
+  } else if (projection_) {
     projection_->set_directions(state.q);
     set_zero(pull_);
     set(q_, state.q);

@@ -7,16 +7,11 @@
 #include "solver/extrapolation.hpp"
 #include "solver/position_scale.hpp"
 #include "step/constraint_projection.hpp"
+#include "step/formulation.hpp"
 #include "step/stage_iteration.hpp"
 #include "step/stepper.hpp"
 
 namespace hbvm::core {
-
-/// What becomes of constraints.
-enum class OnConstraints {
-  drift,   ///< nothing
-  project  ///< each step ends on them
-};
 
 /// Steps of a Runge-Kutta method:
 ///
@@ -24,8 +19,15 @@ enum class OnConstraints {
 ///     P_i = p_0 + h sum_j A_ij F_j,   F_i = grad U(Q_i) - grad g(Q_i) lambda_i,    p_1 = p_0 + h sum_i b_i F_i.
 ///
 /// With constraints, lambda_i = lambda(Q_i, P_i) of Theorem 1. The solutions of these index-reduced equations keep g
-/// and the hidden constraints, but those of the method do not, and drift away. Projected, each step ends on the
-/// constraints and in their tangent space, along grad g at its end.
+/// and the hidden constraints, but those of the method do not, and drift away. Three formulations hold them back:
+///
+/// - Projected, each step ends on the constraints and in their tangent space, along grad g at its end.
+/// - Baumgarte's has lambda + (grad g^T M^-1 grad g)^-1 (2 alpha g' + beta^2 g): g'' + 2 alpha g' + beta^2 g = 0
+///   pulls the drift back (J. Baumgarte, 1972).
+/// - That of Gear, Gupta and Leimkuhler (1985) has a second multiplier, q' = M^-1 (p - grad g(q) mu). The method is
+///   half-explicit (V. Brasey and E. Hairer, 1993): mu_i and lambda_i are such that both constraints hold at stage
+///   i + 1. Those of the last stage are for the end. It takes explicit methods whose entries below the diagonal are not
+///   0.
 ///
 /// If A is strictly lower triangular, the stages are computed one after the other. Else the P_i are found by
 /// fixed-point iteration, a sweep being V from P, Q, F, and P anew. It starts from the extrapolation of the last steps'
@@ -36,9 +38,8 @@ template <Scalar S>
 class RungeKuttaStepper final : public CountingStepper<S> {
  public:
   /// The problem must outlive it.
-  /// \throws InputError if A is not s x s
-  RungeKuttaStepper(const Problem<S>& problem, const RungeKutta<S>& method,
-                    OnConstraints on_constraints = OnConstraints::drift);
+  /// \throws InputError if A is not s x s, or the formulation does not take it
+  RungeKuttaStepper(const Problem<S>& problem, const RungeKutta<S>& method, const Formulation& formulation = {});
 
   const Problem<S>& problem() const override { return problem_; }
   bool is_explicit() const { return explicit_; }
@@ -59,13 +60,16 @@ class RungeKuttaStepper final : public CountingStepper<S> {
   void sweep(const State<S>& state);
   /// Adds -grad g lambda of (Q_i, P_i) to the force on it, in row `row`.
   void add_constraint_force(const Vector<S>& Q, const Vector<S>& P, Matrix<S>& force, Index row);
-  /// The state onto the constraints, if it is to be projected; sets the multiplier.
+  /// Of GGL, stage i: q and p onto the constraints by multipliers of the stage before. These are added to its V and F.
+  void hold(Index i, Vector<S>& q, Vector<S>& p);
+  /// The state onto the constraints, if it is to be; sets the multiplier.
   void settle(State<S>& state);
 
   const Problem<S>& problem_;
-  S h_ = 0;  ///< of the last step
+  S h_ = 0;            ///< of the last step
+  S last_weight_ = 0;  ///< of GGL
   Matrix<S> A_;
-  bool explicit_;
+  bool explicit_, ggl_;
   PotentialEvaluator<S> potential_;
   std::optional<StateEvaluator<S>> point_;  ///< if there are constraints, or forces without a potential
   std::optional<ConstraintProjection<S>> projection_;
@@ -79,10 +83,11 @@ class RungeKuttaStepper final : public CountingStepper<S> {
   PositionScale<S> position_scale_;
   Vector<S> positions_;
   StoppingRule<S> rule_;
-  S t_ = 0;  // kept: creating it allocates
+  S factor_ = 0, t_ = 0;  // kept: creating them allocates
   Vector<S> multiplier_;
   DrivenCourse<S> course_, arrival_;  ///< at the stages, and at the end
   Matrix<S> pull_, lane_;             // 1 x nu, 1 x m
+  Vector<S> free_;                    ///< where a stage would be without its constraints
   State<S> before_;                   ///< where a step with constraints began
   std::vector<PartCount> parts_;
 };

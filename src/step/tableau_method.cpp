@@ -11,7 +11,6 @@
 namespace hbvm::core {
 namespace {
 
-constexpr std::string_view projected = "+project";
 constexpr unsigned digits_of_conditions = 50;
 
 /// What the sums of its conditions may lose, and decimals of fewer digits with them.
@@ -25,17 +24,19 @@ Mpfr tolerance(const Tableau& tableau) {
 
 }  // namespace
 
-TableauMethod::TableauMethod(Tableau tableau, std::string name, OnConstraints on_constraints)
-    : tableau_(std::move(tableau)), name_(std::move(name)), on_constraints_(on_constraints) {}
+TableauMethod::TableauMethod(Tableau tableau, std::string name, Formulation formulation)
+    : tableau_(std::move(tableau)), name_(std::move(name)), formulation_(std::move(formulation)) {}
 
 int TableauMethod::order() const {
-  if (tableau_.order) return *tableau_.order;
   const PrecisionScope scope(digits_of_conditions);
-  return hbvm::core::order(make_runge_kutta<Mpfr>(tableau_), tolerance(tableau_));
+  const int order =
+      tableau_.order ? *tableau_.order : hbvm::core::order(make_runge_kutta<Mpfr>(tableau_), tolerance(tableau_));
+  constexpr int of_ggl = 2;
+  return formulation_.on_constraints == OnConstraints::ggl ? std::min(order, of_ggl) : order;
 }
 
 Kept TableauMethod::kept() const {
-  if (on_constraints_ == OnConstraints::project)
+  if (formulation_.ends_on_constraints())
     return {.energy = false, .momenta = false, .constraints = true, .hidden = true, .reversal = false};
   const PrecisionScope scope(digits_of_conditions);
   const RungeKutta<Mpfr> method = make_runge_kutta<Mpfr>(tableau_);
@@ -46,13 +47,9 @@ Kept TableauMethod::kept() const {
           .reversal = symmetry_defect(method) <= tolerance(tableau_)};
 }
 
-std::string TableauMethod::text() const {
-  return name_ + (on_constraints_ == OnConstraints::project ? std::string(projected) : "");
-}
+std::string TableauMethod::text() const { return name_ + formulation_.suffix(); }
 
-std::string TableauMethod::title() const {
-  return tableau_.name + (on_constraints_ == OnConstraints::project ? ", projected" : "");
-}
+std::string TableauMethod::title() const { return tableau_.name + formulation_.title(); }
 
 std::string TableauMethod::key() const {
   std::string key = title();
@@ -68,30 +65,23 @@ Constants TableauMethod::parameters() const { return letter_s(stages()); }
 
 template <Scalar S>
 StepperMaker<S> TableauMethod::prepare_in(const Problem<S>& problem, SolverKind) const {
-  return [&problem, method = make_runge_kutta<S>(tableau_), on_constraints = on_constraints_] {
-    return std::make_unique<RungeKuttaStepper<S>>(problem, method, on_constraints);
+  if (formulation_.on_constraints == OnConstraints::ggl && problem.nu() > 0) require_conservative(problem, text());
+  return [&problem, method = make_runge_kutta<S>(tableau_), formulation = formulation_] {
+    return std::make_unique<RungeKuttaStepper<S>>(problem, method, formulation);
   };
 }
 
-TableauArguments TableauArguments::parse(std::string_view text) {
-  const bool project = text.ends_with(projected);
-  if (project) text.remove_suffix(projected.size());
-  return {std::string(text), project ? OnConstraints::project : OnConstraints::drift};
+MethodPtr tableau_method(std::string_view arguments) {
+  auto [file, formulation] = FormulatedName::parse(arguments);
+  if (file.empty()) throw InputError("method tableau: use tableau:FILE, which may end in " + std::string(formulations));
+  return std::make_shared<const TableauMethod>(read_tableau(file), "tableau:" + file, std::move(formulation));
 }
-
-MethodPtr tableau_method(const TableauArguments& arguments) {
-  const auto& [file, on_constraints] = arguments;
-  if (file.empty()) throw InputError("method tableau: use tableau:FILE, or tableau:FILE+project");
-  return std::make_shared<const TableauMethod>(read_tableau(file), "tableau:" + file, on_constraints);
-}
-
-MethodPtr tableau_method(std::string_view arguments) { return tableau_method(TableauArguments::parse(arguments)); }
 
 MethodPtr known_tableau_method(std::string_view text) {
-  const auto [name, on_constraints] = TableauArguments::parse(text);
+  const auto [name, formulation] = FormulatedName::parse(text);
   std::string all;
   for (const KnownTableau& known : known_tableaux()) {
-    if (known.name == name) return std::make_shared<const TableauMethod>(known.tableau, name, on_constraints);
+    if (known.name == name) return std::make_shared<const TableauMethod>(known.tableau, name, formulation);
     all += (all.empty() ? "" : ", ") + std::string(known.name);
   }
   throw InputError("unknown method '" + std::string(text) + "': there are " + all);

@@ -9,16 +9,16 @@ namespace hbvm::core {
 /// A Runge-Kutta method from a file or by a name, see RungeKuttaStepper for what it makes of constraints.
 class TableauMethod final : public MethodByTemplate<TableauMethod> {
  public:
-  /// \param name as it is asked for, without "+project"
-  TableauMethod(Tableau tableau, std::string name, OnConstraints on_constraints = OnConstraints::drift);
+  /// \param name as it is asked for, without its formulation
+  TableauMethod(Tableau tableau, std::string name, Formulation formulation = {});
 
   const Tableau& tableau() const { return tableau_; }
-  OnConstraints on_constraints() const { return on_constraints_; }
+  const Formulation& formulation() const { return formulation_; }
 
   std::string text() const override;
   std::string title() const override;
   std::string key() const override;
-  /// That its author states, or its conditions show with 50 digits.
+  /// That its author states, or its conditions show with 50 digits. Of GGL, which has conditions of its own, at most 2.
   int order() const override;
   int stages() const override { return static_cast<int>(tableau_.b.size()); }
   int terms() const override { return stages(); }
@@ -32,19 +32,10 @@ class TableauMethod final : public MethodByTemplate<TableauMethod> {
  private:
   Tableau tableau_;
   std::string name_;
-  OnConstraints on_constraints_;
+  Formulation formulation_;
 };
 
-/// "NAME" or "NAME+project", taken apart: a file, or a method with a name of its own.
-struct TableauArguments {
-  std::string name;
-  OnConstraints on_constraints = OnConstraints::drift;
-
-  static TableauArguments parse(std::string_view text);
-};
-
-/// From a file. \throws InputError as read_tableau does
-MethodPtr tableau_method(const TableauArguments& arguments);
+/// From a file: "FILE", "FILE+project". \throws InputError as read_tableau does
 MethodPtr tableau_method(std::string_view arguments);
 
 /// One of known_tableaux(): "rk4", "sdirk:3+project". \throws InputError with what there is

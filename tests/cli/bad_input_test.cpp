@@ -100,7 +100,8 @@ TEST(BadMethod, IsRefused) {
 /// Briefly: what there is, or what it is called here.
 TEST(BadMethod, OfAnotherNameIsKnownOrListed) {
   expect_refused(run_with("--method", "verlets"), {"unknown method 'verlets': did you mean 'verlet'?"});
-  expect_refused(run_with("--method", "rk4:5"), {"method rk4 takes no arguments but +project, and has '5'"});
+  expect_refused(run_with("--method", "rk4:5"),
+                 {"method rk4 takes no arguments but +project, +baumgarte:ALPHA,BETA or +ggl, and has '5'"});
   expect_refused(run_with("--method", "rattel"), {"did you mean 'rattle'?"});
   expect_refused({"audit", "--method", "rattel"}, {"unknown method 'rattel': did you mean 'rattle'?"});
   EXPECT_LT(hbvm(run_with("--method", "adams")).err.size(), 250u);

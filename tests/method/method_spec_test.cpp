@@ -10,6 +10,7 @@ TEST(MethodSpec, IsAFamilyAndItsArguments) {
                                                 {"rattle", "rattle", ""},
                                                 {"tableau:a:b.toml", "tableau", "a:b.toml"},
                                                 {"rk4+project", "rk4", "+project"},
+                                                {"rk4+baumgarte:5,5", "rk4", "+baumgarte:5,5"},
                                                 {"sdirk:3+project", "sdirk", "3+project"}}) {
     const MethodSpec spec = MethodSpec::parse(text);
     EXPECT_EQ(spec.family, family);

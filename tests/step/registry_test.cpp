@@ -23,8 +23,9 @@ TEST(Registry, ReadsWhatAMethodSaysOfItself) {
   const Midpoint midpoint;
   for (const std::string& text : std::vector<std::string>{
            "hbvm:4,2", "hbvm:auto,3", "rattle", "compose:rattle,6", "energy_momentum", "projected_hbvm:4,2",
-           "restored_hbvm:3,3", "rkf78", "bulirsch_stoer:12", "compose:hbvm:1,1,4", "rk4", "rk4+project", "sdirk:3",
-           "radau:3+project", "symplectic_euler", midpoint.name, midpoint.name + "+project"})
+           "restored_hbvm:3,3", "rkf78", "bulirsch_stoer:12", "compose:hbvm:1,1,4", "rk4", "rk4+project",
+           "rk4+baumgarte:5,1/2", "dopri5+ggl", "sdirk:3", "radau:3+project", "symplectic_euler", midpoint.name,
+           midpoint.name + "+project"})
     EXPECT_EQ(parse_method(text)->text(), text);
 }
 
@@ -47,8 +48,9 @@ TEST(Registry, ListsWhatCanBeMade) {
     EXPECT_FALSE(family.form.empty() || family.order.empty() || family.work.empty()) << family.name;
     if (family.name == "tableau") continue;
     EXPECT_EQ(parse_method(family.example)->text(), family.example);
-    if (family.projects) {
+    if (family.formulated) {
       EXPECT_TRUE(parse_method(std::string(family.example) + "+project")->kept().constraints);
+      EXPECT_FALSE(parse_method(std::string(family.example) + "+baumgarte:5,5")->kept().constraints);
     }
   }
 }
@@ -91,7 +93,8 @@ TEST(Registry, RefusesWhatThereIsNot) {
     std::vector<const char*> arguments;
   };
   for (const auto& [family, arguments] :
-       {Refused{"", {""}}, Refused{"gauss", {"", ":", ":x", ":0", ":2,2"}}, Refused{"rk4", {":4", "+projects"}},
+       {Refused{"", {""}}, Refused{"gauss", {"", ":", ":x", ":0", ":2,2"}},
+        Refused{"rk4", {":4", "+projects", "+baumgarte", "+baumgarte:1", "+ggl:1"}},
         Refused{"verlet", {":2", "+project"}}, Refused{"sdirk", {"", ":4", ":3+projects"}},
         Refused{"radau", {"", ":0", ":x"}}, Refused{"hbvm", {"", ":2,3", ":2"}}, Refused{"rattle", {":2"}},
         Refused{"compose", {"", ":rattle", ":rattle,", ":rattle,3", ":rattle,0", ":rattle,14", ":rattle,4x"}},
@@ -127,6 +130,8 @@ constexpr const char* constrained_methods[] = {"hbvm:4,2",
                                                "rkf78",
                                                "symplectic_euler",
                                                "radau:2+project",
+                                               "rk4+baumgarte:5,5",
+                                               "rk4+ggl",
                                                "bulirsch_stoer:10"};
 
 /// Steppers that one maker makes know nothing of each other.

@@ -19,6 +19,8 @@ TEST(TableauMethods, OrderIsTheStatedOneOrThatOfTheConditions) {
   Tableau stated = hbvm::core::rk4();
   stated.order = 7;
   EXPECT_EQ(TableauMethod(stated, "").order(), 7);
+  EXPECT_EQ(TableauMethod(hbvm::core::rk4(), "", OnConstraints::project).order(), 4);
+  EXPECT_EQ(TableauMethod(hbvm::core::rk4(), "", OnConstraints::ggl).order(), 2);
   // 50 digits, less ten.
   EXPECT_EQ(TableauMethod(tableau({{"1/2+1e-35"}}, {"1"}, {"1/2+1e-35"}), "").order(), 1);
   EXPECT_EQ(TableauMethod(tableau({{"1/2+1e-45"}}, {"1"}, {"1/2+1e-45"}), "").order(), 2);
@@ -61,12 +63,7 @@ TEST(TableauMethods, KeysAreTheirNumbers) {
   EXPECT_EQ(keys.size(), 5u);
 }
 
-TEST(TableauMethods, ArgumentsAreAFileAndWhatToMakeOfConstraints) {
-  EXPECT_EQ(TableauArguments::parse("a.toml").name, "a.toml");
-  EXPECT_EQ(TableauArguments::parse("a.toml").on_constraints, OnConstraints::drift);
-  EXPECT_EQ(TableauArguments::parse("a.toml+project").name, "a.toml");
-  EXPECT_EQ(TableauArguments::parse("a.toml+project").on_constraints, OnConstraints::project);
-  EXPECT_EQ(TableauArguments::parse("+projects").name, "+projects");
+TEST(TableauMethods, NeedAFile) {
   EXPECT_THROW(tableau_method("+project"), InputError);
   EXPECT_THROW(tableau_method(""), InputError);
 }
