@@ -8,6 +8,7 @@
 #include "hbvm/cost.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/figure.hpp"
+#include "hbvm/lesson.hpp"
 #include "hbvm/method.hpp"
 #include "hbvm/nodes.hpp"
 #include "hbvm/number.hpp"

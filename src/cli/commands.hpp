@@ -18,6 +18,7 @@ void add_stability_command(CLI::App& app);
 void add_reference_command(CLI::App& app);
 void add_cost_command(CLI::App& app);
 void add_report_command(CLI::App& app);
+void add_lesson_command(CLI::App& app);
 void add_help_command(CLI::App& app);
 void add_completion_command(CLI::App& app);
 

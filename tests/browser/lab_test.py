@@ -9,17 +9,7 @@ import sys
 import time
 import urllib.parse
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "page"))
-from browser import check, test  # noqa: E402
-
-
-def until(page, expression, what, seconds=120):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if page.evaluate(expression):
-            return
-        time.sleep(0.1)
-    check(False, f"{what}: {page.evaluate('document.body.innerText')[-600:]}")
+from site_checks import check, fits, quiet, test, until
 
 
 def address(**state):
@@ -29,12 +19,6 @@ def address(**state):
 DONE = "document.getElementById('status').textContent === 'Done.'"
 TITLE = "document.getElementById('page').contentDocument.title"
 CELLS = "[...document.querySelectorAll('#table td')].map(cell => cell.textContent)"
-
-
-def quiet(page, what):
-    check(not page.complaints, f"{what}: {page.complaints}")
-    asked = [url for url in page.requests if not url.startswith(("file:", "data:", "about:", "blob:"))]
-    check(not asked, f"{what} asks for {asked}")
 
 
 def tests(site, page, folder, pictures):
@@ -54,12 +38,7 @@ def tests(site, page, folder, pictures):
     check(float(cells[10]) > float(cells[4]) + 2, f"right digits: {cells}")
     quiet(page, "the lab with two methods")
     until(page, TITLE + ".includes('Double pendulum')", "the inner page")
-    for size in ((1366, 768), (1920, 1080), (360, 740)):
-        page.resize(*size)
-        wide = page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
-        check(wide <= 0, f"{wide} pixels too wide at {size}")
-        picture(f"lab_{size[0]}")
-    page.resize(1366, 768)
+    fits(page, "lab", pictures)
 
     # A slider changes a mass, and the address restores it.
     page.evaluate("""(() => {
@@ -133,8 +112,6 @@ def tests(site, page, folder, pictures):
     digits = page.evaluate("[...document.querySelectorAll('#digits tbody tr')].map(row => Number(row.cells[3].textContent))")
     check(digits == sorted(digits) and digits[-1] > 40, f"right digits on the front page: {digits}")
     picture("front_dark")
-    for link in page.evaluate("[...document.querySelectorAll('a')].map(a => a.getAttribute('href'))"):
-        check(os.path.exists(os.path.join(site, link.split("#")[0])), f"the link {link} leads nowhere")
     quiet(page, "the front page")
 
 

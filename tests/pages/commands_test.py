@@ -1,7 +1,7 @@
 """Every command of every page, and of the examples that --help prints, runs as it is printed.
 
 Usage: commands_test.py HBVM SOURCE_FOLDER [WORD]
-Prints the time of each command; with WORD, only commands that hold it are run.
+Prints the time of each command; with WORD, only commands are run that hold it, or whose page does.
 """
 import os
 import pathlib
@@ -12,6 +12,7 @@ import sys
 import tempfile
 import textwrap
 import time
+import tomllib
 
 sys.dont_write_bytecode = True  # nothing is left in the sources
 from declared import FILES, CODES, ELSEWHERE, MENTIONS, SHORTER
@@ -71,6 +72,7 @@ def examples_of_help():
 
     paths = [()] + [(name,) for name in re.findall(r"^  ([a-z]+) ", help_of().split("Subcommands:")[-1], flags=re.M)]
     paths += [("scene", name) for name in re.findall(r"^  ([a-z]+) ", help_of("scene").split("Subcommands:")[-1], flags=re.M)]
+    paths += [("lesson", name) for name in re.findall(r"^  ([a-z]+) ", help_of("lesson").split("Subcommands:")[-1], flags=re.M)]
     for path in paths:
         text = help_of(*path)
         if "Example: " not in text:
@@ -80,10 +82,25 @@ def examples_of_help():
             yield line.strip()
 
 
+def lesson_of(page):
+    """What lesson.toml beside a page says; nothing if there is none."""
+    table = page.parent / "lesson.toml"
+    return tomllib.loads(table.read_text()) if table.exists() else {}
+
+
+def experiments_of(page):
+    """The commands of a lesson's experiments, with the first of their choices."""
+    for experiment in lesson_of(page).get("experiment", []):
+        command = experiment["command"]
+        for name, choices in experiment.get("choices", {}).items():
+            command = command.replace(f"{{{name}}}", choices[0])
+        yield command
+
+
 def run(page, command, folder, environment):
     shown = f"{page}: {command}"
     once = command.replace("build/release/hbvm", "hbvm")
-    if command in MENTIONS or word not in command or once in done_before:
+    if command in MENTIONS or word not in shown or once in done_before:
         return
     done_before.add(once)
     if command in ELSEWHERE:
@@ -110,6 +127,8 @@ def run_page(page, commands, text=""):
         shutil.copytree(source / "studies", folder / "studies", ignore=shutil.ignore_patterns("results"))
         (folder / "build/release").mkdir(parents=True)
         (folder / "build/release/hbvm").symlink_to(program)
+        for file, text_of_lesson in lesson_of(source / page).get("files", {}).items():
+            (folder / file).write_text(text_of_lesson)
         for file, origin in FILES.get(page, {}).items():
             if (source / origin).exists():
                 shutil.copy(source / origin, folder / file)
@@ -123,10 +142,11 @@ def run_page(page, commands, text=""):
 
 
 found = []
-pages = [source / "README.md", source / "src/README.md", source / "src/browser/README.md", *sorted((source / "studies").glob("*.md")), *sorted((source / "studies").glob("*/*.md"))]
+pages = [source / "README.md", source / "src/README.md", source / "src/browser/README.md",
+         *(page for pattern in ("*.md", "*/*.md", "lessons/*/*.md") for page in sorted((source / "studies").glob(pattern)))]
 for page in pages:
     text = page.read_text()
-    commands = list(commands_of(text))
+    commands = [*commands_of(text), *experiments_of(page)]
     found += commands
     run_page(str(page.relative_to(source)), commands, text)
 examples = list(examples_of_help())

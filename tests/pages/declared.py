@@ -102,6 +102,10 @@ CODES = {
     "build/release/hbvm audit --method studies/orders_beyond_round_off/gauss_with_a_wrong_digit.toml": 1,
     "hbvm audit --method studies/orders_beyond_round_off/gauss_with_a_wrong_digit.toml": 1,
     "hbvm audit --claims studies/orders_beyond_round_off/claims.toml": 1,
+    "hbvm audit --method misprint.toml": 1,
+    "hbvm audit --method gauss_7.toml": 1,
+    "hbvm audit --method gauss_25.toml": 1,
+    "hbvm run simple_pendulum --method rk4+baumgarte:40,40 --step 1/16 --until 40": 3,
 }
 
 # What a reader of a page has: a file that it shows, in the block of text that follows these words, or a copy of one.

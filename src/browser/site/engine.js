@@ -1,23 +1,5 @@
 'use strict';
 
-/// A number that the program wrote, of any size and length, with two digits: 1.2e-345.
-function shortNumber(text) {
-  if (text === undefined || text === null) return '';
-  const parts = String(text).match(/^(-?)(\d+)(?:\.(\d+))?(?:e([-+]?\d+))?$/);
-  if (!parts) return String(text);
-  const [, sign, whole, fraction = '', exponent = '0'] = parts;
-  const digits = whole + fraction, first = digits.search(/[1-9]/);
-  if (first < 0) return '0';
-  const mantissa = Number(`${digits[first]}.${digits.slice(first + 1, first + 4)}`).toFixed(1);
-  return `${sign}${mantissa}e${Number(exponent) + whole.length - 1 - first}`;
-}
-
-/// How many digits of all positions are right in what `run --error --json` says; null if they were not asked for.
-function digitsOf({error, q}) {
-  const digits = (error?.digits ?? []).slice(0, q.length).filter((number) => number !== null);
-  return digits.length ? Math.min(...digits) : null;
-}
-
 /// The program in a worker, one instance a command. `hbvmEngine`, of engine_data.js, has its script and its module.
 /// Everything is in the page's own files: nothing is asked for from elsewhere, and a page opened as a file works, too.
 class Engine {

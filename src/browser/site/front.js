@@ -8,14 +8,13 @@ const rows = [
 ];
 
 async function show() {
-  const table = document.getElementById('digits');
-  const head = table.createTHead().insertRow();
-  for (const name of ['method', 'digits used', 'error of the energy', 'right digits'])
-    head.append(Object.assign(document.createElement('th'), {textContent: name, scope: 'col'}));
-  const body = table.createTBody();
-  for (const [name, method, precision] of rows) {
-    const row = body.insertRow();
-    for (const text of [name, precision === 'double' ? '16' : precision, '…', '…']) row.insertCell().textContent = text;
+  const table = tableOf([
+    ['method', ([name]) => name], ['digits used', ([,, precision]) => (precision === 'double' ? '16' : precision)],
+    ['error of the energy', () => '…'], ['right digits', () => '…'],
+  ], rows);
+  document.getElementById('digits').replaceChildren(table);
+  for (const [i, [, method, precision]] of rows.entries()) {
+    const row = table.tBodies[0].rows[i];
     const words = ['run', 'simple_pendulum', '--method', method, '--step', '1/8', '--until', '10'];
     const result = await new Engine().run([...words, '--precision', precision, '--error', '--json']);
     if (result.code !== 0) {

@@ -5,7 +5,9 @@
 
 const by = (id) => document.getElementById(id);
 const file = 'scene.toml';
-const engine = new Engine();
+const place = new CommandPlace({
+  starters: [by('run'), by('execute')], stop: by('stop'), bar: by('bar'), status: by('status'),
+});
 let page = '';
 
 /// Numbers of a scene's text that sliders set: constants, masses and charges of bodies.
@@ -122,11 +124,9 @@ function restore(chosen) {
 
 function remember() {
   const words = commandWords();
-  history.replaceState(null, '', '#' + encodeURIComponent(JSON.stringify(state())));
+  history.replaceState(null, '', labHash(state()));
   by('command').textContent = 'hbvm ' + words.map(inShell).join(' ');
 }
-
-const inShell = (word) => (/^[\w.,:/=+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
 
 /// Those that hold for every integrator.
 function settingWords({set, step, until, precision}) {
@@ -150,49 +150,8 @@ function tellScene() {
   by('flaw').textContent = '';
 }
 
-function showTable(runs) {
-  const table = document.createElement('table');
-  const columns = [
-    ['integrator', (run) => run.resolved ?? run.method], ['max |H - H₀|', (run) => shortNumber(run.e_H)],
-    ['max |g|', (run) => shortNumber(run.e_g)], ['hidden constraint', (run) => shortNumber(run.e_hid)],
-    ['right digits', (run) => (run.digits === undefined || run.digits === null ? '' : Number(run.digits).toFixed(1))],
-    ['seconds', (run) => Number(run.cpu_seconds).toPrecision(2)],
-  ];
-  const head = table.createTHead().insertRow();
-  for (const [name] of columns) {
-    const cell = document.createElement('th');
-    cell.scope = 'col';
-    cell.textContent = name;
-    head.append(cell);
-  }
-  for (const run of runs) {
-    const row = table.insertRow();
-    for (const [, of] of columns) row.insertCell().textContent = of(run);
-  }
-  by('table').replaceChildren(table);
-}
-
-function busy(is) {
-  by('run').disabled = by('execute').disabled = is;
-  by('stop').disabled = !is;
-  by('bar').hidden = !is;
-  by('bar').removeAttribute('value');
-}
-
-function showProgress(line) {
-  const parts = line.match(/(\d+) of (\d+)/);
-  if (parts) by('bar').value = Number(parts[1]) / Number(parts[2]);
-  by('status').textContent = line.replace(/\[[#.]*\]\s*/, '');
-}
-
-async function command(words, wanted = []) {
-  busy(true);
-  by('status').textContent = 'Computing …';
-  const result = await engine.run(words, {files: {[file]: by('text').value}, wanted, progress: showProgress});
-  busy(false);
-  by('status').textContent = '';
-  return result;
-}
+/// Runs a command, which finds the scene as it is edited.
+const command = (words, wanted = []) => place.run(words, {files: {[file]: by('text').value}, wanted});
 
 async function run() {
   remember();
@@ -202,14 +161,13 @@ async function run() {
   page = result.files['page.html'] ?? '';
   by('save-page').disabled = !page;
   if (!page) {
-    by('status').textContent = result.err.replaceAll('hbvm: ', '');
-    if (/scene\.toml/.test(result.err)) by('flaw').textContent = result.err.replaceAll('hbvm: ', '');
+    place.tell(complaintOf(result));
+    if (/scene\.toml/.test(result.err)) by('flaw').textContent = complaintOf(result);
     return;
   }
   by('page').srcdoc = page;
-  const found = JSON.parse(result.out);
-  showTable(found.runs ?? [{...found, digits: digitsOf(found)}]);
-  by('status').textContent = 'Done.';
+  by('table').replaceChildren(tableOfRuns(runsOf(JSON.parse(result.out))));
+  place.tell('Done.');
 }
 
 function save(name, text, kind) {
@@ -218,11 +176,6 @@ function save(name, text, kind) {
   link.download = name;
   link.click();
   URL.revokeObjectURL(link.href);
-}
-
-/// Words as a shell would part them.
-function parted(line) {
-  return [...line.matchAll(/'([^']*)'|"([^"]*)"|(\S+)/g)].map((found) => found[1] ?? found[2] ?? found[3]);
 }
 
 for (const name of Object.keys(hbvmScenes)) by('scene').append(new Option(name.replaceAll('_', ' '), name));
@@ -247,7 +200,6 @@ by('controls').addEventListener('submit', (event) => {
   event.preventDefault();
   run();
 });
-by('stop').addEventListener('click', () => engine.stop());
 by('link').addEventListener('click', () => navigator.clipboard.writeText(location.href));
 by('save-page').addEventListener('click', () => save(`${by('scene').value}.html`, page, 'text/html'));
 by('save-scene').addEventListener('click', () => save(`${by('scene').value}.toml`, by('text').value, 'text/plain'));
@@ -256,7 +208,7 @@ by('save-csv').addEventListener('click', async () => {
   const words = ['run', file, '--method', chosen.methods[0], ...settingWords(chosen), '--out', 'motion.csv'];
   const result = await command(words, ['motion.csv']);
   if (result.files['motion.csv']) save(`${chosen.scene}.csv`, result.files['motion.csv'], 'text/csv');
-  else by('status').textContent = result.err;
+  else place.tell(complaintOf(result));
 });
 by('execute').addEventListener('click', async () => {
   const words = parted(by('words').value);
@@ -265,12 +217,6 @@ by('execute').addEventListener('click', async () => {
   by('output').textContent = [result.out, result.err].filter(Boolean).join('\n');
 });
 
-let chosen = {};
-try {
-  chosen = JSON.parse(decodeURIComponent(location.hash.slice(1)));
-} catch {
-  // An address without a state, or with one that is none.
-}
-restore(chosen);
+restore(stateOfHash(location.hash));
 if (location.hash.length > 1) window.addEventListener('load', run);
 else remember();

@@ -20,6 +20,7 @@ from ._cost import Plan, cost
 from ._errors import Error, InputError, IntegrationError, Interrupted
 from ._facts import Nodes, methods, nodes, precision_of
 from ._hbvm import version as __version__
+from ._lesson import check_lesson, lessons
 from ._number import Exact, FloatWarning, Number
 from ._order import Order, Rung, verify_order
 from ._page import Page
@@ -35,8 +36,8 @@ if TYPE_CHECKING:
 __all__ = [
     "Against", "Audit", "Columns", "Comparison", "Convergence", "Error", "Exact", "FloatWarning", "InputError",
     "IntegrationError", "Interrupted", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Plan", "Record", "Reference",
-    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "check_proof", "compare", "convergence", "cost", "kept", "methods", "nodes",
-    "precision_of", "read_csv", "reference", "run", "scene", "scenes", "study", "verify_order",
+    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "check_lesson", "check_proof", "compare", "convergence", "cost", "kept",
+    "lessons", "methods", "nodes", "precision_of", "read_csv", "reference", "run", "scene", "scenes", "study", "verify_order",
 ]
 
 

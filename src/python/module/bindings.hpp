@@ -12,6 +12,7 @@ void add_reference(pybind11::module_& module);
 void add_audit(pybind11::module_& module);
 void add_cost(pybind11::module_& module);
 void add_study(pybind11::module_& module);
+void add_lesson(pybind11::module_& module);
 void add_facts(pybind11::module_& module);
 
 }  // namespace hbvm::python

@@ -36,6 +36,6 @@ PYBIND11_MODULE(_hbvm, module) {
   module.attr("version") = hbvm::version();
   for (const auto add :
        {hbvm::python::add_scene, hbvm::python::add_run, hbvm::python::add_reference, hbvm::python::add_audit,
-        hbvm::python::add_cost, hbvm::python::add_study, hbvm::python::add_facts})
+        hbvm::python::add_cost, hbvm::python::add_study, hbvm::python::add_lesson, hbvm::python::add_facts})
     add(module);
 }
