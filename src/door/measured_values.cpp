@@ -57,7 +57,7 @@ class Limit {
   void watch() {
     if (asked_.stop_requested() || elapsed_seconds() - begin_ > longest) source_.request_stop();
   }
-  bool is_over() const { return source_.stop_requested() && !asked_.stop_requested(); }
+  bool is_over() const { return token().stop_requested() && !asked_.stop_requested(); }
 
  private:
   std::stop_token asked_;
