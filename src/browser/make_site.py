@@ -27,6 +27,9 @@ LESSONS = STUDIES / "lessons"
 METHODS = ["hbvm:auto,3", "hbvm:4,2", "hbvm:6,3", "hbvm:3,3", "gauss:3", "radau:2", "rk4", "verlet", "euler",
            "symplectic_euler", "midpoint", "dopri5", "rattle"]
 
+# Of the pages that the program writes, what the lab uses, too.
+PAGE_SCRIPTS = {"motion.js": "motion.js", "numbers.js": "page_numbers.js"}
+
 
 def engine_data(folder: Path) -> str:
     """The engine's script and its module, packed, as one script: a page opened as a file may read no other kind."""
@@ -96,8 +99,9 @@ def front_pages() -> Iterator[SitePage]:
         (HERE / "pages/lab.html").read_text(), heading="Lab", kind="lab",
         lead="<p>Pick a scene, pick integrators, press <b>Run</b>. The program computes in this page; nothing is sent "
              "anywhere.</p>",
-        scripts=("numbers.js", "engine.js", "runs.js", "command.js", "lab_state.js", "scenes.js", "lab.js",
-                 "engine_data.js"))
+        scripts=("numbers.js", "engine.js", "runs.js", "command.js", "lab_state.js", "chart.js", "motion.js",
+                 "page_numbers.js", "round_numbers.js", "page_data.js", "scene_text.js", "start.js", "sliders.js",
+                 "sketch.js", "portrait.js", "work_precision.js", "picture.js", "film.js", "scenes.js", "lab.js", "engine_data.js"))
 
 
 def add_lessons(site: Site) -> None:
@@ -141,6 +145,8 @@ def main() -> None:
     site = Site(asked.output)
     for path in sorted((HERE / "site").iterdir()):
         site.copy(path, path.name)
+    for name, path in PAGE_SCRIPTS.items():
+        site.copy(HERE.parent / "run/page" / name, path)
     site.write("engine_data.js", engine_data(asked.engine))
     site.write("scenes.js", scenes())
     for page in front_pages():

@@ -1,85 +1,16 @@
 'use strict';
 
-/// The lab: a scene, its numbers as sliders, integrators; what the program makes of them in an inner page. The state of
-/// all controls is in the address.
+/// The lab: a scene, its start as a sketch, its numbers as sliders, integrators; what the program makes of them in an
+/// inner page and in charts. The state of all controls is in the address.
 
 const by = (id) => document.getElementById(id);
-const file = 'scene.toml';
 const place = new CommandPlace({
   starters: [by('run'), by('execute')], stop: by('stop'), bar: by('bar'), status: by('status'),
 });
+const sliders = new Sliders(by('sliders')), sketch = new Sketch(by('sketch'), (start) => inTurn(() => move(start)));
+const portrait = new Portrait(by('portrait'), by('portrait-box')), soFar = new WorkPrecision(by('work-precision'));
 let page = '';
-
-/// Numbers of a scene's text that sliders set: constants, masses and charges of bodies.
-function numbersOf(text) {
-  const numbers = [];
-  // Bodies in one line: { name = "a", mass = 2, ... }
-  for (const [line] of text.matchAll(/\{[^{}]*\}/g)) {
-    const name = line.match(/\bname\s*=\s*"([^"]*)"/);
-    if (!name || !/\bmass\s*=/.test(line)) continue;
-    for (const [, key, quoted, bare] of line.matchAll(/\b(mass|charge)\s*=\s*(?:"([^"]*)"|([^,}\s]+))/g)) {
-      const number = valueOf(quoted ?? bare);
-      if (number) numbers.push({path: `${name[1]}.${key}`, number, about: ''});
-    }
-  }
-  let table = '', name = '';
-  for (const line of text.split('\n')) {
-    const head = line.match(/^\s*\[{1,2}\s*([\w.]+)\s*\]{1,2}/);
-    if (head) [table, name] = [head[1], ''];
-    const entry = line.match(/^\s*([\w-]+)\s*=\s*(?:"([^"]*)"|([^#]*))(?:#\s*(.*))?/);
-    if (!entry || head) continue;
-    const [, key, quoted, bare, comment] = entry;
-    const value = (quoted ?? bare).trim();
-    if (key === 'name') name = value;
-    const number = valueOf(value);
-    if (number === null || number === 0) continue;
-    if (table === 'constants') numbers.push({path: key, number, about: comment ?? ''});
-    if ((table === 'body' || table === 'rigid_body') && name && (key === 'mass' || key === 'charge'))
-      numbers.push({path: `${name}.${key}`, number, about: ''});
-  }
-  return numbers;
-}
-
-/// A decimal or a fraction of decimals; null of another expression.
-function valueOf(text) {
-  const parts = text.match(/^([-+]?[\d.]+(?:[eE][-+]?\d+)?)(?:\/([\d.]+))?$/);
-  if (!parts) return null;
-  const value = Number(parts[1]) / Number(parts[2] ?? 1);
-  return Number.isFinite(value) ? value : null;
-}
-
-function showSliders(set = {}) {
-  const box = by('sliders');
-  box.replaceChildren();
-  for (const {path, number, about} of numbersOf(by('text').value).slice(0, 8)) {
-    const row = document.createElement('label');
-    row.className = 'slider';
-    row.title = about;
-    const name = document.createElement('span');
-    name.textContent = path;
-    const slider = document.createElement('input');
-    Object.assign(slider, {type: 'range', min: -2, max: 2, step: 0.05});
-    slider.dataset.path = path;
-    slider.dataset.number = number;
-    slider.value = path in set ? Math.log2(Number(set[path]) / number) : 0;
-    const value = document.createElement('output');
-    const tell = () => { value.textContent = valueAt(slider); };
-    slider.addEventListener('input', tell);
-    tell();
-    row.append(name, slider, value);
-    box.append(row);
-  }
-}
-
-const valueAt = (slider) => String(Number((slider.dataset.number * 2 ** slider.value).toPrecision(4)));
-
-/// What sliders change: {path: value}.
-function changes() {
-  const set = {};
-  for (const slider of by('sliders').querySelectorAll('input'))
-    if (Number(slider.value) !== 0) set[slider.dataset.path] = valueAt(slider);
-  return set;
-}
+let start = null;  // a Motion that begins with the start, if that is known
 
 function addMethod(name) {
   const row = document.createElement('div');
@@ -103,9 +34,9 @@ const methods = () => [...by('methods').querySelectorAll('input')].map((input) =
 function state() {
   const name = by('scene').value, text = by('text').value;
   return {
-    scene: name, ...(text === hbvmScenes[name] ? {} : {text}), set: changes(), methods: methods(),
+    scene: name, ...(text === hbvmScenes[name] ? {} : {text}), set: sliders.changes(), methods: methods(),
     step: by('step').value.trim(), until: by('until').value.trim(), precision: by('precision').value,
-    reference: by('reference').checked,
+    reference: by('reference').checked, ...(portrait.chosen ? {portrait: portrait.chosen} : {}),
   };
 }
 
@@ -113,12 +44,16 @@ function restore(chosen) {
   by('scene').value = chosen.scene in hbvmScenes ? chosen.scene : 'double_pendulum';
   by('text').value = chosen.text ?? hbvmScenes[by('scene').value];
   showSliders(chosen.set ?? {});
+  // Its room, until the program has told of it.
+  by('sketch').hidden = !/^\s*dimension\s*=\s*2/m.test(by('text').value);
+  inTurn(look);
   by('methods').replaceChildren();
   for (const name of chosen.methods ?? ['rk4', 'hbvm:auto,3']) addMethod(String(name));
   by('step').value = chosen.step ?? '1/16';
   by('until').value = chosen.until ?? '10';
   by('precision').value = chosen.precision ?? 'double';
   by('reference').checked = Boolean(chosen.reference);
+  portrait.chosen = chosen.portrait ?? '';
   tellScene();
 }
 
@@ -128,10 +63,11 @@ function remember() {
   by('command').textContent = 'hbvm ' + words.map(inShell).join(' ');
 }
 
+const setWords = (set) => Object.entries(set).flatMap(([path, value]) => ['--set', `${path}=${value}`]);
+
 /// Those that hold for every integrator.
 function settingWords({set, step, until, precision}) {
-  return [...Object.entries(set).flatMap(([path, value]) => ['--set', `${path}=${value}`]),
-    ...(step ? ['--step', step] : []), '--until', until, '--precision', precision];
+  return [...setWords(set), ...(step ? ['--step', step] : []), '--until', until, '--precision', precision];
 }
 
 /// The words of the command, for the shell with the shipped scene's name, for the engine with the file's.
@@ -147,32 +83,80 @@ function commandWords(scene = null) {
 function tellScene() {
   const title = by('text').value.match(/^\s*title\s*=\s*"(.*)"/m);
   by('about').textContent = title ? title[1] : '';
-  by('flaw').textContent = '';
+}
+
+/// What is wrong with the scene; one whose start is, can be moved.
+function tellFlaw(complaint) {
+  by('flaw').textContent = complaint;
+  by('project').hidden = !complaint.includes('scene project');
+}
+
+function showSliders(set) {
+  const scene = new SceneText(by('text').value);
+  sliders.show(scene.numbers(), set, start ? startsOf(start).filter(({path}) => scene.placeOf(path)) : []);
+}
+
+/// Jobs on the start, one after another.
+let settled = Promise.resolve();
+const starter = new Engine();
+const inTurn = (job) => (settled = settled.then(job).catch((error) => tellFlaw(error.message)));
+
+/// Shows the start of the scene as it is chosen.
+async function look() {
+  const found = await startOf(starter, by('text').value, setWords(sliders.changes()));
+  start = found.motion;
+  tellFlaw(found.complaint);
+  sketch.show(start);
+  showSliders(sliders.changes());
+}
+
+/// Another start, {path: number}, of which the numbers in `held` stay as they are.
+async function move(numbers, held = []) {
+  const found = await projected(starter, by('text').value, {...sliders.changes(), ...numbers}, held);
+  if (found.complaint) return refuse(found.complaint);
+  by('text').value = found.text;
+  showSliders({});
+  remember();
+  await look();
+}
+
+/// What was moved goes back.
+function refuse(complaint) {
+  tellFlaw(complaint);
+  sketch.show(start);
+  showSliders(sliders.changes());
 }
 
 /// Runs a command, which finds the scene as it is edited.
 const command = (words, wanted = []) => place.run(words, {files: {[file]: by('text').value}, wanted});
 
 async function run() {
+  place.busy(true);
+  await settled;
   remember();
   const words = commandWords(file);
   const result = await command([...words, '--plot', 'page.html', '--json'], ['page.html']);
-  by('flaw').textContent = '';
   page = result.files['page.html'] ?? '';
-  by('save-page').disabled = !page;
+  for (const name of ['save-page', 'save-picture', 'save-film']) by(name).disabled = !page;
   if (!page) {
-    place.tell(complaintOf(result));
-    if (/scene\.toml/.test(result.err)) by('flaw').textContent = complaintOf(result);
+    const flawed = result.err.includes(file);
+    if (flawed) tellFlaw(complaintOf(result));
+    place.tell(flawed ? 'The scene is refused, as told below it.' : complaintOf(result));
     return;
   }
+  tellFlaw('');
   by('page').srcdoc = page;
-  by('table').replaceChildren(tableOfRuns(runsOf(JSON.parse(result.out))));
+  const runs = runsOf(JSON.parse(result.out)), {text, scene, set, step, until, precision} = state();
+  by('table').replaceChildren(tableOfRuns(runs));
+  soFar.add(JSON.stringify([text ?? scene, set, until]), runs, `step ${step || 'of its own'}, ${precision}`);
+  by('portrait-part').hidden = false;
+  portrait.show(new Motion(dataOf(page)), runs.map((run) => run.resolved ?? run.method));
   place.tell('Done.');
 }
 
 function save(name, text, kind) {
   const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([text], {type: kind}));
+  link.href = URL.createObjectURL(text instanceof Blob ? text : new Blob([text], {type: kind}));
   link.download = name;
   link.click();
   URL.revokeObjectURL(link.href);
@@ -181,15 +165,26 @@ function save(name, text, kind) {
 for (const name of Object.keys(hbvmScenes)) by('scene').append(new Option(name.replaceAll('_', ' '), name));
 for (const name of hbvmMethods) by('known').append(new Option(name));
 
+/// Another text: what is known of the one before is forgotten.
+function edited(set) {
+  start = null;
+  sliders.forget();
+  showSliders(set);
+  tellScene();
+  inTurn(look);
+}
+
 by('scene').addEventListener('change', () => {
   by('text').value = hbvmScenes[by('scene').value];
-  showSliders();
-  tellScene();
+  edited({});
 });
-by('text').addEventListener('change', () => {
-  showSliders(changes());
-  tellScene();
+by('text').addEventListener('change', () => edited(sliders.changes()));
+by('sliders').addEventListener('change', ({target}) => {
+  const {path, start: ofStart} = target.dataset;
+  inTurn(ofStart ? () => move({[path]: Number(sliders.valueAt(target))}, [path]) : look);
 });
+by('project').addEventListener('click', () => inTurn(() => move({})));
+by('portrait').addEventListener('change', remember);
 by('add').addEventListener('click', () => {
   addMethod('hbvm:4,2');
   remember();
@@ -202,6 +197,18 @@ by('controls').addEventListener('submit', (event) => {
 });
 by('link').addEventListener('click', () => navigator.clipboard.writeText(location.href));
 by('save-page').addEventListener('click', () => save(`${by('scene').value}.html`, page, 'text/html'));
+by('save-picture').addEventListener('click', () => {
+  const charts = [...chartsOfPage(dataOf(page), 760), ...document.querySelectorAll('#results .chart')];
+  save(`${by('scene').value}.svg`, pictureFile(charts), 'image/svg+xml');
+});
+by('save-film').addEventListener('click', async () => {
+  by('save-film').disabled = true;
+  place.tell('Recording one play of the motion …');
+  const film = await filmOf(by('page').contentDocument);
+  by('save-film').disabled = false;
+  place.tell(film ? 'Done.' : 'This browser records no video.');
+  if (film) save(`${by('scene').value}.${film.type.split('/')[1]}`, film);
+});
 by('save-scene').addEventListener('click', () => save(`${by('scene').value}.toml`, by('text').value, 'text/plain'));
 by('save-csv').addEventListener('click', async () => {
   const chosen = state();
@@ -215,6 +222,16 @@ by('execute').addEventListener('click', async () => {
   if (words[0] === 'hbvm') words.shift();
   const result = await command(words);
   by('output').textContent = [result.out, result.err].filter(Boolean).join('\n');
+});
+
+let width = window.innerWidth;
+window.addEventListener('resize', () => {
+  // A phone's bars come and go with another height alone.
+  if (window.innerWidth === width) return;
+  width = window.innerWidth;
+  sketch.show(start);
+  soFar.draw();
+  portrait.draw();
 });
 
 restore(stateOfHash(location.hash));

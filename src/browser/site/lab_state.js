@@ -1,7 +1,7 @@
 'use strict';
 
 /// The state of the lab's controls, which its address holds:
-/// {scene, text, set, methods, step, until, precision, reference}, in which any may be left out.
+/// {scene, text, set, methods, step, until, precision, reference, portrait}, in which any may be left out.
 
 const labPrecisions = ['double', '34', '50', '100', '200'];
 

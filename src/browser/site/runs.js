@@ -27,7 +27,7 @@ function tableOf(columns, items) {
 /// Errors, right digits and time of each run.
 function tableOfRuns(runs) {
   const columns = [
-    ['integrator', (run) => run.resolved ?? run.method], ['max |H - H₀|', (run) => shortNumber(run.e_H)],
+    ['integrator', (run) => run.resolved ?? run.method], ['max |H\u00a0−\u00a0H₀|', (run) => shortNumber(run.e_H)],
     ['max |g|', (run) => shortNumber(run.e_g)], ['hidden constraint', (run) => shortNumber(run.e_hid)],
     ['right digits', (run) => (run.digits === undefined || run.digits === null ? '' : Number(run.digits).toFixed(1))],
     ['seconds', (run) => Number(run.cpu_seconds).toPrecision(2)],
