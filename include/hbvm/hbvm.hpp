@@ -18,6 +18,7 @@
 #include "hbvm/results.hpp"
 #include "hbvm/run.hpp"
 #include "hbvm/scene.hpp"
+#include "hbvm/scheme.hpp"
 #include "hbvm/study.hpp"
 #include "hbvm/table.hpp"
 #include "hbvm/version.hpp"

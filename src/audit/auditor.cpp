@@ -10,7 +10,7 @@
 #include "exactness.hpp"
 #include "interruption.hpp"
 #include "measurements.hpp"
-#include "method/rooted_trees.hpp"
+#include "method/order_conditions.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"
@@ -509,9 +509,9 @@ void Auditor::measure_tableau() {
     const bool nearly = unstated && is_nearly_of_next_order(tableau, found);
     if (unstated && (typo || nearly)) f.verdict = Verdict::fails;
     // By the trees alone no more can be told of a method that has a higher order by other conditions.
-    if (!holds && found == max_tree_order && f.claim.form == Form::at_least) {
+    if (!holds && found == deciding_tree_order && f.claim.form == Form::at_least) {
       f.verdict = Verdict::undecidable;
-      f.reason = "the conditions of all trees, to order " + std::to_string(max_tree_order) +
+      f.reason = "the conditions of all trees, to order " + std::to_string(deciding_tree_order) +
                  ", are met; higher ones are looked at by B, C and D alone, which a method need not meet";
     } else {
       f.reason = words_on_order(f, found);

@@ -54,7 +54,7 @@ EachCondition<Mpfr> defects_of(const RungeKutta<Mpfr>& method) {
     all.push_back(own);
     if (all.size() > 1) raise_to(all.back(), all[all.size() - 2]);
   };
-  for (const Mpfr& defect : order_defects(method, std::min(max_tree_order, 2 * s))) add(defects.trees, defect);
+  for (const Mpfr& defect : order_defects(method, std::min(deciding_tree_order, 2 * s))) add(defects.trees, defect);
   for (int n = 1; n <= 2 * s; ++n) add(defects.B, condition_B(method, n));
   for (int n = 1; n <= s; ++n) {
     add(defects.C, condition_C(method, n));

@@ -36,7 +36,7 @@ class CoefficientCheck {
   const std::optional<Decimals>& decimals() const { return decimals_; }
   /// Of HBVM(k, s), B(2k), C(s), D, X_s, W and symmetry.
   int definition() const { return definition_; }
-  /// Of a tableau, all conditions up to an order: of the rooted trees to max_tree_order, beyond that B, C and D by
+  /// Of a tableau, all conditions up to an order: of the rooted trees to deciding_tree_order, beyond that B, C and D by
   /// Butcher's theorem.
   Met order(int p) const;
   /// The order that its conditions show to so many digits, and the one that they show.

@@ -78,7 +78,7 @@ class TypoSearch {
   /// Trees of the orders above the one there is, up to this.
   long conditions_won(int order) const {
     long won = 0;
-    for (const RootedTree& tree : rooted_trees(std::min(order, max_tree_order))) won += tree.order > order_;
+    for (const RootedTree& tree : rooted_trees(std::min(order, deciding_tree_order))) won += tree.order > order_;
     return won;
   }
 
@@ -99,7 +99,7 @@ std::optional<Typo> typo_of(const Tableau& tableau, int order, int digits) {
 }
 
 bool is_nearly_of_next_order(const Tableau& tableau, int order) {
-  if (order >= std::min(max_tree_order, 2 * static_cast<int>(tableau.b.size()))) return false;
+  if (order >= std::min(deciding_tree_order, 2 * static_cast<int>(tableau.b.size()))) return false;
   const PrecisionScope scope(scope_digits);
   Mpfr worst = 0;
   const auto residuals = order_residuals(make_runge_kutta<Mpfr>(tableau), order + 1);

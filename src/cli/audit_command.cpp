@@ -13,6 +13,7 @@
 #include "audit/report.hpp"
 #include "commands.hpp"
 #include "hbvm/error.hpp"
+#include "hbvm/scheme.hpp"
 #include "hbvm/version.hpp"
 #include "long_work.hpp"
 #include "method/method_spec.hpp"
@@ -20,6 +21,7 @@
 #include "processes/draw.hpp"
 #include "report/csvw.hpp"
 #include "scalar/literal.hpp"
+#include "scheme/scheme_text.hpp"
 #include "step/registry.hpp"
 #include "step/tableau_method.hpp"
 #include "write_file.hpp"
@@ -30,7 +32,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct AuditArguments {
-  std::optional<std::string> claims, method, until;
+  std::optional<std::string> claims, method, until, file, write;
+  std::optional<int> order, embedded_order;
   double limit = AuditOptions().limit;
   bool quick = false, full = false, json = false;
   WorkArguments work{"findings.jsonl"};
@@ -63,7 +66,8 @@ std::vector<Claim> claims_about(const std::string& method) {
   if (fs::is_regular_file(method) || (!known && names_a_file)) return tableau_claims(read_tableau(method));
   const MethodPtr parsed = parse_method(method);
   const TableauMethod* const tableau = as_tableau(*parsed);
-  if (tableau && tableau->formulation().on_constraints == OnConstraints::drift) return tableau_claims(tableau->tableau());
+  if (tableau && tableau->formulation().on_constraints == OnConstraints::drift)
+    return tableau_claims(tableau->tableau());
   return method_claims(parsed);
 }
 
@@ -98,7 +102,48 @@ Expression time_from(const std::string& text) {
   throw InputError("--until: '" + text + "' is no time after the start");
 }
 
+/// Whether this names a file of coefficients that are more than A, b and c of a Runge-Kutta method. What is wrong with
+/// a file is for its reader to say.
+bool is_other_scheme(const std::string& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return false;
+  try {
+    const SchemeText text = read_scheme_text(file);
+    const auto is_plain = [](const auto& array) {
+      return array.first == "A" || array.first == "b" || array.first == "c";
+    };
+    return fs::path(file).extension() != ".toml" || !text.family.empty() ||
+           !std::all_of(text.arrays.begin(), text.arrays.end(), is_plain);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Holds the coefficients in a file against their conditions.
+void scheme_command(const AuditArguments& o, const std::string& file) {
+  if (o.claims || o.quick || o.full || o.until || o.work.out || o.work.is_divided())
+    throw InputError("FILE: coefficients are held against their conditions alone; --claims, --quick, --full, --until " +
+                     std::string("and --out are for audits that make runs"));
+  const SchemeAudit found = audit_scheme({.file = file, .order = o.order, .embedded_order = o.embedded_order});
+  if (o.write) {
+    if (found.mended.empty())
+      throw InputError("--write: there is nothing to mend" +
+                       (found.repair_says.empty() ? std::string() : ": " + found.repair_says));
+    write_file(*o.write, found.mended);
+  }
+  if (o.json)
+    std::cout << to_json(found) << std::endl;
+  else
+    std::cout << (o.order || o.embedded_order ? to_line(found) + "\n" : to_text(found)) << std::flush;
+  if (!found.holds) throw CLI::RuntimeError(1);
+}
+
 void audit_command(const AuditArguments& o) {
+  if (o.file && o.method) throw InputError("FILE and --method: name one of them");
+  if (o.file) return scheme_command(o, *o.file);
+  if (o.method && is_other_scheme(*o.method)) return scheme_command(o, *o.method);
+  if (o.order || o.embedded_order || o.write)
+    throw InputError("--order, --embedded-order and --write are for a FILE of coefficients: hbvm audit FILE --order 4");
   const std::vector<Claim> claims = claims_of(o);
   std::string command = "hbvm audit";
   if (o.method) command += " --method " + *o.method;
@@ -153,6 +198,13 @@ void add_audit_command(CLI::App& app) {
   auto o = std::make_shared<AuditArguments>();
   CLI::App* const command =
       app.add_subcommand("audit", "Decide the paper's claims, or your own, with as many digits as it takes");
+  command->add_option("FILE", o->file,
+                      "Hold the coefficients in this file against their order conditions, and find a wrong entry: "
+                      "TOML, JSON or a printed tableau, of any family; no runs are made");
+  command->add_option("--order", o->order,
+                      "The order that the coefficients of FILE should have; the answer is one line");
+  command->add_option("--embedded-order", o->embedded_order, "That of its embedded weights");
+  command->add_option("--write", o->write, "Write the mended coefficients of FILE into this TOML file");
   command->add_option("--claims", o->claims,
                       "Only claims whose label, quantity, problem or method holds this text; or a TOML file of claims");
   auto* const quick = command->add_flag("--quick", o->quick, "s = 1, 2, 3 (default): about a minute");

@@ -97,19 +97,26 @@ std::optional<std::string> fraction_of(const Written& w) {
 }  // namespace
 
 std::optional<Decimals> decimals_of(const Tableau& tableau) {
+  std::vector<std::string> numbers;
+  for_each_number(tableau, [&](const Number& x) { numbers.push_back(x.text()); });
+  return decimals_of(numbers, tableau.digits);
+}
+
+bool has_decimal(const std::string& number) { return !decimals_in(number).empty(); }
+
+std::optional<Decimals> decimals_of(const std::vector<std::string>& numbers, std::optional<int> said) {
   std::vector<Written> rounded, all;
-  for_each_number(tableau, [&](const Number& x) {
-    for (const Written& w : decimals_in(x.text())) {
+  for (const std::string& number : numbers)
+    for (const Written& w : decimals_in(number)) {
       all.push_back(w);
       if (!looks_exact(w)) rounded.push_back(w);
     }
-  });
-  if (rounded.empty() && !tableau.digits) return std::nullopt;
+  if (rounded.empty() && !said) return std::nullopt;
   const std::vector<Written>& shown = rounded.empty() ? all : rounded;
   if (shown.empty()) return std::nullopt;
   Decimals result;
-  if (tableau.digits) {
-    result.digits = *tableau.digits;
+  if (said) {
+    result.digits = *said;
   } else {
     // From 1/10 to 1, where places and digits are the same; greater ones; any.
     std::vector<int> counts;
@@ -137,7 +144,7 @@ RungeKutta<Mpfr> off_by_a_unit(const Tableau& tableau, const Decimals& decimals,
   const Mpfr unit = pow(Mpfr(10), -decimals.digits);
   std::mt19937 signs(pattern);
   const auto move = [&](Mpfr& x, const Number& from) {
-    if (decimals_in(from.text()).empty()) return;
+    if (!has_decimal(from.text())) return;
     const Mpfr size = std::max(Mpfr(1), magnitude(x));
     if (signs() % 2 == 0)
       x += unit * size;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "method/runge_kutta.hpp"
 
@@ -18,6 +19,10 @@ struct Decimals {
 /// are taken for rounded, unless they are whole multiples of 2^-30. The digits are the median of those that have a
 /// value from 1/10 to 1, if any have, and 16 for what a double prints. None if nothing is rounded.
 std::optional<Decimals> decimals_of(const Tableau& tableau);
+/// The same of any numbers. \param said the digits that their author says
+std::optional<Decimals> decimals_of(const std::vector<std::string>& numbers, std::optional<int> said);
+/// Whether a number is written with a decimal in it.
+bool has_decimal(const std::string& number);
 
 /// The coefficients with every decimal off by a unit in its last digit, up or down by `pattern`. Numbers below 1 have
 /// as many places.

@@ -119,14 +119,14 @@ S condition_D(const RungeKutta<S>& method, int r) {
 template <Scalar S>
 int order(const RungeKutta<S>& method, const S& tolerance) {
   // No method of s stages has an order above 2 s.
-  const int s = method.stages(), by_trees = std::min(max_tree_order, 2 * s);
+  const int s = method.stages(), by_trees = std::min(deciding_tree_order, 2 * s);
   int p = by_trees;
   for_each_condition(method, by_trees, [&](const RootedTree& tree, const S& residual) {
     if (magnitude(residual) <= tolerance) return true;
     p = tree.order - 1;
     return false;
   });
-  if (p < max_tree_order) return p;
+  if (p < deciding_tree_order) return p;
   const int B = fulfilled<S>(defect_B<S>, method, tolerance, 2 * s);
   const int C = fulfilled<S>(defect_C<S>, method, tolerance, s);
   const int D = fulfilled<S>(defect_D<S>, method, tolerance, s);

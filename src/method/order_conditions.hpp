@@ -31,8 +31,12 @@ S condition_C(const RungeKutta<S>& method, int q);
 template <Scalar S>
 S condition_D(const RungeKutta<S>& method, int r);
 
+/// Up to here the trees decide the order of a method; they are known up to max_tree_order.
+inline constexpr int deciding_tree_order = 10;
+
 /// The order that the conditions show when defects up to the tolerance count as 0. The trees decide it as far as
-/// max_tree_order. A higher one follows from Butcher's theorem, as min(p, 2 q + 2, q + r + 1) for B(p), C(q) and D(r).
+/// deciding_tree_order. A higher one follows from Butcher's theorem, as min(p, 2 q + 2, q + r + 1) for B(p), C(q) and
+/// D(r).
 template <Scalar S>
 int order(const RungeKutta<S>& method, const S& tolerance);
 

@@ -237,5 +237,34 @@ TEST(AuditCommand, DecidesClaimsAboutEveryMethod) {
           1, "fails");
 }
 
+/// Coefficients of any family are held against their conditions alone; the wrong entry is named, and mended in a file.
+TEST(AuditCommand, FindsAWrongEntryInAFile) {
+  const Folder folder;
+  const std::string right = "A = [[0,0,0,0],['1/2',0,0,0],[0,'1/2',0,0],[0,0,1,0]]\nb = ['1/6','1/3','1/3','1/6']\n";
+  std::string wrong = right;
+  wrong.replace(wrong.rfind("1/3"), 3, "1/8");
+  const std::string good = folder.write("good.toml", right), bad = folder.write("bad.toml", wrong),
+                    kicks = folder.write("kicks.json", R"({"a": ["1/2", "1/2"], "b": [1]})");
+  EXPECT_EQ(ended_with(0, {"audit", good, "--order", "4"}).out, good + ": holds: order 4\n");
+  EXPECT_EQ(ended_with(1, {"audit", bad, "--order", "4", "--write", folder / "mended.toml"}).out,
+            bad + ": fails: order 0; b[3] = 1/3, in place of 1/8\n");
+  expect_words(ended_with(0, {"audit", folder / "mended.toml"}).out,
+               {"order 4; its conditions are met exactly", "holds"});
+  expect_words(ended_with(1, {"audit", bad}).out, {"repair: b[3] = 1/3, in place of 1/8", "fails"});
+  EXPECT_EQ(Json::parse(ended_with(1, {"audit", bad, "--json"}).out).at("repair").at(0).at("exact"), "1/3");
+  // A file that is no plain tableau is one of these also by --method.
+  expect_words(ended_with(0, {"audit", "--method", kicks}).out, {"family splitting", "order 2"});
+}
+
+TEST(AuditCommand, RefusesWhatIsNotForAFile) {
+  const Folder folder;
+  const std::string file = folder.write("euler.toml", "A = [[0]]\nb = [1]\n");
+  expect_refused({"audit", file, "--quick"}, {"FILE", "conditions alone"});
+  expect_refused({"audit", file, "--method", "rk4"}, {"FILE and --method"});
+  expect_refused({"audit", "--method", "rk4", "--order", "4"}, {"--order", "FILE"});
+  expect_refused({"audit", file, "--write", folder / "mended.toml"}, {"nothing to mend"});
+  expect_refused({"audit", "nowhere.toml"}, {"nowhere.toml"});
+}
+
 }  // namespace
 }  // namespace hbvm::core

@@ -20,7 +20,7 @@ std::map<std::string, Folders> allowed() {
   std::map<std::string, Folders> result;
   Folders both_chains{""};
   result[""] = {""};
-  for (const std::vector<std::string>& chain : {std::vector<std::string>{"scalar", "linear", "basis", "toml", "method"},
+  for (const std::vector<std::string>& chain : {std::vector<std::string>{"scalar", "linear", "basis", "toml", "method", "scheme"},
                                                 {"scalar", "linear", "problem", "toml", "scene"}}) {
     Folders left{""};
     for (const std::string& folder : chain) {
