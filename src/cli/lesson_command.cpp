@@ -76,7 +76,7 @@ void add_lesson_check(CLI::App& lesson) {
   command->add_option("ANSWERS", o->file, "A TOML file, as `hbvm lesson begin` writes it")->required();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer(
-      "Example: hbvm lesson check 6 answers.toml\nThe exit code is 1 if an answer is missing or not right.");
+      "The exit code is 1 if an answer is missing or not right.\nExample: hbvm lesson check 6 answers.toml");
   command->callback([o] { check_lesson_command(*o); });
 }
 

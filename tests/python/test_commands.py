@@ -2,6 +2,7 @@
 import pathlib
 import pickle
 import shutil
+from fractions import Fraction
 
 import mpmath
 import numpy as np
@@ -102,6 +103,21 @@ def test_a_tableau_is_audited():
     assert "1.6667e-01" in wrong.findings[0].reason
     assert "order conditions" in repr(right) and right.table("csv").startswith("verdict,")
     assert "| verdict" in right.table("markdown") and "tabular" in right.table("latex")
+
+
+def test_coefficients_are_judged_and_mended(tmp_path):
+    wrong = {"A": [[0, 0, 0], [Fraction(1, 2), 0, 0], [-1, 2, 0]], "b": ["1/6", "2/3", "1/8"]}
+    found = hbvm.coefficients(wrong, order=3)
+    assert not found.holds
+    assert [(entry.entry, entry.exact) for entry in found.repair] == [("b[3]", "1/6")]
+    assert "repair: b[3] = 1/6" in repr(found)
+    file = tmp_path / "mended.toml"
+    file.write_text(found.mended)
+    mended = hbvm.coefficients(file)
+    assert mended.holds and mended.orders[0].order == 3
+    assert repr(pickle.loads(pickle.dumps(mended))) == repr(mended)
+    with pytest.raises(hbvm.InputError, match="no family"):
+        hbvm.coefficients({"q": [1]})
 
 
 def test_files_texts_and_methods_are_audited():

@@ -20,8 +20,9 @@ std::map<std::string, Folders> allowed() {
   std::map<std::string, Folders> result;
   Folders both_chains{""};
   result[""] = {""};
-  for (const std::vector<std::string>& chain : {std::vector<std::string>{"scalar", "linear", "basis", "toml", "method", "scheme"},
-                                                {"scalar", "linear", "problem", "toml", "scene"}}) {
+  for (const std::vector<std::string>& chain :
+       {std::vector<std::string>{"scalar", "linear", "basis", "toml", "method", "scheme"},
+        {"scalar", "linear", "problem", "toml", "scene"}}) {
     Folders left{""};
     for (const std::string& folder : chain) {
       left.insert(folder);

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._against import Against
 from ._audit import Audit, audit
+from ._coefficients import Coefficients, coefficients
 from ._columns import Columns, read_csv
 from ._cost import Plan, cost
 from ._errors import Error, InputError, IntegrationError, Interrupted
@@ -34,9 +35,9 @@ if TYPE_CHECKING:
     from ._arrays import Numbers
 
 __all__ = [
-    "Against", "Audit", "Columns", "Comparison", "Convergence", "Error", "Exact", "FloatWarning", "InputError",
+    "Against", "Audit", "Coefficients", "Columns", "Comparison", "Convergence", "Error", "Exact", "FloatWarning", "InputError",
     "IntegrationError", "Interrupted", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Plan", "Record", "Reference",
-    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "check_lesson", "check_proof", "compare", "convergence", "cost", "kept",
+    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "check_lesson", "check_proof", "coefficients", "compare", "convergence", "cost", "kept",
     "lessons", "methods", "nodes", "precision_of", "read_csv", "reference", "run", "scene", "scenes", "study", "verify_order",
 ]
 

@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 #include "hbvm/audit.hpp"
+#include "hbvm/scheme.hpp"
 #include "supervision.hpp"
 
 namespace py = pybind11;
@@ -47,6 +48,13 @@ void add_audit(py::module_& module) {
       },
       py::kw_only(), py::arg("claims"), py::arg("jobs"), py::arg("limit"), py::arg("until"),
       py::arg("coefficient_digits"), py::arg("progress"));
+  module.def(
+      "audit_scheme",
+      [](const std::string& file, std::optional<int> order, std::optional<int> embedded_order) {
+        const SchemeAudit found = audit_scheme({.file = file, .order = order, .embedded_order = embedded_order});
+        return std::tuple(to_json(found), to_text(found), found.mended);
+      },
+      py::arg("file"), py::arg("order"), py::arg("embedded_order"), py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace hbvm::python
