@@ -1,12 +1,9 @@
 #include "scheme/exact_form.hpp"
 
-#include <flint/fmpz.h>
-#include <flint/fmpz_lll.h>
-#include <flint/fmpz_mat.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "scalar/scalar.hpp"
 
@@ -36,36 +33,26 @@ std::string fraction(const Mpfr& x, int digits) {
   return {};
 }
 
-/// c with c_2 x^2 + c_1 x + c_0 = 0, by a short vector of a lattice (A. Lenstra, H. Lenstra and L. Lovasz, 1982).
-/// Nothing if the numbers are not small.
+/// c with c_2 x^2 + c_1 x + c_0 = 0 and the smallest c_2 up to 1000. Nothing if there is none that x shows by its
+/// digits.
 std::vector<long> quadratic_equation(const Mpfr& x, int digits) {
-  fmpz_mat_t lattice;
-  fmpz_mat_init(lattice, 3, 4);
-  Mpfr power = pow(Mpfr(10), digits);
-  for (int n = 0; n < 3; ++n) {
-    fmpz_set_si(fmpz_mat_entry(lattice, n, n), 1);
-    const std::string scaled = whole(floor(Mpfr(power + Mpfr(1) / 2)));
-    fmpz_set_str(fmpz_mat_entry(lattice, n, 3), scaled.c_str(), 10);
-    power *= x;
-  }
-  fmpz_lll_t context;
-  fmpz_lll_context_init_default(context);
-  fmpz_lll(lattice, nullptr, context);
-  std::vector<long> c;
-  double sizes = 0;
-  for (int n = 0; n < 3; ++n) {
-    const fmpz* const entry = fmpz_mat_entry(lattice, 0, n);
-    if (!fmpz_fits_si(entry)) {
-      fmpz_mat_clear(lattice);
-      return {};
+  constexpr long most = 1'000;
+  constexpr long largest = 100'000;  // whose squares are counted in a long
+  const double near = approximately(x), unclear = epsilon<double>() * most * 1'000 * (1 + near * near);
+  const Mpfr unit = pow(Mpfr(10), -digits);
+  if (!(std::abs(near) <= static_cast<double>(largest))) return {};
+  for (long square = 1; square <= most; ++square)
+    for (long linear = -2 * most; linear <= 2 * most; ++linear) {
+      const double sum = (static_cast<double>(square) * near + static_cast<double>(linear)) * near;
+      if (std::abs(sum - std::round(sum)) > unclear) continue;
+      const long constant = -std::lround(sum);
+      double size = 0;
+      for (const long c : {square, linear, constant})
+        size += std::log10(std::max<double>(1, std::abs(static_cast<double>(c))));
+      const Mpfr off = (square * x + linear) * x + constant;
+      if (size + spare_digits <= digits && magnitude(off) <= most * unit) return {constant, linear, square};
     }
-    c.push_back(fmpz_get_si(entry));
-    sizes += std::log10(std::max<double>(1, std::abs(static_cast<double>(c.back()))));
-  }
-  fmpz_mat_clear(lattice);
-  constexpr long most = 100'000'000;  // whose squares are counted in a long
-  const bool small = std::all_of(c.begin(), c.end(), [](long n) { return std::abs(n) < most; });
-  return small && sizes + spare_digits <= digits && c[2] != 0 ? c : std::vector<long>();
+  return {};
 }
 
 std::string with_root(const Mpfr& x, int digits) {
