@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct SchemeRequest {
   std::optional<int> order = {};           ///< that is claimed, in place of what the file states
   std::optional<int> embedded_order = {};  ///< likewise
   int most_mended = 2;                     ///< entries that a repair may change: 0, 1 or 2
+  std::stop_token stop = {};
 };
 
 /// The order of one set of weights.
@@ -43,9 +45,10 @@ struct MendedNumber {
 struct SchemeAudit {
   std::string file, name, family;
   int entries = 0;
-  int digits = 0;              ///< of decimals that are rounded; 0 if the numbers are exact
-  std::optional<double> rows;  ///< digits to which c are the row sums of A, or the like; nothing if there is no c
-  bool consistent = true;      ///< these are all there can be
+  int digits = 0;  ///< of decimals that are rounded; 0 if the numbers are exact
+  /// Digits to which c are the row sums of A, or what is to hold at any order does; nothing if there is no c.
+  std::optional<double> rows;
+  bool consistent = true;  ///< that holds to all digits that the numbers have
   std::vector<SchemeOrder> orders;
   std::vector<std::string> facts;    ///< "explicit", "first same as last", "R(inf) = 0", with their digits
   std::vector<MendedNumber> repair;  ///< empty if nothing fails, or if the conditions do not determine it
@@ -55,7 +58,7 @@ struct SchemeAudit {
   bool holds = false;
 };
 
-/// \throws InputError with the file and what is wrong
+/// \throws InputError with the file and what is wrong; Interrupted
 SchemeAudit audit_scheme(const SchemeRequest& request);
 
 /// What a reader wants first: orders with their digits, facts, and the repair.

@@ -22,6 +22,7 @@
 #include "report/csvw.hpp"
 #include "scalar/literal.hpp"
 #include "scheme/scheme_text.hpp"
+#include "signals.hpp"
 #include "step/registry.hpp"
 #include "step/tableau_method.hpp"
 #include "write_file.hpp"
@@ -124,6 +125,7 @@ void scheme_command(const AuditArguments& o, const std::string& file) {
   if (o.claims || o.quick || o.full || o.until || o.work.out || o.work.is_divided())
     throw InputError("FILE: coefficients are held against their conditions alone; --claims, --quick, --full, --until " +
                      std::string("and --out are for audits that make runs"));
+  end_runs_on_signals();
   const SchemeAudit found = audit_scheme({.file = file, .order = o.order, .embedded_order = o.embedded_order});
   if (o.write) {
     if (found.mended.empty())

@@ -10,14 +10,13 @@
 #include "hbvm/run.hpp"
 #include "hbvm/study.hpp"
 #include "long_work/json.hpp"
+#include "method/method_spec.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double longest = 60;  // seconds
 
 /// A folder of files that is gone afterwards.
 class Files {
@@ -51,18 +50,18 @@ class Files {
 /// Ends work that takes too long, and that which the caller wants to end.
 class Limit {
  public:
-  explicit Limit(const std::stop_token& stop) : asked_(stop) {}
+  Limit(const std::stop_token& stop, double seconds) : asked_(stop), end_(elapsed_seconds() + seconds) {}
 
   std::stop_token token() const { return source_.get_token(); }
   void watch() {
-    if (asked_.stop_requested() || elapsed_seconds() - begin_ > longest) source_.request_stop();
+    if (asked_.stop_requested() || elapsed_seconds() >= end_) source_.request_stop();
   }
   bool is_over() const { return token().stop_requested() && !asked_.stop_requested(); }
 
  private:
   std::stop_token asked_;
   std::stop_source source_;
-  double begin_ = elapsed_seconds();
+  double end_;
 };
 
 hbvm::Scene scene_of(const Measure& measure) {
@@ -121,7 +120,11 @@ std::string json_of(const Measure& measure, Limit& limit) {
                                       .progress = progress,
                                       .stop = limit.token()}));
   hbvm::ReferenceRequest request{.scene = scene_of(measure), .times = {measure.until}};
-  if (!measure.digits.empty()) request.digits = static_cast<int>(std::stol(measure.digits));
+  if (!measure.digits.empty()) {
+    const std::optional<int> digits = whole_number(measure.digits);
+    if (!digits) throw InputError("'" + measure.digits + "' is no whole number of digits");
+    request.digits = *digits;
+  }
   request.progress = progress;
   request.stop = limit.token();
   return to_json(hbvm::reference(request));
@@ -129,8 +132,8 @@ std::string json_of(const Measure& measure, Limit& limit) {
 
 }  // namespace
 
-NamedTexts measured_values(const Measure& measure, const std::stop_token& stop) {
-  Limit limit(stop);
+NamedTexts measured_values(const Measure& measure, const std::stop_token& stop, double seconds) {
+  Limit limit(stop, seconds);
   std::string json;
   try {
     json = json_of(measure, limit);

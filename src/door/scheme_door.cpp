@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "door/door.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/scheme.hpp"
 #include "long_work/json.hpp"
@@ -188,6 +189,7 @@ std::string text_of(const SchemeOrder& order, int digits) {
 }  // namespace
 
 SchemeAudit audit_scheme(const SchemeRequest& request) {
+  const core::Admitted admitted(request.stop);
   if (request.most_mended < 0 || request.most_mended > 2)
     throw InputError("a repair changes at most 0, 1 or 2 entries, and not " + std::to_string(request.most_mended));
   SchemeText text = core::read_scheme_text(request.file);

@@ -7,39 +7,16 @@ namespace {
 constexpr int highest_of_partitioned = 12, highest_coupled = 6;
 
 /// A rooted tree whose vertices are of the first or the second equation.
-struct ColouredTree {
-  int order = 1;
-  long density = 1;
-  bool second = false;        ///< the colour of its root
-  std::vector<int> subtrees;  ///< places in the list, never increasing
+struct ColouredTree : RootedTree {
+  bool second = false;  ///< the colour of its root
 };
-
-/// Adds the trees that `tree` becomes by `missing` more vertices in subtrees none of which stands after `last`.
-void grow(std::vector<ColouredTree>& trees, ColouredTree& tree, int missing, int last) {
-  if (missing == 0) {
-    trees.push_back(tree);
-    trees.back().density *= tree.order;
-    return;
-  }
-  for (int t = last; t >= 0; --t) {
-    const auto at = static_cast<std::size_t>(t);
-    const int order = trees[at].order;
-    const long density = trees[at].density;
-    if (order > missing) continue;
-    tree.subtrees.push_back(t);
-    tree.density *= density;
-    grow(trees, tree, missing - order, t);
-    tree.density /= density;
-    tree.subtrees.pop_back();
-  }
-}
 
 std::vector<ColouredTree> coloured_trees(int order) {
   std::vector<ColouredTree> trees;
   for (int n = 1; n <= order; ++n) {
     const int last = static_cast<int>(trees.size()) - 1;
     for (const bool second : {false, true}) {
-      ColouredTree root{n, 1, second, {}};
+      ColouredTree root{{n, 1, {}}, second};
       grow(trees, root, n - 1, last);
     }
   }

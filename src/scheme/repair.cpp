@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "interruption.hpp"
 #include "scalar/scalar.hpp"
 #include "scalar/text.hpp"
 #include "scheme/exact_form.hpp"
@@ -139,6 +140,7 @@ class RepairSearch {
   void add(Repair& repair, const Places& places) const {
     // As many conditions as entries can be met by chance.
     if (conditions_ < static_cast<long>(places.size()) + 1) return;
+    end_if_asked("the search for wrong entries was interrupted");
     // From what is written; a single entry, or what is unknown, also from elsewhere.
     std::vector<std::optional<double>> starts;
     if (unknown_.empty()) starts.push_back(std::nullopt);

@@ -59,6 +59,16 @@ TEST(MeasuredValues, EndWhenTheyAreAskedTo) {
   Measure longer = run_of("/steps");
   longer.until = "100000000";
   EXPECT_THROW(measured_values(longer, source.get_token()), Interrupted);
+  expect_words(message_of([&] { measured_values(longer, {}, 0); }), {"longer than a minute", "longer steps"});
+}
+
+TEST(MeasuredValues, OfAReferenceHaveAWholeNumberOfDigits) {
+  Measure reference = run_of("/times/0/q/0");
+  reference.kind = "reference";
+  reference.digits = "20";
+  EXPECT_GT(measured_values(reference, {}).at(0).second.size(), 20u);
+  reference.digits = "many";
+  expect_words(message_of([&] { measured_values(reference, {}); }), {"'many'", "whole number"});
 }
 
 }  // namespace

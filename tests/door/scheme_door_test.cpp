@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "folder.hpp"
+#include "hbvm/error.hpp"
 #include "hbvm/scheme.hpp"
 #include "scheme/tables.hpp"
 #include "words.hpp"
@@ -79,6 +80,14 @@ TEST(DoorSchemes, SayWhatIsNotDetermined) {
   EXPECT_FALSE(found.holds);
   EXPECT_TRUE(found.repair.empty() && found.mended.empty());
   core::expect_words(found.repair_says, {"do not determine one"});
+}
+
+TEST(DoorSchemes, EndWhenTheyAreAskedTo) {
+  std::stop_source source;
+  source.request_stop();
+  SchemeRequest request;
+  request.stop = source.get_token();
+  EXPECT_THROW(audited(with_typo, request), Interrupted);
 }
 
 TEST(DoorSchemes, AreTold) {

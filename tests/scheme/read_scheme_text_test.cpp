@@ -51,6 +51,7 @@ TEST(SchemeTexts, SayWhatIsWrong) {
   expect_words(refusal("1 2 3\n", "txt"), {"mine.txt", "row of weights"});
   expect_words(refusal("1 2 3 4 5\n1 2\n3\n", "txt"), {"mine.txt", "no tableau"});
   EXPECT_THROW(read_scheme_text("/nowhere.toml"), InputError);
+  expect_words(refusal(std::string(10'000'001, '#'), "txt"), {"mine.txt", "too large"});
 }
 
 }  // namespace

@@ -51,10 +51,14 @@ void add_audit(py::module_& module) {
   module.def(
       "audit_scheme",
       [](const std::string& file, std::optional<int> order, std::optional<int> embedded_order) {
-        const SchemeAudit found = audit_scheme({.file = file, .order = order, .embedded_order = embedded_order});
-        return std::tuple(to_json(found), to_text(found), found.mended);
+        Supervision supervision(py::none{});
+        return supervision.of([&] {
+          const SchemeAudit found = audit_scheme(
+              {.file = file, .order = order, .embedded_order = embedded_order, .stop = supervision.token()});
+          return std::tuple(to_json(found), to_text(found), found.mended);
+        });
       },
-      py::arg("file"), py::arg("order"), py::arg("embedded_order"), py::call_guard<py::gil_scoped_release>());
+      py::arg("file"), py::arg("order"), py::arg("embedded_order"));
 }
 
 }  // namespace hbvm::python
