@@ -24,7 +24,8 @@ struct Repair {
 /// Sets of one entry and of two are tried. A set counts only where the conditions determine it: their Jacobian has full
 /// rank there, and there are more conditions than entries. Newton's iteration, in double and then in the digits of the
 /// scope.
-/// \throws Interrupted \param targets an order for each part; 0 leaves it out
+/// \param targets an order for each part; 0 leaves it out
+/// \throws Interrupted
 Repair repair_of(const Scheme& scheme, const Rounding& rounding, const std::vector<int>& targets, int most_entries);
 
 }  // namespace hbvm::core
