@@ -17,7 +17,7 @@ struct Blank {
 
 using Answers = std::map<std::string, std::string>;  ///< from the name of a blank to what was filled in
 
-/// Something to be found out. It is judged by running methods, or by a word that is right by definition.
+/// Something to be found out. It is judged by running methods.
 struct Exercise {
   std::string name, asks;  ///< asks is Markdown
   std::string hint;        ///< for who has it wrong

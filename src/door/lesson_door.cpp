@@ -66,19 +66,15 @@ Judgement judged(const Exercise& exercise, const core::Judge& judge, const Answe
   Judgement result{exercise.name, false, false, flaw(exercise, answers)};
   if (!result.says.empty()) return result;
   result.answered = true;
-  if (!judge.right.empty()) {
-    result.right = answers == judge.right;
-  } else {
-    try {
-      const core::Constants known = numbers(judge, answers, stop);
-      result.right = std::all_of(judge.holds.begin(), judge.holds.end(),
-                                 [&](const core::Inequality& inequality) { return inequality.holds(known); });
-    } catch (const Interrupted&) {
-      throw;
-    } catch (const Error& error) {
-      result.says = std::string("the engine cannot judge this answer: ") + error.what();
-      return result;
-    }
+  try {
+    const core::Constants known = numbers(judge, answers, stop);
+    result.right = std::all_of(judge.holds.begin(), judge.holds.end(),
+                               [&](const core::Inequality& inequality) { return inequality.holds(known); });
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error& error) {
+    result.says = std::string("the engine cannot judge this answer: ") + error.what();
+    return result;
   }
   if (!result.right) result.says = exercise.hint;
   return result;

@@ -77,11 +77,6 @@ class LessonReader {
     exercise.solution = answers(read, "solution", exercise);
     exercise.wrong = answers(read, "wrong", exercise);
     Judge judge;
-    if (read.has("right")) {
-      judge.right = answers(read, "right", exercise);
-      read.finish();
-      return judge;
-    }
     for (const toml::table* measure : read.tables("measure"))
       judge.measures.push_back(with_files(read_measure(source_, *measure, read.what() + ", measure")));
     for (const std::string& inequality : read.strings("holds")) {

@@ -10,10 +10,8 @@
 
 namespace hbvm::core {
 
-/// How an exercise is judged. Either `right` has the words that are right, or all of `holds` must hold of what is
-/// measured and of the numbers that were answered.
+/// How an exercise is judged: all of `holds` must hold of what is measured and of the numbers that were answered.
 struct Judge {
-  Answers right;
   std::vector<Measure> measures;
   std::vector<Inequality> holds;
 };

@@ -12,10 +12,10 @@ files."a.toml" = "A = [[{a}]]"
 name = "guess"
 asks = "What grows?"
 says = "The rod."
-right = { choice = "g" }
-solution = { choice = "g" }
-wrong = { choice = "H" }
-blanks.choice = { asks = "Which?", choices = ["H", "g"] }
+holds = ["1 < choice"]
+solution = { choice = "2" }
+wrong = { choice = "1" }
+blanks.choice = { asks = "Which?", choices = ["1", "2"] }
 [[experiment]]
 name = "run"
 asks = "See."
@@ -45,9 +45,9 @@ TEST(ToldLessons, AreReadWithTheirJudges) {
   EXPECT_EQ(told.lesson.number, 7);
   EXPECT_EQ(told.lesson.name, "07_drift");
   EXPECT_EQ(told.lesson.minutes, 45);
-  EXPECT_EQ(told.lesson.question.blanks.at(0).choices, (std::vector<std::string>{"H", "g"}));
+  EXPECT_EQ(told.lesson.question.blanks.at(0).choices, (std::vector<std::string>{"1", "2"}));
   EXPECT_EQ(told.lesson.question.hint, "The rod.");
-  EXPECT_EQ(told.of_question.right, (Answers{{"choice", "g"}}));
+  EXPECT_EQ(told.of_question.holds.size(), 1u);
   EXPECT_EQ(told.lesson.experiments.at(0).choices.at(0).second, (std::vector<std::string>{"1/4", "1/8"}));
   EXPECT_EQ(told.lesson.exercises.at(0).blanks.at(0).like, "3");
   EXPECT_EQ(told.of_exercises.at(0).measures.at(0).kind, "convergence");

@@ -23,6 +23,7 @@ TEST(PartitionedSchemes, SeeWhetherTheTwoFit) {
   const std::string both = "A = " + rk4 + "\nb = ['1/6','1/3','1/3','1/6']\nA_hat = ";
   EXPECT_EQ(order_of(both + rk4 + "\nb_hat = ['1/6','1/3','1/3','1/6']\n", 1), 4);
   EXPECT_LT(order_of(both + rk38 + "\nb_hat = ['1/8','3/8','3/8','1/8']\n", 1), 4);
+  EXPECT_EQ(order_of(both + rk38 + "\nb_hat = ['1/8','3/8','3/8','1/8']\n", 0), 2);
 }
 
 }  // namespace

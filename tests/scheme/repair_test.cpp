@@ -65,6 +65,8 @@ TEST(Repairs, OfDecimalsHaveTheirDigits) {
 TEST(Repairs, SayNothingThatIsNotDetermined) {
   // Any a makes a method of order 2 with its own weights.
   EXPECT_TRUE(repair("A = [[0,0],['?',0]]\nb = ['?','?']\n", {2}).ways.empty());
+  // Four conditions and three unknowns, one of which is free: the node c_2 of Heun's third order method.
+  EXPECT_TRUE(repair("A = [[0,0,0],['?',0,0],['?','?',0]]\nb = ['1/4',0,'3/4']\n", {3}).ways.empty());
   // A right one is not changed.
   EXPECT_TRUE(repair(fehlberg, {5, 4}, 1).ways.empty());
   // Order 6 is out of its reach.
