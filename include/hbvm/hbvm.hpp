@@ -19,6 +19,7 @@
 #include "hbvm/run.hpp"
 #include "hbvm/scene.hpp"
 #include "hbvm/scheme.hpp"
+#include "hbvm/solver.hpp"
 #include "hbvm/study.hpp"
 #include "hbvm/table.hpp"
 #include "hbvm/version.hpp"

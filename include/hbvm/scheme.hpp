@@ -48,7 +48,10 @@ struct SchemeAudit {
   int digits = 0;  ///< of decimals that are rounded; 0 if the numbers are exact
   /// Digits to which c are the row sums of A, or what is to hold at any order does; nothing if there is no c.
   std::optional<double> rows;
-  bool consistent = true;  ///< that holds to all digits that the numbers have
+  bool consistent = true;  ///< that holds to all digits that the numbers have; or the next
+  /// c are not the row sums, and the order is that of y' = f(t, y) all the same, as of some methods of Lobatto.
+  bool own_nodes = false;
+  bool rounded_fractions = false;  ///< fractions with many digits stand for other numbers
   std::vector<SchemeOrder> orders;
   std::vector<std::string> facts;    ///< "explicit", "first same as last", "R(inf) = 0", with their digits
   std::vector<MendedNumber> repair;  ///< empty if nothing fails, or if the conditions do not determine it
@@ -66,5 +69,7 @@ std::string to_text(const SchemeAudit& audit);
 /// One line for a job that checks.
 std::string to_line(const SchemeAudit& audit);
 std::string to_json(const SchemeAudit& audit);
+/// XML of JUnit, for services that run tests: a case for each order.
+std::string to_junit(const SchemeAudit& audit);
 
 }  // namespace hbvm

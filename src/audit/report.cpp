@@ -9,6 +9,7 @@
 
 #include "hbvm/version.hpp"
 #include "long_work/json.hpp"
+#include "report/junit.hpp"
 #include "step/hbvm_method.hpp"
 
 namespace hbvm::core {
@@ -177,6 +178,20 @@ std::string to_json(const std::vector<Finding>& findings, const std::string& com
   Json claims = Json::array();
   for (const Finding& f : findings) claims.push_back(json_of(f));
   return dumped({{"version", version()}, {"command", command}, {"summary", summary(findings)}, {"claims", claims}}, 1);
+}
+
+std::string to_junit(const std::vector<Finding>& findings, const std::string& command) {
+  using Outcome = JunitCase::Outcome;
+  std::vector<JunitCase> cases;
+  for (const Finding& f : findings)
+    cases.push_back({.group = f.claim.problem,
+                     .name = std::string(hbvm::core::name_of(f.claim.quantity)) + " of " + f.claim.method_text(),
+                     .outcome = f.verdict == Verdict::holds   ? Outcome::passed
+                                : f.verdict == Verdict::fails ? Outcome::failed
+                                                              : Outcome::skipped,
+                     .message = f.reason,
+                     .seconds = f.seconds});
+  return junit_xml(command, cases);
 }
 
 std::string to_result(const std::vector<Finding>& findings) {

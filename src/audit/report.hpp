@@ -18,6 +18,9 @@ Table audit_table(const std::vector<Finding>& findings, bool with_reasons = fals
 /// nothing but round-off, the interval of claims about coefficients.
 std::string to_json(const std::vector<Finding>& findings, const std::string& command);
 
+/// XML of JUnit, for services that run tests: a case for each claim.
+std::string to_junit(const std::vector<Finding>& findings, const std::string& command);
+
 /// "523 claims: 523 hold, 0 fail, 0 undecidable, 0 of degenerate motions, 0 not run".
 std::string summary(const std::vector<Finding>& findings);
 

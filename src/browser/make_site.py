@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import atlas_page
 import lesson_page
 import reference_page
 from handbook_page import Handbook
@@ -127,6 +128,15 @@ def add_references(site: Site, engine: Path) -> None:
     site.add(reference_page.list_page(known))
 
 
+def add_atlas(site: Site, engine: Path) -> None:
+    """The coefficients of the literature, with their files."""
+    folder = STUDIES / "atlas"
+    found = atlas_page.read_atlas(folder, ["node", str(HERE / "run_engine.js"), str(engine)])
+    site.add(atlas_page.atlas_page(folder, found))
+    for one in found:
+        site.copy(Path(one["file"]), atlas_page.file_address(folder, Path(one["file"])))
+
+
 def add_handbook(site: Site) -> None:
     """The handbook, and what its pages lead to."""
     handbook = Handbook(STUDIES, without=LESSONS)
@@ -153,6 +163,7 @@ def main() -> None:
         site.add(page)
     add_lessons(site)
     add_references(site, asked.engine)
+    add_atlas(site, asked.engine)
     add_handbook(site)
     if asked.address:
         site.write("sitemap.xml", site.sitemap(asked.address))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 # Addresses are below the site's folder; each names its file, since a folder opened as a file has no first page.
 SECTIONS = {"index.html": "hbvm", "lessons/index.html": "Lessons", "lab.html": "Lab",
-            "reference/index.html": "References", "handbook/index.html": "Handbook"}
+            "reference/index.html": "References", "atlas/index.html": "Atlas", "handbook/index.html": "Handbook"}
 PAPER = "https://arxiv.org/abs/2203.03275"
 
 

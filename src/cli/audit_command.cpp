@@ -11,14 +11,17 @@
 #include "audit/audit.hpp"
 #include "audit/claims.hpp"
 #include "audit/report.hpp"
+#include "audit_program.hpp"
 #include "commands.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/scheme.hpp"
 #include "hbvm/version.hpp"
 #include "long_work.hpp"
+#include "long_work/json.hpp"
 #include "method/method_spec.hpp"
 #include "method/read_tableau.hpp"
 #include "processes/draw.hpp"
+#include "progress_bar.hpp"
 #include "report/csvw.hpp"
 #include "scalar/literal.hpp"
 #include "scheme/scheme_text.hpp"
@@ -33,7 +36,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct AuditArguments {
-  std::optional<std::string> claims, method, until, file, write;
+  std::optional<std::string> claims, method, until, file, write, program, junit;
+  std::vector<std::string> scenes, map;
   std::optional<int> order, embedded_order;
   double limit = AuditOptions().limit;
   bool quick = false, full = false, json = false;
@@ -120,12 +124,45 @@ bool is_other_scheme(const std::string& file) {
   }
 }
 
+/// Those of coefficients in a folder, and in folders within.
+std::vector<std::string> scheme_files(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && (entry.path().extension() == ".toml" || entry.path().extension() == ".json"))
+      files.push_back(entry.path().string());
+  if (files.empty()) throw InputError(folder + ": there is no .toml or .json file in it");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Holds all coefficients of a folder against their conditions, a line each.
+void atlas_command(const AuditArguments& o, const std::string& folder) {
+  if (o.write || o.junit || o.order || o.embedded_order)
+    throw InputError("FILE: of a folder no --write, --junit, --order or --embedded-order can be");
+  ProgressBar bar(folder);
+  const std::vector<std::string> files = scheme_files(folder);
+  OrderedJson list = OrderedJson::array();
+  bool holds = true;
+  for (std::size_t n = 0; n < files.size(); ++n) {
+    bar.update(static_cast<long>(n), static_cast<long>(files.size()));
+    const SchemeAudit found = audit_scheme({.file = files[n]});
+    holds = holds && found.holds;
+    if (o.json)
+      list.push_back(OrderedJson::parse(to_json(found)));
+    else
+      std::cout << to_line(found) << std::endl;
+  }
+  if (o.json) std::cout << dumped(list, 2) << std::endl;
+  if (!holds) throw CLI::RuntimeError(1);
+}
+
 /// Holds the coefficients in a file against their conditions.
 void scheme_command(const AuditArguments& o, const std::string& file) {
   if (o.claims || o.quick || o.full || o.until || o.work.out || o.work.is_divided())
     throw InputError("FILE: coefficients are held against their conditions alone; --claims, --quick, --full, --until " +
                      std::string("and --out are for audits that make runs"));
   end_runs_on_signals();
+  if (std::error_code ignored; fs::is_directory(file, ignored)) return atlas_command(o, file);
   const SchemeAudit found = audit_scheme({.file = file, .order = o.order, .embedded_order = o.embedded_order});
   if (o.write) {
     if (found.mended.empty())
@@ -133,6 +170,7 @@ void scheme_command(const AuditArguments& o, const std::string& file) {
                        (found.repair_says.empty() ? std::string() : ": " + found.repair_says));
     write_file(*o.write, found.mended);
   }
+  if (o.junit) write_file(*o.junit, to_junit(found));
   if (o.json)
     std::cout << to_json(found) << std::endl;
   else
@@ -140,7 +178,22 @@ void scheme_command(const AuditArguments& o, const std::string& file) {
   if (!found.holds) throw CLI::RuntimeError(1);
 }
 
+/// Holds a program against references, by its runs.
+void program_command(const AuditArguments& o) {
+  if (o.file || o.method || o.claims || o.quick || o.full || o.write || o.embedded_order || o.work.out ||
+      o.work.is_divided())
+    throw InputError("--command: a program is judged by --order, --scene, --until, --map and --limit alone");
+  const SolverAudit found = audit_program(
+      {.command = *o.program, .scenes = o.scenes, .map = o.map, .order = o.order, .until = o.until, .limit = o.limit});
+  if (o.junit) write_file(*o.junit, to_junit(found));
+  std::cout << (o.json ? to_json(found) + "\n" : to_text(found)) << std::flush;
+  if (!found.holds) throw CLI::RuntimeError(1);
+  if (!found.decided) throw CLI::RuntimeError(4);
+}
+
 void audit_command(const AuditArguments& o) {
+  if (o.program) return program_command(o);
+  if (!o.scenes.empty() || !o.map.empty()) throw InputError("--scene and --map are for a program: --command");
   if (o.file && o.method) throw InputError("FILE and --method: name one of them");
   if (o.file) return scheme_command(o, *o.file);
   if (o.method && is_other_scheme(*o.method)) return scheme_command(o, *o.method);
@@ -166,6 +219,7 @@ void audit_command(const AuditArguments& o) {
     LongWork work(o.work, o.full || o.work.is_divided() ? folder : std::nullopt, "audit", options);
     findings = audit(claims, options);
   }
+  if (o.junit) write_file(*o.junit, to_junit(findings, command));
   Table table = audit_table(findings);
   table.provenance = {std::string("hbvm ") + version(), "command " + command, summary(findings)};
   if (folder) {
@@ -202,11 +256,19 @@ void add_audit_command(CLI::App& app) {
       app.add_subcommand("audit", "Decide the paper's claims, or your own, with as many digits as it takes");
   command->add_option("FILE", o->file,
                       "Hold the coefficients in this file against their order conditions, and find a wrong entry: "
-                      "TOML, JSON or a printed tableau, of any family; no runs are made");
-  command->add_option("--order", o->order,
-                      "The order that the coefficients of FILE should have; the answer is one line");
+                      "TOML, JSON or a printed tableau, of any family, or a folder of such files; no runs are made");
+  command->add_option(
+      "--order", o->order,
+      "The order that the coefficients of FILE should have, and the answer is one line; or that of --command");
   command->add_option("--embedded-order", o->embedded_order, "That of its embedded weights");
   command->add_option("--write", o->write, "Write the mended coefficients of FILE into this TOML file");
+  command->add_option(
+      "--command", o->program,
+      "Judge a program of yours by its runs of scenes, as 'python3 mine.py {scene} {step} {until} "
+      "{out}': it reads a scene file and writes a CSV with t and coordinates; --order claims its order");
+  command->add_option("--scene", o->scenes, "Scenes for --command (if absent, simple, conical and double pendulum)");
+  command->add_option("--map", o->map, "What columns of its CSV are: theirs=ours, with commas between")->delimiter(',');
+  command->add_option("--junit", o->junit, "Write the verdicts into this XML file, too, for services that run tests");
   command->add_option("--claims", o->claims,
                       "Only claims whose label, quantity, problem or method holds this text; or a TOML file of claims");
   auto* const quick = command->add_flag("--quick", o->quick, "s = 1, 2, 3 (default): about a minute");
@@ -229,7 +291,7 @@ void add_audit_command(CLI::App& app) {
       ->add_option(
           "--limit", o->limit,
           "Seconds of processor time that a claim may take before it is undecidable, 0: any; claims that share "
-          "their runs share their time")
+          "their runs share their time; seconds of one run of --command")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");

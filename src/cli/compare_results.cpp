@@ -22,24 +22,6 @@
 namespace hbvm::core {
 namespace {
 
-/// "theirs=ours": theirs may hold no "=". A comma within parentheses, as in atan2(y, x), divides nothing.
-std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std::string>& parts) {
-  std::vector<std::string> texts;
-  for (const std::string& part : parts)
-    if (!texts.empty() && std::ranges::count(texts.back(), '(') > std::ranges::count(texts.back(), ')'))
-      texts.back() += "," + part;
-    else
-      texts.push_back(part);
-  std::vector<std::pair<std::string, std::string>> map;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-      throw InputError("--map: '" + text + "' is not of the form theirs=ours");
-    map.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return map;
-}
-
 /// With the steps that were given, or else those that are stored in or beside them.
 std::vector<ResultsFile> read_results(const ComparisonArguments& arguments) {
   if (!arguments.steps.empty() && arguments.steps.size() != arguments.files.size())
@@ -86,6 +68,23 @@ void judge(const Comparison& against, const ComparisonArguments& arguments) {
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std::string>& parts) {
+  std::vector<std::string> texts;
+  for (const std::string& part : parts)
+    if (!texts.empty() && std::ranges::count(texts.back(), '(') > std::ranges::count(texts.back(), ')'))
+      texts.back() += "," + part;
+    else
+      texts.push_back(part);
+  std::vector<std::pair<std::string, std::string>> map;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw InputError("--map: '" + text + "' is not of the form theirs=ours");
+    map.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return map;
+}
 
 void ComparisonArguments::refuse_alone() const {
   if (!map.empty() || !plots.empty() || !steps.empty() || order || digits || cost)

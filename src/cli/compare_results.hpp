@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hbvm/results.hpp"
@@ -18,6 +19,9 @@ struct ComparisonArguments {
   /// \throws InputError if there is any of it without files
   void refuse_alone() const;
 };
+
+/// "theirs=ours", each. A comma within parentheses divides nothing. \throws InputError
+std::vector<std::pair<std::string, std::string>> read_map(const std::vector<std::string>& parts);
 
 void add_comparison_options(CLI::App& command, ComparisonArguments& arguments);
 

@@ -15,34 +15,13 @@
 #include "hbvm/error.hpp"
 #include "hbvm/version.hpp"
 #include "processes/draw.hpp"
+#include "temporary_folder.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that is there as long as this is.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "hbvm_page_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error("cannot create a folder in '" + fs::temp_directory_path().string() + "'");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// A name within a table of Markdown.
 std::string cell(const std::string& text) {

@@ -1,7 +1,7 @@
 #include "door/measured_values.hpp"
 
 #include <filesystem>
-#include <random>
+#include <optional>
 
 #include "clock.hpp"
 #include "hbvm/audit.hpp"
@@ -11,6 +11,7 @@
 #include "hbvm/study.hpp"
 #include "long_work/json.hpp"
 #include "method/method_spec.hpp"
+#include "temporary_folder.hpp"
 #include "write_file.hpp"
 
 namespace hbvm::core {
@@ -18,23 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of files that is gone afterwards.
+/// Files that are gone afterwards.
 class Files {
  public:
   explicit Files(const NamedTexts& files) {
     if (files.empty()) return;
-    folder_ = fs::temp_directory_path() / ("hbvm_lesson_" + std::to_string(std::random_device{}()));
-    fs::create_directories(folder_);
-    for (const auto& [name, text] : files) write_file(folder_ / fs::path(name).filename(), text);
+    folder_.emplace();
+    for (const auto& [name, text] : files) write_file(folder_->path() / fs::path(name).filename(), text);
   }
-  ~Files() {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
-  }
-  Files(const Files&) = delete;
-  Files& operator=(const Files&) = delete;
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_->file(name); }
   /// The method with the path of its file, if it is "tableau:" and one of these.
   std::string with_path(std::string method, const NamedTexts& files) const {
     for (const auto& [name, text] : files)
@@ -44,7 +38,7 @@ class Files {
   }
 
  private:
-  fs::path folder_;
+  std::optional<TemporaryFolder> folder_;
 };
 
 /// Ends work that takes too long, and that which the caller wants to end.

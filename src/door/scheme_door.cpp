@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "door/door.hpp"
 #include "hbvm/error.hpp"
 #include "hbvm/scheme.hpp"
 #include "long_work/json.hpp"
+#include "method/order_conditions.hpp"
+#include "report/junit.hpp"
 #include "scalar/mpfr.hpp"
 #include "scheme/facts.hpp"
 #include "scheme/families.hpp"
@@ -30,6 +33,7 @@ class SchemeJudge {
         values_(scheme_->written_values<Mpfr>()) {
     for (const core::SchemeEntry& entry : scheme_->entries()) unknown_ = unknown_ || !entry.written;
     parts_ = core::met_parts(*scheme_, values_, rounding_);
+    if (!said_digits() && core::Rounding::has_long_fractions(*scheme_)) try_rounded_fractions();
   }
 
   SchemeAudit audit() {
@@ -39,10 +43,12 @@ class SchemeJudge {
     found.family = scheme_->family();
     found.entries = static_cast<int>(scheme_->entries().size());
     found.digits = rounding_.digits;
+    found.rounded_fractions = rounding_.of_fractions;
     if (!scheme_->consistency(values_).empty()) {
       found.rows = core::consistent_digits(*scheme_, values_);
-      constexpr double lost = 2, guard = 30;
-      found.consistent = *found.rows >= (found.digits > 0 ? found.digits - lost : rounding_.working_digits - guard);
+      found.consistent = *found.rows >= enough_digits();
+      found.own_nodes = !found.consistent && has_order_with_own_nodes();
+      found.consistent = found.consistent || found.own_nodes;
     }
     for (const core::MetPart& part : parts_) found.orders.push_back(order_of(part));
     found.holds = found.consistent && !unknown_ &&
@@ -62,6 +68,47 @@ class SchemeJudge {
     if (said->second < 1 || said->second > most)
       throw InputError(text_.file + ": 'digits' must be from 1 to " + std::to_string(most));
     return static_cast<int>(said->second);
+  }
+
+  /// To which something is met if it is met.
+  double enough_digits() const {
+    constexpr double lost = 2, guard = 30;
+    if (rounding_.digits == 0) return rounding_.working_digits - guard;
+    int least = rounding_.digits;
+    for (const core::Rounding::Entry& entry : rounding_.entries) least = std::min(least, entry.digits);
+    return least - lost;
+  }
+
+  /// Fractions with many digits may be rounded. They are if the method has a higher order then, to the digits to which
+  /// the first conditions hold that are not met.
+  void try_rounded_fractions() {
+    constexpr int fewest = 12, few_orders = 2;
+    if (parts_.front().stated && parts_.front().order >= *parts_.front().stated) return;
+    double digits = core::digits10<Mpfr>();
+    for (const core::MetOrder& met : parts_.front().each)
+      if (met.order <= parts_.front().order + 1) digits = std::min(digits, met.digits);
+    if (!scheme_->consistency(values_).empty()) digits = std::min(digits, core::consistent_digits(*scheme_, values_));
+    if (digits < fewest || digits >= core::digits10<Mpfr>()) return;
+    const core::Rounding rounded = core::Rounding::of(*scheme_, static_cast<int>(digits));
+    std::vector<core::MetPart> parts = core::met_parts(*scheme_, values_, rounded);
+    if (parts.front().order < std::max(few_orders, parts_.front().order + 1)) return;
+    rounding_ = rounded;
+    parts_ = std::move(parts);
+  }
+
+  /// Whether a Runge-Kutta method whose nodes are not the row sums has its order for y' = f(t, y), too.
+  bool has_order_with_own_nodes() const {
+    if (scheme_->family() != "runge_kutta" || !scheme_->has("c")) return false;
+    // A wrong entry leaves some low order to any table.
+    const int order = parts_.front().order,
+              least = parts_.front().stated.value_or(static_cast<int>(scheme_->matrix("A", values_).rows()));
+    if (order < least || order > core::max_tree_order) return false;
+    const core::RungeKutta<Mpfr> method{scheme_->matrix("A", values_), scheme_->vector("b", values_),
+                                        scheme_->vector("c", values_)};
+    for (const int share : {-1, 1, 2})
+      for (const std::vector<Mpfr>& residuals : core::order_residuals_in_time(method, order, Mpfr(share)))
+        if (core::digits_met(residuals) < enough_digits()) return false;
+    return true;
   }
 
   SchemeOrder order_of(const core::MetPart& part) const {
@@ -176,6 +223,10 @@ std::string text_of(const MendedNumber& number) {
                      number.printed);
 }
 
+std::string rows_text(const SchemeAudit& audit) {
+  return fmt::format("the nodes are the row sums to {:.1f} digits only", *audit.rows);
+}
+
 std::string text_of(const SchemeOrder& order, int digits) {
   std::string text = fmt::format("{} {}", order.name, order.order);
   if (order.stated && *order.stated != order.order) text += fmt::format(" and not {} as claimed", *order.stated);
@@ -200,10 +251,12 @@ SchemeAudit audit_scheme(const SchemeRequest& request) {
 
 std::string to_text(const SchemeAudit& audit) {
   std::string text = fmt::format("{}: {} numbers of family {}, {}\n", audit.name, audit.entries, audit.family,
-                                 audit.digits > 0 ? fmt::format("with {} digits", audit.digits) : "exact");
+                                 audit.digits > 0 ? fmt::format("with {} digits{}", audit.digits,
+                                                                audit.rounded_fractions ? ", fractions among them" : "")
+                                                  : "exact");
   for (const SchemeOrder& order : audit.orders) text += "  " + text_of(order, audit.digits) + "\n";
-  if (audit.rows && !audit.consistent)
-    text += fmt::format("  the nodes are the row sums to {:.1f} digits only\n", *audit.rows);
+  if (audit.own_nodes) text += "  the nodes are not the row sums; the order is that for y' = f(t, y), too\n";
+  if (audit.rows && !audit.consistent) text += "  " + rows_text(audit) + "\n";
   for (const std::string& fact : audit.facts) text += "  " + fact + "\n";
   for (const MendedNumber& number : audit.repair) text += "repair: " + text_of(number) + "\n";
   if (!audit.repair_says.empty()) text += (audit.repair.empty() ? "repair: " : "        ") + audit.repair_says + "\n";
@@ -216,6 +269,23 @@ std::string to_line(const SchemeAudit& audit) {
     orders += fmt::format("{}{} {}", orders.empty() ? "" : ", ", order.name, order.order);
   for (const MendedNumber& number : audit.repair) repair += "; " + text_of(number);
   return fmt::format("{}: {}: {}{}", audit.file, audit.holds ? "holds" : "fails", orders, repair);
+}
+
+std::string to_junit(const SchemeAudit& audit) {
+  using Outcome = core::JunitCase::Outcome;
+  std::vector<core::JunitCase> cases;
+  const auto add = [&](const std::string& name, bool holds, const std::string& message) {
+    cases.push_back({.group = audit.name,
+                     .name = name,
+                     .outcome = holds ? Outcome::passed : Outcome::failed,
+                     .message = message,
+                     .seconds = std::numeric_limits<double>::quiet_NaN()});
+  };
+  for (const SchemeOrder& order : audit.orders) add(order.name, order.holds, text_of(order, audit.digits));
+  if (audit.rows) add("row sums", audit.consistent, rows_text(audit));
+  // Entries that are not known fail no order, but the whole.
+  add("all numbers", audit.holds, to_line(audit));
+  return core::junit_xml(audit.file, cases);
 }
 
 std::string to_json(const SchemeAudit& audit) {
@@ -239,6 +309,7 @@ std::string to_json(const SchemeAudit& audit) {
                        {"digits", audit.digits > 0 ? core::OrderedJson(audit.digits) : core::OrderedJson(nullptr)},
                        {"row_sum_digits", audit.rows ? core::json_number(*audit.rows) : core::OrderedJson(nullptr)},
                        {"consistent", audit.consistent},
+                       {"own_nodes", audit.own_nodes},
                        {"orders", orders},
                        {"facts", audit.facts},
                        {"repair", repair},

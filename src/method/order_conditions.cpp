@@ -7,9 +7,9 @@
 namespace hbvm::core {
 namespace {
 
-/// Calls use(tree, residual) for tree after tree, as long as it returns true.
+/// Calls use(tree, residual) for tree after tree, as long as it returns true. \param leaf instead of the row sums of A
 template <Scalar S, class Use>
-void for_each_condition(const RungeKutta<S>& method, int max_order, const Use& use) {
+void for_each_condition(const RungeKutta<S>& method, int max_order, const Use& use, const Vector<S>* leaf = nullptr) {
   const Index s = method.b.size();
   std::vector<Vector<S>> A_phi;  // A Phi(t) for each tree that can be a subtree
   Vector<S> phi(s);
@@ -20,6 +20,7 @@ void for_each_condition(const RungeKutta<S>& method, int max_order, const Use& u
     }
     if (!use(tree, S(dot(method.b, phi) - S(1) / S(tree.density)))) return;
     if (tree.order < max_order) A_phi.push_back(method.A.lazyProduct(phi));
+    if (tree.order == 1 && leaf && !A_phi.empty()) A_phi.back() = *leaf;
   }
 }
 
@@ -102,6 +103,21 @@ std::vector<std::vector<S>> order_residuals(const RungeKutta<S>& method, int max
 }
 
 template <Scalar S>
+std::vector<std::vector<S>> order_residuals_in_time(const RungeKutta<S>& method, int max_order, const S& share) {
+  std::vector<std::vector<S>> residuals(static_cast<std::size_t>(std::max(max_order, 0)));
+  const Vector<S> sums = method.A.lazyProduct(Vector<S>(Vector<S>::Ones(method.b.size())));
+  const Vector<S> leaf = sums + share * (method.c - sums);
+  for_each_condition(
+      method, max_order,
+      [&](const RootedTree& tree, const S& residual) {
+        residuals[static_cast<std::size_t>(tree.order - 1)].push_back(S(residual * S(tree.density)));
+        return true;
+      },
+      &leaf);
+  return residuals;
+}
+
+template <Scalar S>
 S condition_B(const RungeKutta<S>& method, int p) {
   return worst_of<S>(defect_B<S>, method, p);
 }
@@ -133,12 +149,13 @@ int order(const RungeKutta<S>& method, const S& tolerance) {
   return std::max(p, std::min({B, 2 * C + 2, C + D + 1}));
 }
 
-#define HBVM_DEFINE(S)                                                                \
-  template std::vector<S> order_defects<S>(const RungeKutta<S>&, int);                \
-  template std::vector<std::vector<S>> order_residuals<S>(const RungeKutta<S>&, int); \
-  template S condition_B<S>(const RungeKutta<S>&, int);                               \
-  template S condition_C<S>(const RungeKutta<S>&, int);                               \
-  template S condition_D<S>(const RungeKutta<S>&, int);                               \
+#define HBVM_DEFINE(S)                                                                                  \
+  template std::vector<S> order_defects<S>(const RungeKutta<S>&, int);                                  \
+  template std::vector<std::vector<S>> order_residuals<S>(const RungeKutta<S>&, int);                   \
+  template std::vector<std::vector<S>> order_residuals_in_time<S>(const RungeKutta<S>&, int, const S&); \
+  template S condition_B<S>(const RungeKutta<S>&, int);                                                 \
+  template S condition_C<S>(const RungeKutta<S>&, int);                                                 \
+  template S condition_D<S>(const RungeKutta<S>&, int);                                                 \
   template int order<S>(const RungeKutta<S>&, const S&);
 HBVM_FOR_EACH_SCALAR(HBVM_DEFINE)
 

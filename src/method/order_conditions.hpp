@@ -19,6 +19,11 @@ std::vector<S> order_defects(const RungeKutta<S>& method, int max_order);
 template <Scalar S>
 std::vector<std::vector<S>> order_residuals(const RungeKutta<S>& method, int max_order);
 
+/// The same of y' = f(t, y) for a method whose c may be other than the row sums of A. At the leaves stands
+/// (1 - share) sum_j A_ij + share c_i. A method has order p if that is so for all shares.
+template <Scalar S>
+std::vector<std::vector<S>> order_residuals_in_time(const RungeKutta<S>& method, int max_order, const S& share);
+
 /// The largest defects of Butcher's simplifying assumptions (the same, section IV.5 of volume II); 0 if p, q or r is:
 ///
 ///     B(p): sum_i b_i c_i^(n-1) = 1/n,                        n <= p

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
+#include "method/order_conditions.hpp"
+#include "method/rooted_trees.hpp"
 #include "method/symmetry_defect.hpp"
 #include "scalar/text.hpp"
+#include "scheme/stability.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -24,6 +26,7 @@ class FactFinder {
   std::vector<std::string> find() {
     const std::string family = scheme_.family();
     if (family == "runge_kutta") of_runge_kutta();
+    if (family == "rosenbrock") of_rosenbrock();
     if (family == "multistep") of_multistep();
     if (family == "splitting") of_splitting();
     if (family == "composition" && scheme_.has("gamma"))
@@ -61,39 +64,72 @@ class FactFinder {
     const RungeKutta<Mpfr> method{A, b, {}};
     say_if("symplectic", {symplecticity_defect(method)});
     say_if("symmetric", {symmetry_defect(method)});
-    A_ = A.unaryExpr([](const Mpfr& x) { return approximately(x); });
-    b_ = b.unaryExpr([](const Mpfr& x) { return approximately(x); });
-    if (strictly) {
+    const Eigen::MatrixXd A_near = nearest_doubles(A);
+    const Eigen::VectorXd b_near = nearest_doubles(b);
+    const bool is_a_stable = say_linear_stability(A_near, b_near, strictly);
+    if (is_a_stable)
+      facts_.push_back(is_algebraically_stable(A_near, b_near) ? "algebraically stable" : "not algebraically stable");
+    const double ssp = ssp_coefficient(A_near, b_near);
+    if (ssp > 0) facts_.push_back(fmt::format("SSP coefficient {:.4g}", ssp));
+    say_error_constant(method);
+  }
+
+  static Eigen::MatrixXd nearest_doubles(const Matrix<Mpfr>& x) {
+    return x.unaryExpr([](const Mpfr& entry) { return approximately(entry); });
+  }
+
+  /// \return whether the method is A-stable
+  bool say_linear_stability(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, bool is_explicit) {
+    const LinearStability linear(A, b);
+    if (is_explicit) {
       facts_.push_back(fmt::format("stability interval {:.3g} on the negative real axis, {:.3g} on the imaginary axis",
-                                   interval(Complex(-1, 0)), interval(Complex(0, 1))));
-    } else if (Eigen::FullPivLU<Eigen::MatrixXd> lu(A_); lu.isInvertible()) {
-      const double at_infinity = 1 - b_.dot(lu.solve(Eigen::VectorXd::Ones(s)));
-      facts_.push_back(
-          fmt::format("R(inf) = {:.3g}", std::abs(at_infinity) < 4'096 * epsilon<double>() ? 0 : at_infinity));
+                                   linear.interval(Complex(-1, 0)), linear.interval(Complex(0, 1))));
+      return false;
     }
+    const std::optional<double> at_infinity = linear.at_infinity();
+    if (at_infinity) facts_.push_back(fmt::format("R(inf) = {:.3g}", *at_infinity));
+    constexpr double right_angle = 90;
+    const double angle = linear.angle();
+    if (angle == right_angle)
+      facts_.push_back(at_infinity && *at_infinity == 0 ? "L-stable" : "A-stable");
+    else
+      facts_.push_back(angle > 0 ? fmt::format("A(alpha)-stable, alpha = {:.1f} degrees", angle)
+                                 : std::string("not A-stable"));
+    return angle == right_angle;
   }
 
-  /// R(z) = 1 + z b^T (I - z A)^-1 1.
-  Complex stability(Complex z) const {
-    const Index s = b_.size();
-    const Eigen::MatrixXcd system = Eigen::MatrixXcd::Identity(s, s) - z * A_.cast<Complex>();
-    const Eigen::VectorXcd ones = Eigen::VectorXcd::Ones(s);
-    return Complex(1) + z * b_.cast<Complex>().dot(system.partialPivLu().solve(ones));
+  /// Of y' = lambda y a Rosenbrock method makes what a Runge-Kutta method with A = alpha + gamma does.
+  void of_rosenbrock() {
+    const Matrix<Mpfr> A = scheme_.matrix("alpha", values_) + scheme_.matrix("gamma", values_);
+    say_linear_stability(nearest_doubles(A), nearest_doubles(scheme_.vector("b", values_)), false);
   }
 
-  /// How far |R| stays at most 1 in a direction.
-  double interval(Complex direction) const {
-    constexpr double step = 1 / double(256), farthest = 100;
-    const double slack = epsilon<double>() * (1 << 22);
-    const auto is_stable = [&](double x) { return std::abs(stability(x * direction)) <= 1 + slack; };
-    double inside = 0;
-    while (inside < farthest && is_stable(inside + step)) inside += step;
-    double outside = inside + step;
-    for (int n = 0; n < 40; ++n) {
-      const double middle = (inside + outside) / 2;
-      (is_stable(middle) ? inside : outside) = middle;
+  /// The norm of what the trees of the next order leave: (Phi(t) - 1/gamma(t)) / sigma(t), each.
+  void say_error_constant(const RungeKutta<Mpfr>& method) {
+    if (order_ < 1 || order_ >= max_tree_order) return;
+    const std::vector<RootedTree> trees = rooted_trees(order_ + 1);
+    const std::vector<Mpfr> residuals = order_residuals(method, order_ + 1).back();
+    std::vector<double> symmetry;
+    double sum = 0;
+    std::size_t n = 0;
+    for (const RootedTree& tree : trees) {
+      symmetry.push_back(symmetry_of(tree, symmetry));
+      if (tree.order != order_ + 1) continue;
+      const double left = approximately(residuals[n++]) / (static_cast<double>(tree.density) * symmetry.back());
+      sum += left * left;
     }
-    return inside < step ? 0 : inside;
+    facts_.push_back(fmt::format("error constant {:.3g}", std::sqrt(sum)));
+  }
+
+  /// In how many ways a tree is mapped to itself: equal subtrees, which stand together, change places.
+  static double symmetry_of(const RootedTree& tree, const std::vector<double>& of_smaller) {
+    double ways = 1;
+    int equal = 0;
+    for (std::size_t i = 0; i < tree.subtrees.size(); ++i) {
+      equal = i > 0 && tree.subtrees[i] == tree.subtrees[i - 1] ? equal + 1 : 1;
+      ways *= equal * of_smaller[static_cast<std::size_t>(tree.subtrees[i])];
+    }
+    return ways;
   }
 
   void of_multistep() {
@@ -146,8 +182,6 @@ class FactFinder {
   const std::vector<Mpfr>& values_;
   const Rounding& rounding_;
   int order_;
-  Eigen::MatrixXd A_;
-  Eigen::VectorXd b_;
   std::vector<std::string> facts_;
 };
 

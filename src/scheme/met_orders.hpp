@@ -26,12 +26,22 @@ struct MetPart {
 
 /// The precision in which numbers are judged, and what rounding may have done to them.
 struct Rounding {
-  int digits = 0;                    ///< of the numbers' decimals; 0 if all are exact
-  unsigned working_digits = 0;       ///< of the judgement
-  std::vector<std::size_t> entries;  ///< that are decimals
+  /// A number that is rounded, and digits that it has.
+  struct Entry {
+    std::size_t place = 0;
+    int digits = 0;
+  };
 
-  /// \param said the digits that the author says
+  int digits = 0;               ///< of the numbers' decimals; 0 if all are exact
+  unsigned working_digits = 0;  ///< of the judgement
+  std::vector<Entry> entries;
+  bool of_fractions = false;  ///< fractions of many digits are rounded, too
+
+  /// Decimals of a few digits less than the others have these alone. \param said the digits that the author says, also
+  /// of fractions with many digits
   static Rounding of(const Scheme& scheme, std::optional<int> said);
+  /// Whether there are fractions with so many digits that they may stand for other numbers.
+  static bool has_long_fractions(const Scheme& scheme);
 };
 
 /// For each part of a scheme. The digits of the scope are those of the rounding, or more. A residual counts as 0 if

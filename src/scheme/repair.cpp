@@ -21,6 +21,7 @@ class RepairSearch {
       : scheme_(scheme),
         rounding_(rounding),
         targets_(targets),
+        first_targets_(targets),
         written_(scheme.written_values<double>()),
         exact_(scheme.written_values<Mpfr>()) {
     for (std::size_t e = 0; e < written_.size(); ++e) {
@@ -30,6 +31,10 @@ class RepairSearch {
         candidates_.push_back(e);
     }
     conditions_ = static_cast<long>(residuals(written_).size());
+    // Pairs are many. Those that cannot meet the conditions of low orders, where they fail, need no others.
+    constexpr int low = 4;
+    for (int& target : first_targets_) target = std::min(target, low);
+    if (norm(residuals_to(first_targets_, written_)) <= enough() || first_targets_ == targets_) first_targets_.clear();
   }
 
   Repair find(int most_entries) {
@@ -41,7 +46,8 @@ class RepairSearch {
         for (const std::size_t e : candidates_) add(repair, with({e}));
       else
         for (std::size_t i = 0; i < candidates_.size(); ++i)
-          for (std::size_t j = 0; j < i; ++j) add(repair, with({candidates_[j], candidates_[i]}));
+          for (std::size_t j = 0; j < i; ++j)
+            if (const Places pair = with({candidates_[j], candidates_[i]}); may_meet(pair)) add(repair, pair);
     }
     return repair;
   }
@@ -55,9 +61,14 @@ class RepairSearch {
 
   template <class S>
   std::vector<S> residuals(const std::vector<S>& values) const {
+    return residuals_to(targets_, values);
+  }
+
+  template <class S>
+  std::vector<S> residuals_to(const std::vector<int>& targets, const std::vector<S>& values) const {
     std::vector<S> all = scheme_.consistency(values);
-    for (std::size_t part = 0; part < targets_.size(); ++part)
-      for (int order = 1; order <= targets_[part]; ++order)
+    for (std::size_t part = 0; part < targets.size(); ++part)
+      for (int order = 1; order <= targets[part]; ++order)
         for (S& residual : scheme_.residuals(part, order, values)) all.push_back(std::move(residual));
     return all;
   }
@@ -74,7 +85,8 @@ class RepairSearch {
 
   /// One step of Gauss and Newton in these entries, by differences of size `delta`. \return the rank of the Jacobian
   template <class S>
-  Index newton(std::vector<S>& values, const std::vector<S>& now, const Places& places, const S& delta) const {
+  Index newton(const std::vector<int>& targets, std::vector<S>& values, const std::vector<S>& now, const Places& places,
+               const S& delta) const {
     const auto n = static_cast<Index>(now.size());
     Eigen::MatrixXd jacobian(n, static_cast<Index>(places.size()));
     Eigen::VectorXd off(n);
@@ -83,7 +95,7 @@ class RepairSearch {
     for (std::size_t k = 0; k < places.size(); ++k) {
       std::vector<S> moved = values;
       moved[places[k]] += delta;
-      const std::vector<S> there = residuals(moved);
+      const std::vector<S> there = residuals_to(targets, moved);
       for (Index r = 0; r < n; ++r) {
         const auto at = static_cast<std::size_t>(r);
         jacobian(r, static_cast<Index>(k)) = approximately(S((there[at] - now[at]) / delta));
@@ -98,23 +110,34 @@ class RepairSearch {
     return factors.rank();
   }
 
-  /// Where all conditions hold to what double can tell, or rounding of the other entries leaves; empty if nowhere near.
-  std::vector<double> solution(const Places& places, const std::optional<double>& start) const {
+  /// What double can tell, or rounding of the other entries leaves.
+  double enough() const {
+    constexpr int lost_digits = 4;
+    const double of_decimals = rounding_.digits > 0 ? std::pow(double(10), lost_digits - rounding_.digits) : 0;
+    return std::max(epsilon<double>() * (1 << 19), of_decimals);
+  }
+
+  /// Whether the conditions of low orders can be met.
+  bool may_meet(const Places& places) const {
+    return first_targets_.empty() || !solution(first_targets_, places, std::nullopt).empty();
+  }
+
+  /// Where the conditions hold to what can be told; empty if nowhere near.
+  std::vector<double> solution(const std::vector<int>& targets, const Places& places,
+                               const std::optional<double>& start) const {
     std::vector<double> values = written_;
     if (start)
       for (const std::size_t e : unknown_.empty() ? places : unknown_) values[e] = *start;
-    constexpr int most = 40, patient = 12, lost_digits = 4;
+    constexpr int most = 40, patient = 12;
     constexpr double beyond = 100'000'000;
-    const double of_decimals = rounding_.digits > 0 ? std::pow(double(10), lost_digits - rounding_.digits) : 0,
-                 enough = std::max(epsilon<double>() * (1 << 19), of_decimals);
     double last = HUGE_VAL;
     for (int n = 0; n < most; ++n) {
-      const std::vector<double> now = residuals(values);
+      const std::vector<double> now = residuals_to(targets, values);
       const double size = norm(now);
-      if (size <= enough) return values;
+      if (size <= enough()) return values;
       if (!std::isfinite(size) || size > beyond || (n > patient && 10 * size > 9 * last)) return {};
       last = size;
-      if (newton(values, now, places, difference()) < 0) return {};
+      if (newton(targets, values, now, places, difference()) < 0) return {};
     }
     return {};
   }
@@ -129,7 +152,7 @@ class RepairSearch {
       const Mpfr size = norm(now);
       if (last >= 0 && size * 2 > last) break;
       last = size;
-      if (newton(values, now, places, delta) < static_cast<Index>(places.size())) return false;
+      if (newton(targets_, values, now, places, delta) < static_cast<Index>(places.size())) return false;
     }
     const std::vector<MetPart> parts = met_parts(scheme_, values, rounding_);
     for (std::size_t part = 0; part < targets_.size(); ++part)
@@ -147,7 +170,7 @@ class RepairSearch {
     if (places.size() == 1 || !unknown_.empty())
       for (const int quarters : {1, 0, -2, 4, -4}) starts.emplace_back(quarters / double(4));
     for (const std::optional<double>& start : starts) {
-      const std::vector<double> near = solution(places, start);
+      const std::vector<double> near = solution(targets_, places, start);
       if (near.empty()) continue;
       std::vector<Mpfr> values = exact_;
       for (const std::size_t e : places) values[e] = Mpfr(near[e]);
@@ -168,6 +191,7 @@ class RepairSearch {
   const Scheme& scheme_;
   const Rounding& rounding_;
   const std::vector<int>& targets_;
+  std::vector<int> first_targets_;  ///< for pairs; empty if there is nothing to be seen there
   std::vector<double> written_;
   std::vector<Mpfr> exact_;
   Places unknown_, candidates_;

@@ -266,5 +266,78 @@ TEST(AuditCommand, RefusesWhatIsNotForAFile) {
   expect_refused({"audit", "nowhere.toml"}, {"nowhere.toml"});
 }
 
+/// Programs of others are judged by their runs.
+TEST(AuditCommand, JudgesPrograms) {
+  const std::string own = "python3 " HBVM_SOURCE_DIR "/studies/own_program/integrator.py ",
+                    rest = " {scene} {step} {until} {out}";
+  const auto arguments = [&](const std::string& method, const std::string& order) {
+    return Arguments{"audit", "--command", own + method + rest, "--order", order, "--until", "2", "--json"};
+  };
+  const auto of = [](const Json& audit, const std::string& quantity) {
+    std::vector<std::string> reasons;
+    for (const Json& v : audit.at("verdicts"))
+      if (v.at("quantity") == quantity) reasons.push_back(v.at("reason"));
+    return reasons;
+  };
+  const Json rk4 = Json::parse(ended_with(0, arguments("rk4", "4"), 600).out);
+  EXPECT_EQ(rk4.at("verdicts").size(), 9u);
+  for (const std::string& reason : of(rk4, "reversal")) expect_words(reason, {"not symmetric"});
+  const Json verlet = Json::parse(ended_with(0, arguments("verlet", "2"), 600).out);
+  for (const std::string& reason : of(verlet, "reversal")) expect_words(reason, {"symmetric: it comes back"});
+  const Json liar = Json::parse(ended_with(1, arguments("liar", "4"), 600).out);
+  for (const Json& v : liar.at("verdicts"))
+    if (v.at("quantity") == "order") {
+      EXPECT_EQ(v.at("verdict"), "fails") << v.dump();
+    }
+  const Folder folder;
+  const Arguments one{"audit", "--command", own + "verlet" + rest, "--order", "4", "--scene", "kepler", "--junit"};
+  expect_words(ended_with(1, one + Arguments{folder / "junit.xml"}, 600).out, {"kepler", "claimed 4", "fails"});
+  expect_words(text_of(folder / "junit.xml"), {"failures=\"1\""});
+}
+
+TEST(AuditCommand, SaysWhatAProgramDid) {
+  const std::string places = " # {scene} {step} {until} {out}";
+  expect_words(ended_with(4, {"audit", "--command", "echo nothing here; false" + places, "--scene", "kepler"}, 600).out,
+               {"not run", "ended with code 1", "nothing here"});
+  expect_words(ended_with(4, {"audit", "--command", "true" + places, "--scene", "kepler"}, 600).out,
+               {"wrote no file at the place of {out}"});
+  expect_refused({"audit", "--command", "true {scene}"}, {"--command", "{step}"});
+  expect_refused({"audit", "--scene", "kepler"}, {"--scene", "--command"});
+  expect_refused({"audit", "--command", "true" + places, "--quick"}, {"--command", "--order"});
+}
+
+/// The methods of the literature have the orders that their authors claim.
+TEST(AuditCommand, HoldsForTheAtlas) {
+  const std::string atlas = HBVM_SOURCE_DIR "/studies/atlas";
+  const Json list = Json::parse(ended_with(0, {"audit", atlas, "--json"}, 600).out);
+  EXPECT_GT(list.size(), 80u);
+  for (const Json& found : list) {
+    EXPECT_TRUE(found.at("holds")) << found.at("file");
+    EXPECT_TRUE(found.at("orders").at(0).at("stated").is_number() || found.at("orders").size() > 1) << found.at("file");
+  }
+}
+
+TEST(AuditCommand, GoesThroughAFolder) {
+  const Folder folder;
+  folder.write("one/right.toml", gauss_tableau);
+  folder.write("wrong.toml", wrong_digit);
+  folder.write("note.txt", "no coefficients");
+  const std::string lines = ended_with(1, {"audit", folder.path()}, 600).out;
+  expect_words(lines, {"one/right.toml: holds: order 4\n", "wrong.toml: fails: "});
+  const Folder none;
+  expect_refused({"audit", none.path()}, {"no .toml"});
+  expect_refused({"audit", folder.path(), "--order", "4"}, {"folder", "--order"});
+}
+
+TEST(AuditCommand, WritesJunit) {
+  const Folder folder;
+  const std::string file = folder.write("gauss.toml", wrong_digit);
+  ended_with(1, {"audit", file, "--junit", folder / "file.xml"}, 600);
+  expect_words(text_of(folder / "file.xml"),
+               {"<testcase classname=\"Gauss, a digit wrong\" name=\"order\"", "<failure"});
+  ended_with(0, {"audit", "--claims", "simple_pendulum", "--junit", folder / "claims.xml"}, 600);
+  expect_words(text_of(folder / "claims.xml"), {"failures=\"0\"", "classname=\"simple_pendulum\""});
+}
+
 }  // namespace
 }  // namespace hbvm::core

@@ -82,6 +82,41 @@ TEST(DoorSchemes, SayWhatIsNotDetermined) {
   core::expect_words(found.repair_says, {"do not determine one"});
 }
 
+/// The nodes of Lobatto IIIB with two stages are no row sums. A wrong node is still found.
+TEST(DoorSchemes, TakeNodesOfTheirOwn) {
+  const std::string lobatto = "A = [['1/2', 0], ['1/2', 0]]\nb = ['1/2', '1/2']\n";
+  for (const std::string& claimed : {std::string(), std::string("order = 2\n")}) {
+    const SchemeAudit right = audited(claimed + lobatto + "c = [0, 1]\n");
+    EXPECT_TRUE(right.holds && right.own_nodes);
+    core::expect_words(to_text(right), {"the nodes are not the row sums", "holds"});
+    EXPECT_FALSE(audited(claimed + lobatto + "c = [0, '9/10']\n").holds);
+  }
+  EXPECT_FALSE(audited(lobatto + "c = ['1/2', '1/2']\n").own_nodes);
+}
+
+/// Fractions of many digits that are roundings of other numbers, with their digits said or not.
+TEST(DoorSchemes, TakeFractionsAsRounded) {
+  const std::string gauss =
+      "A = [['1/4', '-9914489123/256353060613'], ['276182038859/512706121226', '1/4']]\nb = ['1/2', '1/2']\n";
+  const SchemeAudit seen = audited(gauss);
+  EXPECT_TRUE(seen.holds && seen.rounded_fractions) << to_text(seen);
+  EXPECT_EQ(seen.orders.at(0).order, 4);
+  EXPECT_TRUE(audited("digits = 16\norder = 4\n" + gauss).holds);
+  // A digit that is off is no rounding.
+  std::string wrong = gauss;
+  wrong.replace(wrong.find("9914489123"), 5, "99244");
+  EXPECT_FALSE(audited("order = 4\n" + wrong).holds);
+}
+
+/// Some decimals are printed with fewer digits than others.
+TEST(DoorSchemes, TakeEachDecimalWithItsOwnDigits) {
+  const std::string rest = "A = [['0.25', '-0.0386751345948128822545'], ['0.5386751345948128822545', '0.25']]\n";
+  EXPECT_TRUE(audited("order = 4\nb = ['0.5', '0.5']\n" + rest).holds);
+  EXPECT_TRUE(
+      audited("order = 4\nc = ['0.2113248654051871177', '0.7886751345948128822545']\nb = ['0.5', '0.5']\n" + rest)
+          .holds);
+}
+
 TEST(DoorSchemes, EndWhenTheyAreAskedTo) {
   std::stop_source source;
   source.request_stop();

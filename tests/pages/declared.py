@@ -6,6 +6,7 @@ MENTIONS = {
     "hbvm run --error",
     "hbvm run --out",
     "hbvm audit --full",
+    "hbvm audit --command",
 }
 
 # What other tests run, or what takes a machine for itself: why it is not run here.

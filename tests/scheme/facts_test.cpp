@@ -25,13 +25,14 @@ void expect_facts(const std::string& text, const std::vector<std::string>& expec
 
 TEST(SchemeFacts, OfRungeKuttaMethods) {
   // The real interval of order 4 ends where 1 + z + z^2/2 + z^3/6 + z^4/24 is 1 again, the imaginary one at 2 sqrt(2).
-  expect_facts("A = [[0,0,0,0],['1/2',0,0,0],[0,'1/2',0,0],[0,0,1,0]]\nb = ['1/6','1/3','1/3','1/6']\n",
-               {"explicit", "not symplectic", "not symmetric",
-                "stability interval 2.79 on the negative real axis, 2.83 on the imaginary axis"});
+  expect_facts(
+      "A = [[0,0,0,0],['1/2',0,0,0],[0,'1/2',0,0],[0,0,1,0]]\nb = ['1/6','1/3','1/3','1/6']\n",
+      {"explicit", "not symplectic", "not symmetric",
+       "stability interval 2.79 on the negative real axis, 2.83 on the imaginary axis", "error constant 0.0145"});
   expect_facts("A = [['1/4','1/4-sqrt(3)/6'],['1/4+sqrt(3)/6','1/4']]\nb = ['1/2','1/2']\n",
-               {"implicit", "symplectic", "symmetric", "R(inf) = 1"});
+               {"implicit", "symplectic", "symmetric", "R(inf) = 1", "A-stable", "algebraically stable"});
   expect_facts("A = [['5/12','-1/12'],['3/4','1/4']]\nb = ['3/4','1/4']\n",
-               {"implicit", "stiffly accurate", "not symplectic", "R(inf) = 0"});
+               {"implicit", "stiffly accurate", "not symplectic", "R(inf) = 0", "L-stable", "algebraically stable"});
   expect_facts("A = [['1-sqrt(2)/2',0],['sqrt(2)/2','1-sqrt(2)/2']]\nb = ['sqrt(2)/2','1-sqrt(2)/2']\n",
                {"diagonally implicit", "stiffly accurate", "R(inf) = 0"});
   expect_facts("A = [[0,0,0,0],['1/2',0,0,0],[0,'3/4',0,0],['2/9','1/3','4/9',0]]\nb = ['2/9','1/3','4/9',0]\n",

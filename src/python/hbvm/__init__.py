@@ -29,6 +29,7 @@ from ._record import Listing, Record
 from ._reference import Reference, check_proof, reference
 from ._run import Run, kept, run
 from ._scene import Scene, SceneFacts, scene, scenes
+from ._solver import Judgement, judge
 from ._study import Comparison, Convergence, Study, compare, convergence, study
 
 if TYPE_CHECKING:
@@ -36,8 +37,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Against", "Audit", "Coefficients", "Columns", "Comparison", "Convergence", "Error", "Exact", "FloatWarning", "InputError",
-    "IntegrationError", "Interrupted", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Plan", "Record", "Reference",
-    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "check_lesson", "check_proof", "coefficients", "compare", "convergence", "cost", "kept",
+    "IntegrationError", "Interrupted", "Judgement", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Plan", "Record", "Reference",
+    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "check_lesson", "check_proof", "coefficients", "compare", "convergence", "cost", "judge", "kept",
     "lessons", "methods", "nodes", "precision_of", "read_csv", "reference", "run", "scene", "scenes", "study", "verify_order",
 ]
 

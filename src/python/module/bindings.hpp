@@ -14,5 +14,6 @@ void add_cost(pybind11::module_& module);
 void add_study(pybind11::module_& module);
 void add_lesson(pybind11::module_& module);
 void add_facts(pybind11::module_& module);
+void add_solver(pybind11::module_& module);
 
 }  // namespace hbvm::python
