@@ -22,4 +22,5 @@
 #include "hbvm/solver.hpp"
 #include "hbvm/study.hpp"
 #include "hbvm/table.hpp"
+#include "hbvm/tangent.hpp"
 #include "hbvm/version.hpp"

@@ -24,6 +24,13 @@ struct ReferenceRequest {
   std::stop_token stop = {};
 };
 
+/// A time at which a value of an event of the scene crosses 0, to four digits more than the request asks for.
+struct ReferenceEvent {
+  std::string name;
+  bool rises = false;  ///< the value is negative before
+  Number t;
+};
+
 /// How far numbers may be from the motion, as is proved: the most of each vector's components, three digits or fewer.
 struct ProvedRadius {
   std::string q, p, lambda, H;
@@ -63,6 +70,10 @@ struct Reference {
 /// \throws IntegrationError where the motion ends, the routes do not agree, with both values, or nothing can be proved
 /// \throws Interrupted
 Reference reference(const ReferenceRequest& request);
+
+/// The events of the scene until the last time of the request. Both routes agree on the states in which their values
+/// are 0. \throws what reference() throws; IntegrationError if an event grazes 0
+std::vector<ReferenceEvent> reference_events(const ReferenceRequest& request);
 
 /// A proof to be gone through again.
 struct ProofRequest {

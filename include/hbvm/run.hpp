@@ -32,7 +32,8 @@ struct Trajectory {
 struct RunRequest {
   Scene scene;
   std::string method = usual_method;  ///< or any other that methods() lists
-  std::optional<Number> step = {};    ///< of which until is a multiple; without, one that suits the scene's time scale
+  /// The last is shortened if until is no multiple. Without, one that suits the scene's time scale.
+  std::optional<Number> step = {};
   Number until;
   std::string precision = "double";  ///< or "quad", or "mpfr:50" for 50 decimal digits
   std::string solver = "auto";       ///< of the stage equations
@@ -49,6 +50,10 @@ struct RunRequest {
   std::vector<std::pair<std::string, std::string>> portraits = {};
   bool linear_energy = false;  ///< figure and page also show H - H_0 on a linear axis
   long every = 1;              ///< steps between two rows of the trajectory; 0: no trajectory is kept
+  Numbers at = {};             ///< times from 0 to the end at which the state is told, too; they need be no mesh points
+  std::optional<Number> every_time = {};  ///< and the multiples of this
+  /// End the run at an event of the scene by its name, "turn", or at its third, "turn,3". Until is the latest end.
+  std::optional<std::string> until_event = {};
   std::function<void(long done, long of)> progress = {};  ///< called now and then, with steps
   std::stop_token stop = {};                              ///< ends the run between two steps
   /// Called before the error is thrown that ends a run on its way: with the mesh points until then.
@@ -77,6 +82,29 @@ struct Observed {
 struct Work {
   std::string name;  ///< "effect 2 (drag)", "point 'pivot'"
   std::string value;
+};
+
+/// A time at which the value of an event crosses 0, and the output state there, of order 2s of HBVM.
+struct Event {
+  std::string name, t;
+  bool rises = false;   ///< the value is negative before
+  bool grazes = false;  ///< the value comes to 0, as near as rounding tells, and turns back
+  std::vector<std::string> q, p, lambda;
+};
+
+/// Times between crossings of an event in one direction: the period, of a motion that has one.
+struct EventPeriod {
+  std::string name;
+  bool rises = false;
+  long crossings = 0;           ///< three or more
+  std::string least, greatest;  ///< time from one to the next
+};
+
+/// The output state at a time that was asked for: q, the tangential p and lambda there, each of order 2s of HBVM.
+struct StateAt {
+  std::string t;
+  std::vector<std::string> q, p, lambda;
+  std::string delta_H;  ///< H less that at the start, as at mesh points
 };
 
 /// What became of the k that hbvm:auto chose.
@@ -167,6 +195,7 @@ struct Run {
   std::string method;  ///< with k as chosen
   std::string solver, precision;
   std::string step, until, t;
+  std::string last_step;  ///< if it was shortened, as until is no multiple of the step; else empty
   bool reverse = false;
   std::string start;          ///< the file or text it started from, if not the scene's own start
   std::string start_settled;  ///< how the start was moved to where the constraints hold; empty if it was not
@@ -193,6 +222,9 @@ struct Run {
   std::vector<Observed> observables;      ///< those of them that the motion conserves
   std::vector<Observation> observations;  ///< of the output state at the end
   std::vector<AccountEntry> account;
+  std::vector<Event> events;  ///< of the scene's events, in the order of time
+  std::vector<EventPeriod> periods;
+  std::vector<StateAt> at;  ///< at the times that were asked for, in their order
   Trajectory trajectory;
   std::optional<Figure> figure;  ///< motion, multipliers and errors, if a picture was asked for
   std::string page;              ///< HTML of its own, in which the motion moves; likewise

@@ -115,6 +115,10 @@ class Scene {
   /// that it may have are listed on the page of scene files. The scene is read then. \throws InputError
   Scene& observe(const std::string& name, const std::string& formula);
 
+  /// A run tells when a value of the motion crosses 0, and the state there: "turn: bob.vx", or upwards alone
+  /// "turn up: bob.vx". The scene is read then. \throws InputError
+  Scene& event(const std::string& text);
+
   const std::string& name() const { return name_; }
   /// As a scene file has it.
   std::string toml() const;

@@ -19,6 +19,7 @@
 #include "read_file.hpp"
 #include "reference/check_proof.hpp"
 #include "reference/compute_reference.hpp"
+#include "reference/event_times.hpp"
 #include "reference/literals.hpp"
 #include "reference/store.hpp"
 #include "scene/coordinate_names.hpp"
@@ -225,10 +226,30 @@ void check(const ReferenceArguments& o) {
              file.proof.steps.size(), r.scene, times, r.proved);
 }
 
+/// When the events come, in place of the end; each is said.
+std::vector<Expression> times_of_events(ReferenceRequest request, const ReferenceArguments& o) {
+  if (!o.at.empty() || !o.until)
+    throw InputError("reference --event: --until says until when, and --at does not go with it");
+  if (o.prove || o.route || o.checkpoint)
+    throw InputError("reference --event: it takes two routes, and no --prove, --route or --checkpoint");
+  ProgressBar bar("events");
+  end_runs_on_signals();
+  request.progress = bar.part_done("the events were not found: nothing is given out");
+  std::vector<Expression> times;
+  for (const EventTime& event : event_times(request)) {
+    if (!o.json) fmt::print("event {}, {}: t = {}\n", event.name, event.rises ? "up" : "down", event.t.text());
+    times.push_back(event.t);
+  }
+  if (times.empty()) throw InputError("reference --event: none comes until t = " + *o.until);
+  return times;
+}
+
 bool is_proof(const std::string& file) { return file.ends_with(".proof"); }
 
 void reference_command(const ReferenceArguments& o) {
-  const auto loaded = [&] { return SceneArgument{*o.scene, o.settings.settings, o.settings.observations}.load(); };
+  const auto loaded = [&] {
+    return SceneArgument{*o.scene, o.settings.settings, o.settings.observations, o.settings.events}.load();
+  };
   const auto scene = [&] { return scene_of(loaded()); };
   if (!o.against.files.empty()) {
     if (!o.scene)
@@ -264,6 +285,7 @@ void reference_command(const ReferenceArguments& o) {
   command += fmt::format(" --digits {}", o.digits);
   if (o.route) command += " --route " + *o.route;
   if (o.prove) command += " --prove";
+  if (!o.settings.events.empty()) request.times = times_of_events(request, o);
   ProofFile file;
   if (o.out && is_proof(*o.out)) request.proof = &file.proof;
   const Reference reference = compute(request, o.checkpoint);

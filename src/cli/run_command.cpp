@@ -37,7 +37,8 @@ struct RunArguments {
   std::optional<std::string> step;
   std::string precision = "double", solver = "auto", on_failure = "stop";
   std::optional<std::string> out, start, plot;
-  std::vector<std::string> portraits;
+  std::optional<std::string> every_time, until_event;
+  std::vector<std::string> portraits, at;
   long every = 1;
   bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false, prove = false;
   bool states = false, state = false, linear_energy = false;
@@ -109,7 +110,10 @@ hbvm::RunRequest asked_of(const RunArguments& o, const RunIdentity& identity) {
           .prove = o.prove,
           .start = identity.start,
           .portraits = portraits,
-          .linear_energy = o.linear_energy};
+          .linear_energy = o.linear_energy,
+          .at = Numbers(o.at.begin(), o.at.end()),
+          .every_time = o.every_time,
+          .until_event = o.until_event};
 }
 
 /// The file that keeps the run: the one it goes on from, unless it is to be another.
@@ -231,7 +235,13 @@ void add_run_command(CLI::App& app) {
       "--step", o->step,
       "Step size: a number or an expression, as 2^(3/4)*pi/40; without, one that suits the scene: at most "
       "an eighth of the radius of convergence of the motion's Taylor series");
-  command->add_option("--until", o->until, "Final time, a multiple of the step")->required();
+  command->add_option("--until", o->until, "Final time; the last step is shortened if it is no multiple of the step")
+      ->required();
+  command->add_option("--at", o->at, "Tell the state at these times, too, with commas between; any from 0 to the end")
+      ->delimiter(',');
+  command->add_option("--until-event", o->until_event,
+                      "End at an event of this name, or at its third, as turn,3; --until is the latest end");
+  command->add_option("--every-time", o->every_time, "Tell the state at the multiples of this time, too");
   command->add_option("--precision", o->precision, "double, quad, or mpfr:N, or N alone, for N digits")
       ->capture_default_str();
   command

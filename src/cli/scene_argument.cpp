@@ -36,12 +36,18 @@ void SceneArgument::add_observations_to(CLI::App& command) {
           "NAME=FORMULA or FORMULA: also tell its value along the motion, as 'angle(a, b)' or 'T=tension(o, bob)'; "
           "repeatable")
       ->allow_extra_args(false);
+  command
+      .add_option("--event", events,
+                  "NAME: EXPRESSION: tell when its value crosses 0, and the state there, as 'turn: bob.vx'; upwards or "
+                  "downwards alone as 'turn up: bob.vx'; repeatable")
+      ->allow_extra_args(false);
 }
 
 std::vector<std::string> SceneArgument::changes() const {
   std::vector<std::string> options;
   for (const std::string& setting : settings) options.push_back("--set '" + setting + "'");
   for (const std::string& observation : observations) options.push_back("--observe '" + observation + "'");
+  for (const std::string& event : events) options.push_back("--event '" + event + "'");
   return options;
 }
 
@@ -61,11 +67,12 @@ hbvm::Scene SceneArgument::load() const {
       throw InputError("--observe " + observation + ": " + error.what());
     }
   }
+  for (const std::string& event : events) scene.event(event);
   return scene;
 }
 
 std::string SceneArgument::text() const {
-  if (!settings.empty() || !observations.empty()) return load().toml();
+  if (!settings.empty() || !observations.empty() || !events.empty()) return load().toml();
   return name == "-" ? standard_input() : scene_text(name);
 }
 

@@ -13,6 +13,7 @@ struct SceneArgument {
   std::string name;                            ///< a file, "-" for standard input, or a name that `hbvm scenes` lists
   std::vector<std::string> settings;           ///< "L=1.2"
   std::vector<std::string> observations = {};  ///< "tip=a.x", or "a.x"
+  std::vector<std::string> events = {};        ///< "turn: a.vx", "turn up: a.vx"
 
   /// Adds SCENE and --set, or --set alone.
   void add_to(CLI::App& command);

@@ -55,7 +55,8 @@ std::string count_digits(const RunRequest& request, std::vector<RecordedMethod>&
   const auto all = static_cast<double>(request.precision.digits());
   const PrecisionScope scope(request.precision.digits() + more);
   const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
-  const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants);
+  const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction,
+                            LastStep::shortened);
   try {
     const ExactPoint end = exact_end(scene.problem, scene.q0, scene.p0, grid.until(), Route::taylor,
                                      [] { end_if_asked("the reference was interrupted"); });

@@ -5,6 +5,7 @@
 #include "long_work/json.hpp"
 #include "reference/check_proof.hpp"
 #include "reference/compute_reference.hpp"
+#include "reference/event_times.hpp"
 #include "reference/literals.hpp"
 
 namespace hbvm {
@@ -28,6 +29,23 @@ Reference reference(const ReferenceRequest& door) {
   file.claim = {result, version(), core::today()};
   result.proof = core::to_text(file);
   return result;
+}
+
+std::vector<ReferenceEvent> reference_events(const ReferenceRequest& door) {
+  const core::Admitted admitted(door.stop);
+  if (door.prove || !door.route.empty()) throw InputError("the events of a reference are found by two routes");
+  core::ReferenceRequest request;
+  request.scene = core::scene_of(door.scene);
+  for (const Number& time : door.times) request.times.push_back(core::expression_of(time, "a time of the reference:"));
+  if (request.times.empty()) throw InputError("the events of a reference: say until when");
+  if (request.scene.events.empty()) throw InputError("the scene has no event");
+  request.digits = door.digits;
+  request.force = door.force;
+  request.progress = core::watched(door.progress);
+  std::vector<ReferenceEvent> events;
+  for (const core::EventTime& event : core::event_times(request))
+    events.push_back({event.name, event.rises, Number(event.t.text())});
+  return events;
 }
 
 Reference check_proof(const ProofRequest& request) {

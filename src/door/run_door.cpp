@@ -31,6 +31,20 @@ Expression step_that_suits(const Scene& scene, const Expression& until, const st
   return usual_step(scene, until);
 }
 
+/// "turn" or "turn,3". \throws InputError for an event that there is not
+LastEvent last_event(const Scene& scene, const std::string& text) {
+  const std::size_t comma = text.rfind(',');
+  const std::string name = text.substr(0, comma), count = comma == std::string::npos ? "1" : text.substr(comma + 1);
+  const auto found = std::find_if(scene.events.begin(), scene.events.end(),
+                                  [&](const SceneEvent& event) { return event.name == name; });
+  if (found == scene.events.end()) throw InputError("until_event: there is no event '" + name + "'");
+  constexpr std::size_t most_digits = 9;
+  if (count.empty() || count.size() > most_digits || count.find_first_not_of("0123456789") != std::string::npos ||
+      std::stol(count) < 1)
+    throw InputError("until_event: '" + text + "' is not of the form NAME or NAME,3");
+  return {static_cast<std::size_t>(found - scene.events.begin()), std::stol(count)};
+}
+
 RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::string>& start) {
   Scene scene = scene_of(asked.scene);
   for (const auto& [across, up] : asked.portraits)
@@ -53,8 +67,19 @@ RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::st
                      asked.reverse ? Direction::backward : Direction::forward};
   request.linear_energy = asked.linear_energy;
   for (const auto& [across, up] : asked.portraits) request.portraits.push_back({across, up});
+  for (const Number& time : asked.at) request.at.push_back(expression_of(time, "at"));
+  if (asked.every_time) request.every_time = expression_of(*asked.every_time, "every_time");
+  if (asked.until_event) request.until_event = last_event(scene, *asked.until_event);
   if (start) request.start = read_start_state(asked.start, *start);
   return request;
+}
+
+/// The options of times between mesh points.
+std::string times_in_command(const hbvm::RunRequest& asked) {
+  std::string at;
+  for (const Number& time : asked.at) at += (at.empty() ? " --at '" : ",") + time.text();
+  return (at.empty() ? at : at + "'") + (asked.every_time ? " --every-time '" + asked.every_time->text() + "'" : "") +
+         (asked.until_event ? " --until-event '" + *asked.until_event + "'" : "");
 }
 
 std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request) {
@@ -62,7 +87,7 @@ std::string command_of(const hbvm::RunRequest& asked, const RunRequest& request)
          " --step '" + request.step.text() + "' --until '" + request.until.text() + "' --precision " +
          request.precision.name() + " --solver " + std::string(name_of(request.solver)) +
          (request.start ? " --start " + request.start->file : "") + (asked.reverse ? " --reverse" : "") +
-         (request.on_failure == OnFailure::halve ? " --on-failure halve" : "");
+         (request.on_failure == OnFailure::halve ? " --on-failure halve" : "") + times_in_command(asked);
 }
 
 Figure figure_of(const RunRequest& request, const Recording& recording, const std::string& command) {

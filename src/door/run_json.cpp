@@ -119,6 +119,7 @@ std::string to_json(const Run& run, bool states) {
   j["precision"] = run.precision;
   j["step"] = run.step;
   j["until"] = run.until;
+  if (!run.last_step.empty()) j["last_step"] = run.last_step;
   if (run.reverse) j["reverse"] = true;
   if (!run.start.empty()) j["start"] = run.start;
   if (!run.start_settled.empty()) j["start_settled"] = run.start_settled;
@@ -132,6 +133,24 @@ std::string to_json(const Run& run, bool states) {
   j["lambda"] = run.lambda;
   j["output"] = {{"p", run.output_p}, {"lambda", run.output_lambda}, {"delta_H", run.output_delta_H}};
   if (states) j["states"] = states_of(run);
+  for (const Event& event : run.events)
+    j["events"].push_back({{"name", event.name},
+                           {"t", event.t},
+                           {"direction", event.grazes  ? "grazes"
+                                         : event.rises ? "up"
+                                                       : "down"},
+                           {"q", event.q},
+                           {"p", event.p},
+                           {"lambda", event.lambda}});
+  for (const EventPeriod& period : run.periods)
+    j["periods"].push_back({{"name", period.name},
+                            {"direction", period.rises ? "up" : "down"},
+                            {"crossings", period.crossings},
+                            {"least", period.least},
+                            {"greatest", period.greatest}});
+  for (const StateAt& state : run.at)
+    j["at"].push_back(
+        {{"t", state.t}, {"q", state.q}, {"p", state.p}, {"lambda", state.lambda}, {"delta_H", state.delta_H}});
   j["e_H"] = run.e_H;
   j["e_g"] = run.e_g;
   j["e_hid"] = run.e_hid;

@@ -222,6 +222,47 @@ std::string proof_in(const Run& run, bool all_digits) {
   return text + list_of("lambda of the last step without rounding, proved", proved.lambda_names, proved.lambda, {});
 }
 
+/// A state between mesh points, as that of the end is shown.
+std::string between_of(const Run& run, const StateAt& at, bool all_digits) {
+  const std::string heading = fmt::format("\nstate at t = {}", at.t);
+  if (all_digits) {
+    std::string text = list_of(heading + "\nq", run.q_names, at.q, {});
+    text += list_of(at.lambda.empty() ? "p" : "p, tangential", run.p_names, at.p, {});
+    return at.lambda.empty() ? text : text + list_of("lambda", run.lambda_names, at.lambda, {});
+  }
+  Table state = rows_of(heading, "coordinate", run.q_names);
+  add_column(state, "q", at.q, nullptr);
+  add_column(state, "p", at.p, nullptr);
+  std::string text = shown(state, run.q_names.size());
+  if (at.lambda.empty()) return text;
+  Table multipliers = rows_of("", "constraint", run.lambda_names);
+  add_column(multipliers, "lambda", at.lambda, nullptr);
+  return text + shown(multipliers, run.lambda_names.size());
+}
+
+/// When events came, and how far those of one kind are apart.
+std::string events_of(const Run& run, bool all_digits) {
+  if (run.events.empty()) return {};
+  const auto shown_time = [&](const std::string& t) {
+    constexpr int digits = 15;
+    return all_digits ? t : core::rounded_text(t, digits);
+  };
+  constexpr std::size_t most = 24;
+  std::string text = "\nevents\n";
+  std::size_t n = 0;
+  for (const Event& event : run.events)
+    if (n++ < most || all_digits)
+      text += fmt::format("  {:<20} t = {}, {}\n", event.name, shown_time(event.t),
+                          event.grazes  ? "grazes 0"
+                          : event.rises ? "up"
+                                        : "down");
+  for (const EventPeriod& period : run.periods)
+    text +=
+        fmt::format("  {} {} again after {}{}\n", period.name, period.rises ? "up" : "down", shown_time(period.least),
+                    period.least == period.greatest ? "" : " to " + shown_time(period.greatest));
+  return n <= most || all_digits ? text : text + fmt::format("  ... and {} more (--state)\n", n - most);
+}
+
 std::string whole_state(const Run& run) {
   const ErrorEstimate error = is_assessed(run) ? *run.error : ErrorEstimate{};
   const Shadow shadow = run.shadow.value_or(Shadow{});
@@ -244,11 +285,14 @@ std::string whole_state(const Run& run) {
 
 std::string to_text(const Run& run, bool state) {
   std::string text = fmt::format("{}: {}\n", run.scene, run.title);
-  text += fmt::format("{}, {}, solver {}, {} steps of {} to t = {}\n", run.method, run.precision, run.solver, run.steps,
-                      run.step, run.t);
+  text +=
+      fmt::format("{}, {}, solver {}, {} steps of {}{} to t = {}\n", run.method, run.precision, run.solver, run.steps,
+                  run.step, run.last_step.empty() ? "" : ", the last shortened to " + short_text(run.last_step), run.t);
   text += verdict_of(run) + errors_of(run) + decisions_of(run) + works_of(run) + observed_in(run, state);
   if (run.shadow) text += "\n" + core::to_text(*run.shadow);
   if (run.proved) text += proof_in(run, state);
+  text += events_of(run, state);
+  for (const StateAt& one : run.at) text += between_of(run, one, state);
   text += state ? whole_state(run) : short_state(run);
   return text + fmt::format("\ncost: {:.2f} iterations per step, {:.3f} s of processor time\n", run.iterations_per_step,
                             run.cpu_seconds);

@@ -4,6 +4,7 @@
 #include "hbvm/error.hpp"
 #include "hbvm/scene.hpp"
 #include "scalar/with_scalar.hpp"
+#include "scene/add_event.hpp"
 #include "scene/assemble.hpp"
 #include "scene/hold.hpp"
 #include "scene/observe.hpp"
@@ -240,6 +241,11 @@ Scene& Scene::observe(const std::string& quantity) {
 
 Scene& Scene::observe(const std::string& name, const std::string& formula) {
   become(core::with_observation(core::scene_of(*this), name, formula));
+  return *this;
+}
+
+Scene& Scene::event(const std::string& text) {
+  become(core::with_event(core::scene_of(*this), text));
   return *this;
 }
 

@@ -46,7 +46,7 @@ Integration<S> integrate(Stepper<S>& stepper, State<S>& state, const TimeGrid<S>
     const double before = thread_seconds(), elapsed_before = elapsed_seconds();
     try {
       for (; made < block && n < grid.steps() && !stop_asked(); ++made) {
-        const StepResult<S> step = stepper.step(state, grid.step());
+        const StepResult<S> step = stepper.step(state, n + 1 == grid.steps() ? grid.last_step() : grid.step());
         result.sweeps += step.sweeps;
         if (each_step) each_step->observe(step, state);
         Snapshot<S>& snapshot = snapshots[made];

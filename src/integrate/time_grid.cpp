@@ -22,9 +22,11 @@ S positive(const Expression& expression, const Constants& constants, const std::
 }  // namespace
 
 template <Scalar S>
-TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Constants& constants, Direction direction)
+TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Constants& constants, Direction direction,
+                      LastStep last)
     : step_(positive<S>(step, constants, "step")),
       until_(positive<S>(until, constants, "until")),
+      last_step_(step_),
       direction_(direction) {
   using std::floor;
   const S half = S(1) / 2;
@@ -34,14 +36,20 @@ TimeGrid<S>::TimeGrid(const Expression& step, const Expression& until, const Con
                      until.text() + "'");
   steps_ = static_cast<long>(quotient);
   const S miss = magnitude(S(S(steps_) * step_ - until_));
-  if (steps_ == 0 || miss > 4 * epsilon<S>() * until_)
+  if (steps_ > 0 && miss <= 4 * epsilon<S>() * until_) return;
+  if (last == LastStep::refused)
     throw InputError("step '" + step.text() + "' does not divide the interval: " + std::to_string(steps_) +
                      " steps miss until '" + until.text() + "' by " + to_scientific(miss, 3));
+  is_even_ = false;
+  steps_ = static_cast<long>(floor(S(until_ / step_))) + 1;
+  last_step_ = until_ - step_ * S(steps_ - 1);
+  // The quotient may have been rounded up.
+  if (!(last_step_ > 0)) last_step_ = until_ - step_ * S(--steps_ - 1);
 }
 
 template <Scalar S>
 S TimeGrid<S>::time(long n) const {
-  const S t = n == steps_ ? until_ : S(until_ * S(n) / S(steps_));
+  const S t = n == steps_ ? until_ : is_even_ ? S(until_ * S(n) / S(steps_)) : S(step_ * S(n));
   return direction_ == Direction::backward ? S(-t) : t;
 }
 

@@ -232,6 +232,7 @@ std::string scene_hash(const Scene& scene) {
   Scene plain = scene;
   plain.name = plain.title = plain.source = "";
   plain.observations.clear();
+  plain.events.clear();
   for (SceneRigidBody& body : plain.rigid_bodies) body.shape.reset();
   return Checksum(write_scene(plain)).text();
 }

@@ -142,7 +142,8 @@ std::optional<ErrorEstimate> estimate_by_motion(const RunRequest& request, Route
   if (start && distance(tangential, from.p) > units * Mpfr(epsilon<S>()) * max_norm(from.p)) return std::nullopt;
   const bool back = request.direction == Direction::backward;
   if (back && !scene.problem.is_conservative()) return std::nullopt;
-  const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
+  const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction,
+                            LastStep::shortened);
   try {
     ExactPoint end = exact_end(scene.problem, from.q, back ? Vector<Mpfr>(-tangential) : tangential,
                                magnitude(grid.until()), route, [] { end_if_asked("the check was interrupted"); });
@@ -160,7 +161,8 @@ std::optional<ErrorEstimate> estimate_by_motion(const RunRequest& request, Route
 
 /// Another number of steps, whose points are not those of the first.
 Expression step_beside(const RunRequest& request) {
-  const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants);
+  const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, Direction::forward,
+                            LastStep::shortened);
   const auto more = static_cast<long>(std::ceil(static_cast<double>(grid.steps()) * std::numbers::sqrt2)) + 1;
   return Expression::parse("(" + request.until.text() + ")/" + std::to_string(more));
 }

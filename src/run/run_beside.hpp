@@ -31,7 +31,8 @@ State<Mpfr> exact_state(const State<S>& state) {
 template <Scalar S>
 Simulated<Mpfr> run_beside(const RunRequest& request, const Method& method, const std::optional<State<S>>& start,
                            const std::vector<Observer<Mpfr>*>& observers = {}) {
-  const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction);
+  const TimeGrid<Mpfr> grid(request.step, request.until, request.scene.constants, request.direction,
+                            LastStep::shortened);
   const Assembled<Mpfr> scene = assemble<Mpfr>(request.scene);
   const std::unique_ptr<Stepper<Mpfr>> stepper = method.make_stepper(scene.problem, request.solver);
   Course<Mpfr> course;

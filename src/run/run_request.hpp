@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "integrate/event_finder.hpp"
 #include "integrate/time_grid.hpp"
 #include "run/run_stepper.hpp"
 #include "run/start_state.hpp"
@@ -30,6 +31,9 @@ struct RunRequest {
   std::optional<StartState> start = {};                    ///< instead of that of the scene
   std::vector<std::array<std::string, 2>> portraits = {};  ///< observations of the scene, drawn against each other
   bool linear_energy = false;                              ///< pictures also show H - H_0 on a linear axis
+  std::vector<Expression> at = {};                         ///< times at which the state is to be told, too
+  std::optional<Expression> every_time = {};               ///< and the multiples of this
+  std::optional<LastEvent> until_event = {};               ///< the run ends where it comes, if it does
 };
 
 }  // namespace hbvm::core

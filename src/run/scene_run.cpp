@@ -1,9 +1,13 @@
 #include "run/scene_run.hpp"
 
+#include <algorithm>
+
 #include "integrate/energy_scale.hpp"
+#include "integrate/event_finder.hpp"
 #include "integrate/momentum_drift.hpp"
 #include "integrate/observations.hpp"
 #include "integrate/output_state.hpp"
+#include "integrate/states_at.hpp"
 #include "integrate/trajectory.hpp"
 #include "integrate/work_done.hpp"
 #include "run/error_estimate.hpp"
@@ -140,10 +144,51 @@ std::vector<Work> works_of(const Problem<S>& problem, const Vector<S>& p) {
   return works;
 }
 
+/// Of each event and direction that came three times or more.
+template <Scalar S>
+std::vector<EventPeriod> periods_of(const Scene& scene, const std::vector<FoundEvent<S>>& found) {
+  std::vector<EventPeriod> periods;
+  constexpr std::size_t fewest = 3;
+  for (std::size_t event = 0; event < scene.events.size(); ++event)
+    for (const bool rises : {true, false}) {
+      std::vector<S> times;
+      for (const FoundEvent<S>& one : found)
+        if (one.event == event && one.rises == rises && !one.grazes) times.push_back(magnitude(one.state.t));
+      if (times.size() < fewest) continue;
+      S least = times[1] - times[0], greatest = least;
+      for (std::size_t n = 2; n < times.size(); ++n) {
+        const S passed = times[n] - times[n - 1];
+        if (passed < least) least = passed;
+        if (passed > greatest) greatest = passed;
+      }
+      periods.push_back(
+          {scene.events[event].name, rises, static_cast<long>(times.size()), to_text(least), to_text(greatest)});
+    }
+  return periods;
+}
+
+/// The times at which the state is asked for, which ascend, each once.
+template <Scalar S>
+std::vector<S> times_asked(const RunRequest& request, const TimeGrid<S>& grid) {
+  std::vector<S> times;
+  if (request.every_time)
+    times = multiples_until<S>(evaluate<S>(*request.every_time, request.scene.constants), grid.until());
+  for (const Expression& asked : request.at) {
+    times.push_back(evaluate<S>(asked, request.scene.constants));
+    if (!(times.back() >= 0) || times.back() > grid.until())
+      throw InputError("--at: '" + asked.text() + "' is no time from 0 to the end, " + to_text(grid.until()));
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
 template <Scalar S>
 Run run_in(const RunRequest& request, const RunHooks& hooks) {
   if (request.prove) check_provable(request);
-  const TimeGrid<S> grid(request.step, request.until, request.scene.constants, request.direction);
+  const TimeGrid<S> grid(request.step, request.until, request.scene.constants, request.direction,
+                         request.prove ? LastStep::refused : LastStep::shortened);
+  const std::vector<S> asked_times = times_asked(request, grid);
   Assembled<S> scene = assemble<S>(request.scene);
   Course<S> course{{}, hooks.checkpoints};
   if (request.start && !scene.problem.is_conservative())
@@ -154,6 +199,8 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
     scene.q0 = course.start->q;
     scene.p0 = course.start->p;
   }
+  if (course.checkpoints && (!asked_times.empty() || !request.scene.events.empty()))
+    throw InputError("--checkpoint: a run that tells events, or states at times of its own, cannot be kept");
   std::unique_ptr<CsvFile> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
   Run result = told_of(request);
   result.lambda_names = names_of_constraints(scene.problem);
@@ -190,18 +237,30 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   if (request.shadow) observers.push_back(&shadowed.emplace(scene.problem.mass.of_bodies(), grid.steps()));
   std::optional<EnergyScale<S>> scale;
   if (stepper.chosen()) observers.push_back(&scale.emplace(scene.problem));
+  std::optional<BetweenSteps<S>> between;
+  std::optional<StatesAt<S>> states_at;
+  std::optional<EventFinder<S>> events;
+  if (!asked_times.empty() || !request.scene.events.empty())
+    between.emplace(method.make_stepper<S>(scene.problem, request.solver));
+  if (!request.scene.events.empty())
+    observers.push_back(&events.emplace(request.scene, scene.problem, *between, request.until_event));
+  if (!asked_times.empty()) {
+    observers.push_back(&states_at.emplace(*between, asked_times, request.direction));
+  }
   Account account;
   const Simulated<S> simulated = explained(health, [&] {
     return simulate<S>(scene, stepper, grid, observers, request.account ? &account : nullptr, &health.decay(), course);
   });
 
   if (csv) csv->flush();
+  if (states_at) states_at->finish();
 
   const Snapshot<S>& end = simulated.integration.end;
   if (scale) result.nodes = report_nodes(stepper, grid, *scale, simulated.e_B);
   if (stepper.halving()) result.halving = report_halving(*stepper.halving(), grid);
   result.start_settled = scene.settled;
   result.step = to_text(grid.step());
+  if (!grid.is_even()) result.last_step = to_text(grid.last_step());
   result.until = to_text(grid.until());
   result.t = to_text(end.t);
   result.steps = grid.steps();
@@ -219,6 +278,19 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   const Vector<S> output_lambda = redundant.multipliers(end.q, output.lambda);
   result.output_lambda = to_texts(output_lambda);
   result.output_delta_H = to_text(S(point.energy(end.q, output.p) - simulated.H0));
+  const auto multipliers_of = [&](const StateBetween<S>& state) {
+    return to_texts(redundant.multipliers(state.q, state.lambda));
+  };
+  if (events)
+    for (const FoundEvent<S>& event : events->found())
+      result.events.push_back({request.scene.events[event.event].name, to_text(event.state.t), event.rises,
+                               event.grazes, to_texts(of_bodies(event.state.q)), to_texts(of_bodies(event.state.p)),
+                               multipliers_of(event.state)});
+  if (events) result.periods = periods_of(request.scene, events->found());
+  if (states_at)
+    for (const StateBetween<S>& state : states_at->states())
+      result.at.push_back({to_text(state.t), to_texts(of_bodies(state.q)), to_texts(of_bodies(state.p)),
+                           multipliers_of(state), to_text(S(point.energy(state.q, state.p) - simulated.H0))});
   result.e_H = to_text(simulated.e_H);
   if (!scene.problem.driven.empty()) {
     result.e_B = to_text(simulated.e_B);
@@ -259,7 +331,24 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
 }  // namespace
 
 Run run(const RunRequest& request, const RunHooks& hooks) {
-  return with_scalar(request.precision, [&]<Scalar S>() { return run_in<S>(request, hooks); });
+  return with_scalar(request.precision, [&]<Scalar S>() {
+    if (!request.until_event) return run_in<S>(request, hooks);
+    // Where it comes is known when a run has gone by. Another one ends there.
+    RunRequest until_there = request;
+    until_there.until_event.reset();
+    try {
+      RunRequest search = request;
+      search.account = search.shadow = search.error = search.prove = false;
+      search.at.clear();
+      search.every_time.reset();
+      RunHooks quiet;
+      quiet.progress = hooks.progress;
+      run_in<S>(search, quiet);
+    } catch (const EventReached& event) {
+      until_there.until = Expression::parse(event.t);
+    }
+    return run_in<S>(until_there, hooks);
+  });
 }
 
 }  // namespace hbvm::core

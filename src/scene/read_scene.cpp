@@ -10,6 +10,7 @@
 #include "problem/constraint/registry.hpp"
 #include "problem/effect/registry.hpp"
 #include "problem/force/registry.hpp"
+#include "scene/add_event.hpp"
 #include "scene/formula_names.hpp"
 #include "scene/inertia.hpp"
 #include "scene/orientation.hpp"
@@ -30,9 +31,9 @@ constexpr Allowed of_constraint{.points = true, .attachments = true},
 
 /// Made when first asked for, since scenes may be read before main().
 const std::set<std::string, std::less<>>& top_keys() {
-  static const std::set<std::string, std::less<>> keys{"title",      "source",     "dimension", "observables",
-                                                       "constants",  "point",      "body",      "rigid_body",
-                                                       "attachment", "constraint", "effect",    "observe"};
+  static const std::set<std::string, std::less<>> keys{"title",  "source",  "dimension",  "observables", "constants",
+                                                       "point",  "body",    "rigid_body", "attachment",  "constraint",
+                                                       "effect", "observe", "event"};
   return keys;
 }
 
@@ -64,6 +65,7 @@ class SceneReader {
           top.fail(*node, "unknown observable '" + name + "'" + did_you_mean_or_list(name, known));
     }
     for (const toml::table* table : top.tables("observe")) observe(TomlTable(source_, *table, "observe"));
+    for (const toml::table* table : top.tables("event")) event(TomlTable(source_, *table, "event"));
     if (scene_.bodies.empty() && scene_.rigid_bodies.empty()) top.fail("there is no [[body]]");
   }
 
@@ -173,6 +175,17 @@ class SceneReader {
       scene_.observations.push_back({name, Expression::parse(text, Expression::Syntax::observation), table.line()});
     } catch (const ExpressionError& error) {
       table.fail(std::string("'value': ") + error.what());
+    }
+  }
+
+  void event(TomlTable table) {
+    const std::string name = table.string("name"), text = table.string("value"),
+                      direction = table.optional_string("direction");
+    table.finish();
+    try {
+      add_event(scene_, name, text, direction, table.line());
+    } catch (const InputError& error) {
+      table.fail(error.what());
     }
   }
 

@@ -129,6 +129,17 @@ struct SceneObservation {
   std::size_t line = 0;
 };
 
+/// In which direction a value crosses 0.
+enum class Crossing { any, up, down };
+
+/// A time at which a value of the motion crosses 0: see EventFinder.
+struct SceneEvent {
+  std::string name;
+  Expression value;  ///< of what may be observed
+  Crossing direction = Crossing::any;
+  std::size_t line = 0;
+};
+
 struct Scene {
   std::string name;  ///< built-in name or path
   std::string title, source;
@@ -142,6 +153,7 @@ struct Scene {
   std::vector<SceneEffect> effects;
   std::vector<std::string> observables;  ///< among energy, linear_momentum, angular_momentum
   std::vector<SceneObservation> observations = {};
+  std::vector<SceneEvent> events = {};
   std::vector<std::string> changes = {};  ///< options that make it of what the name stands for: "--set 'L=1.2'"
 
   bool observes(std::string_view what) const {

@@ -152,6 +152,12 @@ std::string write_scene(const Scene& scene) {
     w.key("name", quoted(o.name));
     w.key("value", quoted(o.value.text()));
   }
+  for (const SceneEvent& event : scene.events) {
+    w.table("event");
+    w.key("name", quoted(event.name));
+    w.key("value", quoted(event.value.text()));
+    if (event.direction != Crossing::any) w.key("direction", event.direction == Crossing::up ? "\"up\"" : "\"down\"");
+  }
   return w.out;
 }
 

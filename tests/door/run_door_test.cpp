@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "door/run_of.hpp"
 #include "hbvm/error.hpp"
@@ -155,7 +156,7 @@ TEST(DoorRun, RefusesWhatTheProgramRefuses) {
   };
   expect_refused(&RunRequest::method, "hbvn:4,2");
   expect_refused(&RunRequest::step, "1/16 +");
-  expect_refused(&RunRequest::until, "1/30");
+  expect_refused(&RunRequest::until, "-1/30");
   expect_refused(&RunRequest::precision, "mpfr:3");
 }
 
@@ -178,6 +179,70 @@ TEST(DoorRun, KnowsEveryMethod) {
   request.method = "taylor";
   const hbvm::Run exact = run(request);
   EXPECT_LT(std::stod(exact.e_H), 1e-45);
+}
+
+/// States at times of one's own, events, and an end that is no multiple of the step.
+TEST(DoorRun, TellStatesBetweenTheSteps) {
+  RunRequest request{.scene = load_scene("simple_pendulum"), .method = "hbvm:8,8", .step = "1/4", .until = "10/3"};
+  request.at = {"1/3", "10/3", "2"};
+  request.every_time = "1";
+  request.precision = "mpfr:30";
+  const hbvm::Run made = hbvm::run(request);
+  EXPECT_EQ(made.steps, 14);
+  EXPECT_EQ(made.last_step.substr(0, 8), "0.083333");
+  ASSERT_EQ(made.at.size(), 6u);  // 0, 1/3, 1, 2, 3, 10/3
+  EXPECT_EQ(made.at[1].t.substr(0, 8), "0.333333");
+  EXPECT_EQ(made.at[5].q, made.q);
+  EXPECT_EQ(made.at[5].p, made.output_p);
+  EXPECT_EQ(made.at[5].lambda, made.output_lambda);
+  const auto json = nlohmann::json::parse(to_json(made));
+  EXPECT_EQ(json.at("at").size(), 6u);
+  core::expect_words(to_text(made), {"the last shortened to", "state at t = 2"});
+  core::expect_words(made.command, {"--at '1/3,10/3,2'", "--every-time '1'"});
+  request.at = {"4"};
+  EXPECT_THROW(hbvm::run(request), InputError);
+  request.at = {"-1"};
+  EXPECT_THROW(hbvm::run(request), InputError);
+  request.at = {"1"};
+  request.prove = true;  // of equal steps
+  EXPECT_THROW(hbvm::run(request), InputError);
+}
+
+TEST(DoorRun, TellEventsAndPeriods) {
+  RunRequest request{.scene = load_scene("simple_pendulum"), .method = "hbvm:8,8", .step = "1/4", .until = "30"};
+  request.scene.event("swing up: bob.x").event("turn: bob.vx");
+  const hbvm::Run made = hbvm::run(request);
+  ASSERT_EQ(made.periods.size(), 3u);
+  EXPECT_EQ(made.periods[0].name, "swing");
+  EXPECT_EQ(made.periods[0].crossings, 4);
+  EXPECT_EQ(made.periods[0].least.substr(0, 12), "6.7430014192");
+  EXPECT_EQ(made.periods[0].greatest.substr(0, 12), "6.7430014192");
+  const auto json = nlohmann::json::parse(to_json(made));
+  EXPECT_EQ(json.at("events").at(0).at("name"), "turn");
+  EXPECT_EQ(json.at("events").at(0).at("direction"), "down");
+  core::expect_words(to_text(made), {"events\n", "swing up again after 6.7430014192"});
+  // It ends at the third turn, at rest.
+  request.until_event = "turn,3";
+  const hbvm::Run third = hbvm::run(request);
+  EXPECT_EQ(third.until.substr(0, 12), "8.4287517740");
+  EXPECT_LT(std::abs(std::stod(third.output_p[0])), 1e-12);
+  for (const char* const wrong : {"turn,0", "turn,", "turn,x", "no", "turn,99999999999"}) {
+    request.until_event = wrong;
+    EXPECT_THROW(hbvm::run(request), InputError) << wrong;
+  }
+}
+
+/// Back in time the states are those of the opposite times.
+TEST(DoorRun, TellStatesBackInTime) {
+  RunRequest request{.scene = load_scene("conical_pendulum"), .method = "hbvm:6,6", .step = "1/8", .until = "2"};
+  request.at = {"0.7"};
+  const hbvm::Run forward = hbvm::run(request);
+  request.reverse = true;
+  const hbvm::Run backward = hbvm::run(request);
+  EXPECT_EQ(backward.at.at(0).t, "-0.7");
+  // The bob starts on the x axis and turns: there and back mirror each other.
+  EXPECT_NEAR(std::stod(backward.at[0].q[0]), std::stod(forward.at.at(0).q[0]), 1e-12);
+  EXPECT_NEAR(std::stod(backward.at[0].q[1]), -std::stod(forward.at[0].q[1]), 1e-12);
 }
 
 }  // namespace

@@ -104,6 +104,25 @@ TEST(TimeGrid, ARoundedStepThatDividesOnlyInDoubleIsRefusedInMoreDigits) {
   EXPECT_NE(refusal<Mpfr>("0.33333333333333333", "1"), "");
 }
 
+TYPED_TEST(TimeGridOf, ShortensTheLastStepIfAsked) {
+  using S = TypeParam;
+  const auto shortened = [](const char* step, const char* until) {
+    return TimeGrid<S>(Expression::parse(step), Expression::parse(until), {}, Direction::forward, LastStep::shortened);
+  };
+  const TimeGrid<S> uneven = shortened("1/4", "7/3");
+  EXPECT_EQ(uneven.steps(), 10);
+  EXPECT_FALSE(uneven.is_even());
+  EXPECT_EQ(uneven.time(9), S(9) / 4);
+  EXPECT_EQ(uneven.time(10), uneven.until());
+  EXPECT_LE(magnitude(S(uneven.last_step() - S(1) / 12)), 8 * epsilon<S>());
+  const TimeGrid<S> even = shortened("0.1", "2");
+  EXPECT_TRUE(even.is_even());
+  EXPECT_EQ(even.steps(), 20);
+  EXPECT_EQ(even.last_step(), even.step());
+  // An end before the first step is one short step.
+  EXPECT_EQ(shortened("1", "1/3").steps(), 1);
+}
+
 TEST(TimeGrid, UsesTheScenesConstants) {
   const Constants constants{{"T", Expression::parse("2*pi")}};
   const TimeGrid<double> times(Expression::parse("T/8"), Expression::parse("T"), constants);

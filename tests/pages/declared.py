@@ -7,6 +7,7 @@ MENTIONS = {
     "hbvm run --out",
     "hbvm audit --full",
     "hbvm audit --command",
+    "hbvm reference --event",
 }
 
 # What other tests run, or what takes a machine for itself: why it is not run here.

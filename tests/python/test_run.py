@@ -124,6 +124,7 @@ def test_every_key_of_the_schema_is_an_attribute():
         hbvm.run(hbvm.scene("double_pendulum").project(), until=1, step="1/8", precision=40),
         hbvm.run(**PENDULUM),
         hbvm.run("bead_on_torus", until=1, step="1/4"),
+        hbvm.run(hbvm.scene("simple_pendulum").event("swing: bob.x"), step="1/4", until="91/3", at=["1/3"]),
         hbvm.run("double_pendulum", "hbvm:2,2", until=1, step="1/8", precision=20, prove=True),
     ]
     for run in runs:
@@ -185,7 +186,7 @@ def test_the_page_moves_in_a_notebook(tmp_path):
 def test_wrong_requests_have_the_words_of_the_program():
     for wrong, words in (
         ({"method": "hbmv:4,2"}, "did you mean"),
-        ({"step": "3/7"}, "until"),
+        ({"at": [5000]}, "at"),
         ({"precision": "mpfr:7"}, "20"),
         ({"solver": "magic"}, "solver"),
         ({"every": -1}, "-1"),

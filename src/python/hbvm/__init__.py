@@ -31,6 +31,7 @@ from ._run import Run, kept, run
 from ._scene import Scene, SceneFacts, scene, scenes
 from ._solver import Judgement, judge
 from ._study import Comparison, Convergence, Study, compare, convergence, study
+from ._tangent import Tangent, reference_events, tangent
 
 if TYPE_CHECKING:
     from ._arrays import Numbers
@@ -38,8 +39,8 @@ if TYPE_CHECKING:
 __all__ = [
     "Against", "Audit", "Coefficients", "Columns", "Comparison", "Convergence", "Error", "Exact", "FloatWarning", "InputError",
     "IntegrationError", "Interrupted", "Judgement", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Plan", "Record", "Reference",
-    "Run", "Rung", "Scene", "SceneFacts", "Study", "audit", "check_lesson", "check_proof", "coefficients", "compare", "convergence", "cost", "judge", "kept",
-    "lessons", "methods", "nodes", "precision_of", "read_csv", "reference", "run", "scene", "scenes", "study", "verify_order",
+    "Run", "Rung", "Scene", "SceneFacts", "Study", "Tangent", "audit", "check_lesson", "check_proof", "coefficients", "compare", "convergence", "cost", "judge", "kept",
+    "lessons", "methods", "nodes", "precision_of", "read_csv", "reference", "reference_events", "run", "scene", "scenes", "study", "tangent", "verify_order",
 ]
 
 

@@ -206,11 +206,14 @@ def run(
     portraits: Sequence[tuple[str, str]] = (),
     linear_energy: bool = False,
     every: int = 1,
+    at: Exact | Sequence[Exact] = (),
+    every_time: Exact | None = None,
+    until_event: str | None = None,
     progress: Progress = None,
 ) -> Run:
     """Integrates a scene.
 
-    step        of which `until` is a multiple; without, one that suits the scene
+    step        the last is shortened if `until` is no multiple; without, one that suits the scene
     precision   "double", "quad", or "mpfr:50" or 50 for so many digits
     solver      of the stage equations: "auto", "newton", "fixed-point" or "paper"
     on_failure  "stop", or "halve": a step that cannot be made is divided
@@ -222,6 +225,9 @@ def run(
     picture     keep what plot() and animate() show
     portraits   pairs of what the picture draws against one another: ("a.x", "a.px")
     every       steps between two rows of the trajectory; 0: none is kept
+    at          times at which the state is told, too, in `at`; they need be no mesh points
+    every_time  and the multiples of this
+    until_event the run ends at the event of this name that the scene has, or at its third, "turn,3"
     progress    a callable f(done, of), or True for a bar of tqdm
 
     Ctrl-C ends it after a step, with `Interrupted`; `hbvm.kept()` then has the mesh points.
@@ -230,6 +236,11 @@ def run(
     >>> run = hbvm.run("double_pendulum", "hbvm:4,2", step="1/16", until=1, precision=30)
     >>> run.q["a.x"]
     0.7955498760973122607964620595837
+
+    >>> pendulum = hbvm.scene("simple_pendulum").event("swing up: bob.x")
+    >>> run = hbvm.run(pendulum, "hbvm:8,8", step="1/4", until=30, at=["1/3"])
+    >>> round(float(run.events[0].t), 9), run.periods[0].crossings, run.at[0].t
+    (6.743001419, 4, 0.3333333333333333)
     """
     asked = {
         "scene": scene_of(scene)._raw(),
@@ -249,6 +260,9 @@ def run(
         "portraits": list(portraits),
         "linear_energy": linear_energy,
         "every": every,
+        "at": [exact_text(t, "at") for t in ([at] if isinstance(at, str) or not isinstance(at, Sequence) else at)],
+        "every_time": None if every_time is None else exact_text(every_time, "every_time"),
+        "until_event": until_event,
     }
     return Run(_made(asked, progress), asked)
 

@@ -203,6 +203,19 @@ class Scene:
         self._become(raw)
         return self
 
+    def event(self, text: str) -> Scene:
+        """A run tells when a value crosses 0, and the state there: "turn: bob.vx", or upwards alone "turn up: bob.vx".
+
+        >>> import hbvm
+        >>> run = hbvm.run(hbvm.scene("kepler").event("near: planet.y"), step="1/16", until=7)
+        >>> [event.direction for event in run.events]
+        ['down', 'up']
+        """
+        raw = self._raw()
+        raw.event(text)
+        self._become(raw)
+        return self
+
     def set(self, what: str, value: Exact) -> Scene:
         """Another value of a constant, "L", or of a body's mass or charge, "a.mass".
 

@@ -34,8 +34,9 @@ void translate(std::exception_ptr thrown) {
 PYBIND11_MODULE(_hbvm, module) {
   py::register_exception_translator(translate);
   module.attr("version") = hbvm::version();
-  for (const auto add : {hbvm::python::add_scene, hbvm::python::add_run, hbvm::python::add_reference,
-                         hbvm::python::add_audit, hbvm::python::add_cost, hbvm::python::add_study,
-                         hbvm::python::add_lesson, hbvm::python::add_facts, hbvm::python::add_solver})
+  for (const auto add :
+       {hbvm::python::add_scene, hbvm::python::add_run, hbvm::python::add_reference, hbvm::python::add_audit,
+        hbvm::python::add_cost, hbvm::python::add_study, hbvm::python::add_lesson, hbvm::python::add_facts,
+        hbvm::python::add_solver, hbvm::python::add_tangent})
     add(module);
 }

@@ -60,7 +60,9 @@ void add_run(py::module_& module) {
          const std::string& until, const std::string& precision, const std::string& solver,
          const std::string& on_failure, bool reverse, bool account, bool shadow, bool error, bool prove,
          const std::string& start, bool picture, const std::vector<std::pair<std::string, std::string>>& portraits,
-         bool linear_energy, long every, py::list kept, py::object progress) {
+         bool linear_energy, long every, const std::vector<std::string>& at,
+         const std::optional<std::string>& every_time, const std::optional<std::string>& until_event, py::list kept,
+         py::object progress) {
         RunRequest request{.scene = scene, .method = method, .step = {}, .until = until};
         if (step) request.step = *step;
         request.precision = precision;
@@ -76,12 +78,16 @@ void add_run(py::module_& module) {
         request.portraits = portraits;
         request.linear_energy = linear_energy;
         request.every = every;
+        request.at = Numbers(at.begin(), at.end());
+        if (every_time) request.every_time = *every_time;
+        request.until_event = until_event;
         return made_run(std::move(request), std::move(kept), std::move(progress));
       },
       py::kw_only(), py::arg("scene"), py::arg("method"), py::arg("step"), py::arg("until"), py::arg("precision"),
       py::arg("solver"), py::arg("on_failure"), py::arg("reverse"), py::arg("account"), py::arg("shadow"),
       py::arg("error"), py::arg("prove"), py::arg("start"), py::arg("picture"), py::arg("portraits"),
-      py::arg("linear_energy"), py::arg("every"), py::arg("kept"), py::arg("progress"));
+      py::arg("linear_energy"), py::arg("every"), py::arg("at"), py::arg("every_time"), py::arg("until_event"),
+      py::arg("kept"), py::arg("progress"));
 }
 
 }  // namespace hbvm::python

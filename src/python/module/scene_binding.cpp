@@ -15,6 +15,7 @@ void add_scene(py::module_& module) {
       .def("toml", &Scene::toml)
       .def("check", &Scene::check)
       .def("set", [](Scene& scene, const std::string& what, const std::string& value) { scene.set(what, value); })
+      .def("event", [](Scene& scene, const std::string& text) { scene.event(text); })
       .def("observe",
            [](Scene& scene, const std::string& name, const std::string& formula) { scene.observe(name, formula); });
   module.def("describe", [](const Scene& scene, const std::string& precision) {

@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "door/door.hpp"
+#include "door/run_of.hpp"
+#include "hbvm/tangent.hpp"
+#include "long_work/json.hpp"
+#include "run/tangent_map.hpp"
+#include "scalar/log2_of.hpp"
+#include "scalar/text.hpp"
+#include "scene/coordinate_names.hpp"
+
+namespace hbvm {
+namespace {
+
+using core::Index;
+using core::Mpfr;
+
+std::vector<std::string> texts_of(const core::Vector<Mpfr>& x, int digits) {
+  std::vector<std::string> texts;
+  for (Index i = 0; i < x.size(); ++i) texts.push_back(core::to_scientific(x[i], digits));
+  return texts;
+}
+
+/// The eigenvalues of start^+ end, from the greatest on.
+std::vector<Multiplier> multipliers_of(const core::TangentMap& map) {
+  // Directions are orthonormal over sizes, which need not be known here.
+  const auto near = [](const core::Matrix<Mpfr>& x) {
+    return Eigen::MatrixXd(x.unaryExpr([](const Mpfr& entry) { return core::approximately(entry); }));
+  };
+  const Eigen::MatrixXd start = near(map.start), end = near(map.end);
+  const Eigen::MatrixXd monodromy = start.colPivHouseholderQr().solve(end);
+  std::vector<Multiplier> multipliers;
+  const Eigen::VectorXcd eigenvalues = monodromy.eigenvalues();
+  for (Index i = 0; i < eigenvalues.size(); ++i) multipliers.push_back({eigenvalues[i].real(), eigenvalues[i].imag()});
+  std::stable_sort(multipliers.begin(), multipliers.end(), [](const Multiplier& a, const Multiplier& b) {
+    return std::hypot(a.real, a.imaginary) > std::hypot(b.real, b.imaginary);
+  });
+  return multipliers;
+}
+
+/// Where the growth reaches so many digits, or would.
+Horizon horizon_of(const Tangent& tangent, const std::string& precision, double digits) {
+  Horizon horizon{precision, digits, {}, false};
+  for (std::size_t n = 0; n < tangent.times.size(); ++n)
+    if (tangent.growth[n] >= digits) {
+      horizon.t = tangent.times[n];
+      return horizon;
+    }
+  const Exponent& greatest = tangent.exponents.front();
+  if (!(greatest.value > greatest.uncertainty)) return horizon;
+  horizon.t = tangent.times.back() + (digits - tangent.growth.back()) * std::log(double{10}) / greatest.value;
+  horizon.extrapolated = true;
+  return horizon;
+}
+
+}  // namespace
+
+Tangent tangent(const TangentRequest& door) {
+  const core::Admitted admitted(door.stop);
+  RunRequest asked{.scene = door.scene, .method = door.method, .step = door.step, .until = door.until};
+  asked.precision = door.precision;
+  asked.solver = door.solver;
+  const core::RunRequest request = core::request_of(asked, {});
+  for (const std::string& constant : door.constants)
+    if (!request.scene.constants.contains(constant))
+      throw InputError("the scene has no constant '" + constant + "' to change");
+  const core::TangentMap map = core::tangent_map(request, core::watched(door.progress));
+  const core::TangentDigits digits = core::TangentDigits::of(request.precision);
+  const core::PrecisionScope scope(static_cast<unsigned>(digits.working));
+  Tangent found{.scene = request.scene.name,
+                .method = request.method->text(),
+                .step = request.step.text(),
+                .until = request.until.text(),
+                .precision = request.precision.name()};
+  found.names = core::coordinate_names(request.scene);
+  for (const std::string& name : core::coordinate_names(request.scene, "p")) found.names.push_back(name);
+  for (const core::Vector<Mpfr>& part : {map.q, map.p})
+    for (const std::string& text : texts_of(part, digits.asked)) found.end.push_back(text);
+  for (Index j = 0; j < map.start.cols(); ++j) {
+    found.directions.push_back(texts_of(map.start.col(j), digits.asked));
+    found.changes.push_back(texts_of(map.end.col(j), digits.asked));
+  }
+  found.times = map.times;
+  found.growth = map.growth;
+  for (const core::LyapunovExponent& exponent : map.exponents)
+    found.exponents.push_back({exponent.value, exponent.uncertainty});
+  const double binary = std::log2(double{10});
+  found.symplectic_defect = core::log2_of(map.symplectic_defect) / binary;
+  constexpr double closed = -4;
+  if (map.distance < closed) found.multipliers = multipliers_of(map);
+  for (const char* const name : {"double", "mpfr:34", "mpfr:50", "mpfr:100"})
+    found.horizons.push_back(horizon_of(found, name, core::Precision::parse(name).digits()));
+  for (const std::string& constant : door.constants)
+    found.sensitivities.emplace_back(constant, texts_of(core::constant_sensitivity(request, constant), digits.asked));
+  return found;
+}
+
+std::string to_text(const Tangent& tangent) {
+  std::string text = fmt::format("{}: {}, steps of {} to t = {}, derivatives to the digits of {}\n", tangent.scene,
+                                 tangent.method, tangent.step, tangent.until, tangent.precision);
+  text += "\nLyapunov exponents, within what eight parts of the time tell\n";
+  double sum = 0;
+  for (const Exponent& exponent : tangent.exponents) {
+    text += fmt::format("  {:+.6f} +- {:.6f}\n", exponent.value, exponent.uncertainty);
+    sum += exponent.value;
+  }
+  text += fmt::format("  their sum is {:.1e}\n", sum);
+  text += fmt::format("\na change of the start grows by up to 10^{:.1f}: so many digits are lost until then\n",
+                      tangent.growth.back());
+  for (const Horizon& horizon : tangent.horizons)
+    text += horizon.t ? fmt::format("  {:<10} has no digit left at t = {:.4g}{}\n", horizon.precision, *horizon.t,
+                                    horizon.extrapolated ? ", if it goes on so" : "")
+                      : fmt::format("  {:<10} keeps digits: no exponent is above its uncertainty\n", horizon.precision);
+  text += fmt::format("the 2-form of two changes is kept to {:.0f} digits\n",
+                      std::max(double{0}, -tangent.symplectic_defect));
+  if (!tangent.multipliers.empty()) text += "\nthe motion closes; multipliers\n";
+  for (const Multiplier& multiplier : tangent.multipliers)
+    text += fmt::format("  {:+.9g} {:+.9g} i\n", multiplier.real, multiplier.imaginary);
+  for (const auto& [constant, changes] : tangent.sensitivities) {
+    text += fmt::format("\nd(end)/d({})\n", constant);
+    for (std::size_t i = 0; i < changes.size(); ++i)
+      text += fmt::format("  {:<12} {}\n", tangent.names[i], core::rounded_text(changes[i], 12));
+  }
+  return text;
+}
+
+std::string to_json(const Tangent& tangent) {
+  core::OrderedJson j{{"scene", tangent.scene}, {"method", tangent.method},         {"step", tangent.step},
+                      {"until", tangent.until}, {"precision", tangent.precision},   {"names", tangent.names},
+                      {"end", tangent.end},     {"directions", tangent.directions}, {"changes", tangent.changes}};
+  j["growth"] = core::OrderedJson::array();
+  for (std::size_t n = 0; n < tangent.times.size(); ++n)
+    j["growth"].push_back({{"t", tangent.times[n]}, {"digits_lost", core::json_number(tangent.growth[n])}});
+  j["exponents"] = core::OrderedJson::array();
+  for (const Exponent& exponent : tangent.exponents)
+    j["exponents"].push_back(
+        {{"value", core::json_number(exponent.value)}, {"uncertainty", core::json_number(exponent.uncertainty)}});
+  j["log10_symplectic_defect"] = core::json_number(tangent.symplectic_defect);
+  j["multipliers"] = core::OrderedJson::array();
+  for (const Multiplier& multiplier : tangent.multipliers)
+    j["multipliers"].push_back({multiplier.real, multiplier.imaginary});
+  j["horizon"] = core::OrderedJson::array();
+  for (const Horizon& horizon : tangent.horizons)
+    j["horizon"].push_back({{"precision", horizon.precision},
+                            {"digits", horizon.digits},
+                            {"t", horizon.t ? core::json_number(*horizon.t) : core::OrderedJson(nullptr)},
+                            {"extrapolated", horizon.extrapolated}});
+  j["sensitivities"] = core::OrderedJson::object();
+  for (const auto& [constant, changes] : tangent.sensitivities) j["sensitivities"][constant] = changes;
+  return core::dumped(j, 2);
+}
+
+}  // namespace hbvm
