@@ -120,9 +120,13 @@ TEST(BadTimes, OfAnEndAreRefused) {
     expect_refused(run_with("--until", until), {"until"});
 }
 
-TEST(BadTimes, WhereTheStepDoesNotDivideAreRefused) {
+/// A run says what its last step became. What measures orders, or proves steps, takes equal ones.
+TEST(BadTimes, WhereTheStepDoesNotDivideShortenTheLast) {
   for (const char* step : {"0.3", "2", "1/3 + 1e-12", "pi", "1e10"})
-    expect_refused(run_with("--step", step), {"step", "divide"});
+    expect_words(ended_with(0, run_with("--step", step)).out, {"the last shortened to"});
+  expect_refused(run_with("--step", "0.3") + Arguments{"--prove"}, {"step", "divide"});
+  expect_refused({"convergence", "simple_pendulum", "--methods", "rk4", "--steps", "3/10:3/160", "--until", "1"},
+                 {"divide"});
 }
 
 TEST(BadPrecision, IsRefused) {
@@ -181,7 +185,7 @@ TEST(BadOutput, IsSeenBeforeLongComputations) {
 TEST(BadOutput, IsNotOpenedForAnotherMistake) {
   const Folder folder;
   const std::string path = folder.write("precious.csv", "precious");
-  expect_refused(run_with("--step", "0.3") + Arguments{"--out", path}, {"divide"});
+  expect_refused(run_with("--step", "-1") + Arguments{"--out", path}, {"step"});
   expect_refused(run_with("--method", "hbvm:1,2") + Arguments{"--out", path}, {"hbvm:1,2"});
   expect_refused(run_with("--precision", "quadd") + Arguments{"--out", path}, {"quadd"});
   EXPECT_EQ(text_of(path), "precious");

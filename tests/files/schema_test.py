@@ -67,6 +67,9 @@ assert list(printed("driven.toml", "--method", "hbvm:3,2", *steps)["work"]["by"]
 moved = printed("double_pendulum", *steps, "--states", "--every", "8", "--observe", "a.vx")
 assert [state["t"] for state in moved["states"]] == ["0", "0.5", "1"]
 
+swung = printed("simple_pendulum", "--step", "1/4", "--until", "91/3", "--event", "swing: bob.x", "--at", "1/3")
+assert swung["events"][0]["direction"] == "down" and len(swung["periods"]) == 2 and swung["at"] and swung["last_step"]
+
 assert seen == set(schema["properties"]), seen ^ set(schema["properties"])
 
 
