@@ -125,6 +125,7 @@ TEST_F(EventFinderTest, NamesOneThatGrazes) {
 TYPED_TEST(EventFinderOf, LeavesJumpsAndFollowsAngles) {
   using S = TypeParam;
   EXPECT_TRUE(events_of<S>(with_event(pendulum("1"), "pole: 1/(bob.x - 1/2)"), 6, "1/8", "4").empty());
+  EXPECT_TRUE(events_of<S>(with_event(pendulum("1"), "jump: atan(1/(bob.x - 1/3))"), 6, "1/8", "4").empty());
   const auto turns = events_of<S>(with_event(pendulum("3"), "turns: angle(o, bob) - 5*pi/2"), 6, "1/8", "6");
   ASSERT_EQ(turns.size(), 1u);
   EXPECT_LE(magnitude(turns[0].state.q[0]), S(1) / 1'000'000);
