@@ -12,7 +12,8 @@
 
 namespace hbvm {
 
-/// A run that is asked of an integrator of one's own. Numbers are decimals that are exact in double.
+/// A run that is asked of an integrator of one's own. Numbers are decimals, which are exact in double
+/// unless the request says until when.
 struct SolverTask {
   Scene scene;
   std::string step, until;
@@ -35,9 +36,9 @@ struct SolverRequest {
 
 /// What is found of one quantity on one scene.
 struct SolverVerdict {
-  std::string scene;
-  std::string quantity;      ///< "order", "drift" of H or "reversal"
-  std::string verdict = {};  ///< of a claim: "holds", "fails", "undecidable"; else "seen"; or "not run"
+  std::string scene = {};
+  std::string quantity = {};  ///< "order", "drift" of H or "reversal"
+  std::string verdict = {};   ///< of a claim: "holds", "fails", "undecidable"; else "seen"; or "not run"
   std::optional<int> claimed = {};
   /// The order; or the power of the time with which the error of H grows; or right digits after there and back.
   std::optional<double> measured = {}, uncertainty = {};

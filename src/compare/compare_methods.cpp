@@ -4,9 +4,9 @@
 
 #include "hbvm/error.hpp"
 #include "interruption.hpp"
+#include "linear/vector_text.hpp"
 #include "reference/exact_end.hpp"
 #include "run/scene_run.hpp"
-#include "run/vector_text.hpp"
 
 namespace hbvm::core {
 namespace {

@@ -17,6 +17,7 @@
 #include "compare/lost_digits.hpp"
 #include "hbvm/error.hpp"
 #include "integrate/observations.hpp"
+#include "linear/vector_text.hpp"
 #include "listed.hpp"
 #include "problem/driven_course.hpp"
 #include "reference/compute_reference.hpp"
@@ -24,7 +25,6 @@
 #include "reference/store.hpp"
 #include "reference/taylor.hpp"
 #include "results_table.hpp"
-#include "run/vector_text.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scene/assemble.hpp"
@@ -46,20 +46,6 @@ namespace core {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Significant digits of the longest number.
-int digits_of(const ResultsTable& rows) {
-  std::size_t most = 0;
-  for (const auto& row : rows.cells)
-    for (const std::string& cell : row) {
-      std::string digits;
-      for (const char c : cell.substr(0, cell.find_first_of("eE")))
-        if (std::isdigit(static_cast<unsigned char>(c)) != 0) digits += c;
-      const std::size_t leading = digits.find_first_not_of('0');
-      if (leading != std::string::npos) most = std::max(most, digits.size() - leading);
-    }
-  return static_cast<int>(most);
-}
 
 /// The rows to be compared: those after the start.
 /// \throws InputError, with line and column, for times that do not ascend
@@ -109,18 +95,6 @@ std::vector<ReferenceState> states_of(const ReferenceRequest& wanted, bool& stor
 double right_digits(const Mpfr& error, const Mpfr& size, double most) {
   if (error == 0) return most;
   return size == 0 ? unknown : std::clamp(log10_of(size) - log10_of(error), double{0}, most);
-}
-
-/// The coordinates of bodies, and driven ones as they are at t.
-Vector<Mpfr> with_driven(const Problem<Mpfr>& problem, const Vector<Mpfr>& of_bodies, const Mpfr& t) {
-  Vector<Mpfr> all = Vector<Mpfr>::Zero(problem.m());
-  all.head(of_bodies.size()) = of_bodies;
-  DrivenCourse<Mpfr> course(problem, 1);
-  if (course.empty()) return all;
-  course.time(0) = t;
-  course.evaluate();
-  course.set_positions(lanes(all));
-  return all;
 }
 
 /// A state of the scene, and where the quantities of a table stand in it.
@@ -175,7 +149,7 @@ void compare_start(const ResultsColumns& columns, const ResultsTable& rows, cons
   out.has_start = row < rows.cells.size();
   if (!out.has_start) return;
   constexpr int rounded = 2, shown = 8, of_double = 17, most_of_double = 20;
-  const int all = digits_of(rows), digits = all <= most_of_double ? std::min(all, of_double) : all;
+  const int all = rows.digits(), digits = all <= most_of_double ? std::min(all, of_double) : all;
   const Mpfr resolution = pow(Mpfr(10), std::min(rounded - digits, -1));
   for (const ResultsColumns::Reading& reading : columns.readings()) {
     if (reading.ours == "t") continue;
@@ -409,7 +383,7 @@ std::optional<MeasuredOrder> measured_order(const Comparison& against, const std
   for (const std::size_t f : ordered) {
     const FileComparison& file = against.files[f];
     constexpr int of_double = 15;
-    rungs.push_back({std::log2(file.step), file.error * binary, -binary * std::min(digits_of(rows[f]), of_double)});
+    rungs.push_back({std::log2(file.step), file.error * binary, -binary * std::min(rows[f].digits(), of_double)});
   }
   if (const std::optional<Rate> rate = convergence_rate(rungs); rate && std::isfinite(rate->uncertainty))
     return MeasuredOrder{rate->value, rate->uncertainty};
@@ -440,7 +414,7 @@ Comparison compare_with_reference(const ComparisonRequest& request) {
   Comparison result;
   std::vector<ResultsTable> rows;
   for (const ResultsFile& file : request.files) rows.emplace_back(file);
-  for (const ResultsTable& r : rows) result.digits = std::max(result.digits, digits_of(r));
+  for (const ResultsTable& r : rows) result.digits = std::max(result.digits, r.digits());
   result.digits = std::clamp(result.digits + more_digits, least_digits, greatest_digits);
   const PrecisionScope scope(static_cast<unsigned>(result.digits + 10));
   Referee referee(request, result.digits);

@@ -12,9 +12,6 @@
 
 namespace hbvm::core {
 
-/// log10 |x|, of 0 less than any.
-inline double log10_of(const Mpfr& x) { return log2_of(x) / std::log2(double{10}); }
-
 /// \throws Interrupted if the work is to end
 void end_comparison_if_asked();
 

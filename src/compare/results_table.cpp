@@ -87,6 +87,19 @@ ResultsTable::ResultsTable(const ResultsFile& file) {
   if (cells.empty()) throw InputError(file.name + ": no line of numbers below one of names");
 }
 
+int ResultsTable::digits() const {
+  std::size_t most = 0;
+  for (const auto& row : cells)
+    for (const std::string& cell : row) {
+      std::string digits;
+      for (const char c : cell.substr(0, cell.find_first_of("eE")))
+        if (std::isdigit(static_cast<unsigned char>(c)) != 0) digits += c;
+      const std::size_t leading = digits.find_first_not_of('0');
+      if (leading != std::string::npos) most = std::max(most, digits.size() - leading);
+    }
+  return static_cast<int>(most);
+}
+
 ResultsColumns::ResultsColumns(const ComparisonRequest& request, const ResultsFile& file, const ResultsTable& rows)
     : file_(file),
       rows_(rows),

@@ -17,6 +17,9 @@ struct ResultsTable {
 
   /// \throws InputError, with the line, for one without numbers, with names that stand twice, or lines of other lengths
   explicit ResultsTable(const ResultsFile& file);
+
+  /// Significant digits of the longest number.
+  int digits() const;
 };
 
 /// What the quantities of a scene are in a table: columns of their names, or expressions of the map.

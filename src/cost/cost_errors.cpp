@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::string_view quantity_names[] = {"q", "p", "lambda", "all"};
 
-double log10_of(const Mpfr& x) { return log2_of(x) / std::log2(double{10}); }
-
 }  // namespace
 
 CostQuantity parse_cost_quantity(std::string_view name) {

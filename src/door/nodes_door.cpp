@@ -1,7 +1,7 @@
 #include "basis/gauss_legendre.hpp"
 #include "hbvm/nodes.hpp"
+#include "linear/vector_text.hpp"
 #include "long_work/json.hpp"
-#include "run/vector_text.hpp"
 #include "scalar/with_scalar.hpp"
 
 namespace hbvm {

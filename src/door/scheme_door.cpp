@@ -275,11 +275,8 @@ std::string to_junit(const SchemeAudit& audit) {
   using Outcome = core::JunitCase::Outcome;
   std::vector<core::JunitCase> cases;
   const auto add = [&](const std::string& name, bool holds, const std::string& message) {
-    cases.push_back({.group = audit.name,
-                     .name = name,
-                     .outcome = holds ? Outcome::passed : Outcome::failed,
-                     .message = message,
-                     .seconds = std::numeric_limits<double>::quiet_NaN()});
+    cases.push_back(
+        {.group = audit.name, .name = name, .outcome = holds ? Outcome::passed : Outcome::failed, .message = message});
   };
   for (const SchemeOrder& order : audit.orders) add(order.name, order.holds, text_of(order, audit.digits));
   if (audit.rows) add("row sums", audit.consistent, rows_text(audit));

@@ -30,20 +30,7 @@ constexpr int digits_of_double = 15, most_digits_of_double = 20;
 
 /// Digits that the numbers of a file can have right.
 int digits_in(const std::string& csv) {
-  std::size_t most = 0, digits = 0;
-  bool mantissa = true;
-  for (const char c : csv + ",") {
-    if (c >= '0' && c <= '9') {
-      digits += mantissa && (digits > 0 || c != '0') ? 1 : 0;
-    } else if (c == 'e' || c == 'E') {
-      mantissa = false;
-    } else if (c == ',' || c == '\n') {
-      most = std::max(most, digits);
-      digits = 0;
-      mantissa = true;
-    }
-  }
-  const int all = static_cast<int>(most);
+  const int all = core::ResultsTable(ResultsFile{"solver", csv}).digits();
   return all <= most_digits_of_double ? std::min(all, digits_of_double) : all - 2;
 }
 
@@ -69,20 +56,23 @@ class SolverTrial {
 
   std::vector<SolverVerdict> judge() {
     std::vector<SolverVerdict> verdicts;
-    for (const auto part : {&SolverTrial::order, &SolverTrial::drift, &SolverTrial::reversal}) {
+    using Part = SolverVerdict (SolverTrial::*)();
+    for (const auto& [quantity, part] : {std::pair<const char*, Part>("order", &SolverTrial::order),
+                                         {"drift", &SolverTrial::drift},
+                                         {"reversal", &SolverTrial::reversal}}) {
       try {
         verdicts.push_back((this->*part)());
       } catch (const Interrupted&) {
         throw;
       } catch (const std::exception& error) {
-        const std::string quantity = verdicts.empty() ? "order" : verdicts.size() == 1 ? "drift" : "reversal";
-        verdicts.push_back({.scene = scene_.name(),
-                            .quantity = quantity,
-                            .verdict = "not run",
-                            .claimed = verdicts.empty() ? request_.order : std::nullopt,
-                            .reason = error.what()});
-        if (verdicts.size() == 1) break;  // what fails here will fail in the other runs
+        verdicts.push_back({.verdict = "not run", .reason = error.what()});
       }
+      SolverVerdict& verdict = verdicts.back();
+      verdict.scene = scene_.name();
+      verdict.quantity = quantity;
+      if (part == &SolverTrial::order) verdict.claimed = request_.order;
+      // What fails in the first runs will fail in the others.
+      if (part == &SolverTrial::order && verdict.verdict == "not run") break;
     }
     return verdicts;
   }
@@ -134,7 +124,7 @@ class SolverTrial {
       if (std::isfinite(found.files[f].error)) ladder.push_back({-double(parts), found.files[f].error * binary, floor});
     }
     error_ = found.files[middle - coarsest].error;
-    SolverVerdict verdict{.scene = scene_.name(), .quantity = "order", .claimed = request_.order};
+    SolverVerdict verdict;
     if (ladder.empty()) {
       verdict.verdict = request_.order ? "undecidable" : "seen";
       verdict.reason = "no error is above rounding";
@@ -173,7 +163,7 @@ class SolverTrial {
   SolverVerdict drift() {
     const std::string csv = solve(scene_, middle, longer);
     const FileComparison found = against({{request_.name, csv, step_text(middle)}}).files.front();
-    SolverVerdict verdict{.scene = scene_.name(), .quantity = "drift", .verdict = "seen"};
+    SolverVerdict verdict{.verdict = "seen"};
     if (found.H_drift.empty()) {
       verdict.reason = "its states do not have all positions and velocities or momenta";
       return verdict;
@@ -220,7 +210,7 @@ class SolverTrial {
 
   /// There, and back from what it says is the end, with velocities turned round.
   SolverVerdict reversal() {
-    SolverVerdict verdict{.scene = scene_.name(), .quantity = "reversal", .verdict = "seen"};
+    SolverVerdict verdict{.verdict = "seen"};
     if (!core::scene_of(scene_).rigid_bodies.empty()) {
       verdict.reason = "not looked at where there are rigid bodies";
       return verdict;
@@ -353,8 +343,7 @@ std::string to_junit(const SolverAudit& audit) {
                      .outcome = v.verdict == "fails"                          ? core::JunitCase::Outcome::failed
                                 : v.verdict == "holds" || v.verdict == "seen" ? core::JunitCase::Outcome::passed
                                                                               : core::JunitCase::Outcome::skipped,
-                     .message = text_of(v),
-                     .seconds = std::numeric_limits<double>::quiet_NaN()});
+                     .message = text_of(v)});
   return core::junit_xml(audit.name, cases);
 }
 

@@ -90,8 +90,7 @@ Tangent tangent(const TangentRequest& door) {
   found.growth = map.growth;
   for (const core::LyapunovExponent& exponent : map.exponents)
     found.exponents.push_back({exponent.value, exponent.uncertainty});
-  const double binary = std::log2(double{10});
-  found.symplectic_defect = core::log2_of(map.symplectic_defect) / binary;
+  found.symplectic_defect = core::log10_of(map.symplectic_defect);
   constexpr double closed = -4;
   if (map.distance < closed) found.multipliers = multipliers_of(map);
   for (const char* const name : {"double", "mpfr:34", "mpfr:50", "mpfr:100"})

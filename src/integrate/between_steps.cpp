@@ -11,22 +11,27 @@ BetweenSteps<S>::BetweenSteps(std::unique_ptr<Stepper<S>> stepper)
     : stepper_(std::move(stepper)), back_(*stepper_), point_(stepper_->problem()) {}
 
 template <Scalar S>
-StateBetween<S> BetweenSteps<S>::at(const Snapshot<S>& mesh, const S& t) {
-  const OutputState<S> output = output_state(point_, mesh.q, mesh.p);
-  const S ahead = t - mesh.t;
-  if (ahead == 0) return {t, mesh.q, output.p, output.lambda};
-  State<S> state(mesh.q, output.p);
+StateBetween<S> BetweenSteps<S>::output(const Snapshot<S>& mesh) {
+  OutputState<S> found = output_state(point_, mesh.q, mesh.p);
+  return {mesh.t, mesh.q, std::move(found.p), std::move(found.lambda)};
+}
+
+template <Scalar S>
+StateBetween<S> BetweenSteps<S>::from(const StateBetween<S>& output, const S& t) {
+  const S ahead = t - output.t;
+  if (ahead == 0) return output;
+  State<S> state(output.q, output.p);
   try {
     if (ahead > 0)
       stepper_->step(state, ahead);
     else
       back_.step(state, S(-ahead));
   } catch (const StageFailure& failure) {
-    throw IntegrationError("from the mesh point t = " + to_text(mesh.t) + " to t = " + to_text(t) + ": " +
+    throw IntegrationError("from the mesh point t = " + to_text(output.t) + " to t = " + to_text(t) + ": " +
                            failure.what());
   }
-  const OutputState<S> end = output_state(point_, state.q, state.p);
-  return {t, state.q, end.p, end.lambda};
+  OutputState<S> end = output_state(point_, state.q, state.p);
+  return {t, std::move(state.q), std::move(end.p), std::move(end.lambda)};
 }
 
 #define HBVM_DEFINE(S) template class BetweenSteps<S>;

@@ -24,9 +24,13 @@ class BetweenSteps {
   /// Makes steps of its own; the problem must outlive it.
   explicit BetweenSteps(std::unique_ptr<Stepper<S>> stepper);
 
-  /// \param t may be before the mesh point, if forces have a potential that does not depend on t
+  /// The output state of a mesh point.
+  StateBetween<S> output(const Snapshot<S>& mesh);
+  /// \param t may be before, if forces have a potential that does not depend on t
   /// \throws IntegrationError if the step cannot be made
-  StateBetween<S> at(const Snapshot<S>& mesh, const S& t);
+  StateBetween<S> from(const StateBetween<S>& output, const S& t);
+  /// Both in one.
+  StateBetween<S> at(const Snapshot<S>& mesh, const S& t) { return from(output(mesh), t); }
   /// Whether it can lead back in time.
   bool leads_back() const { return stepper_->problem().is_conservative(); }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scalar/text.hpp"
-#include "scene/scene.hpp"
+#include "scene/add_event.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -14,35 +14,21 @@ bool is_below(const S& x) {
   return x < 0;
 }
 
-/// Where the parabola through three values at -1, 0, 1 turns, and its value there. Nothing if that is not between.
+/// The value where the parabola through three values at -1, 0, 1 turns. Nothing if that is not between.
 template <Scalar S>
-struct Turn {
-  S at, value;
-};
-template <Scalar S>
-std::optional<Turn<S>> turn_of(const S& a, const S& b, const S& c) {
+std::optional<S> value_at_turn(const S& a, const S& b, const S& c) {
   const S slope = (c - a) / 2, bend = (a + c) / 2 - b;
-  if (bend == 0) return std::nullopt;
-  const S at = -slope / (2 * bend);
-  if (at < -1 || at > 1) return std::nullopt;
-  return Turn<S>{at, b + slope * at / 2};
+  if (bend == 0 || magnitude(slope) > 2 * magnitude(bend)) return std::nullopt;
+  return b - slope * slope / (4 * bend);
 }
 
 }  // namespace
 
 template <Scalar S>
-Scene EventFinder<S>::only_events(const Scene& scene) {
-  Scene result = scene;
-  result.observations.clear();
-  for (const SceneEvent& event : scene.events) result.observations.push_back({event.name, event.value, event.line});
-  return result;
-}
-
-template <Scalar S>
 EventFinder<S>::EventFinder(const Scene& scene, const Problem<S>& problem, BetweenSteps<S>& between,
                             std::optional<LastEvent> last)
     : scene_(scene),
-      as_observations_(only_events(scene)),
+      as_observations_(with_events_observed(scene)),
       problem_(problem),
       between_(between),
       last_(last),
@@ -53,7 +39,7 @@ template <Scalar S>
 void EventFinder<S>::observe(const Snapshot<S>& snapshot) {
   functions_.observe(snapshot);
   const Vector<S> values = functions_.values();
-  const StateBetween<S> state = between_.at(snapshot, snapshot.t);
+  const StateBetween<S> state = between_.output(snapshot);
   of_step_.clear();
   if (snapshot.n > 0) look_between(snapshot, state);
   std::stable_sort(of_step_.begin(), of_step_.end(), [](const FoundEvent<S>& a, const FoundEvent<S>& b) {
@@ -61,10 +47,9 @@ void EventFinder<S>::observe(const Snapshot<S>& snapshot) {
   });
   for (FoundEvent<S>& event : of_step_) {
     found_.push_back(std::move(event));
-    const auto count = std::count_if(found_.begin(), found_.end(),
-                                     [&](const FoundEvent<S>& one) { return last_ && one.event == last_->event; });
-    if (last_ && found_.back().event == last_->event && count == last_->count)
-      throw EventReached{to_text(magnitude(found_.back().state.t))};
+    const FoundEvent<S>& found = found_.back();
+    if (last_ && found.event == last_->event && --last_->count == 0)
+      throw EventReached{to_text(magnitude(found.state.t))};
   }
   mesh_ = snapshot;
   state_ = state;
@@ -120,7 +105,7 @@ void EventFinder<S>::look_at(std::size_t event, const std::vector<Vector<S>>& va
       if (!cross(event, sample(i - 1), sample(i))) {
         // The cubic misjudged where: a little wider.
         const std::size_t from = std::max<std::size_t>(i, 2) - 2, to = std::min(i + 1, times.size() - 1);
-        if (from >= looked_until || looked_until == 0) {
+        if (from >= looked_until) {
           const Sample a = sample(from), b = sample(to);
           if (!cross(event, a, b)) look_for_turn(event, a, b, size);
           looked_until = to;
@@ -131,9 +116,9 @@ void EventFinder<S>::look_at(std::size_t event, const std::vector<Vector<S>>& va
     if (i + 1 >= times.size() || i < looked_until) continue;
     const S& next = values[i + 1][e];
     if (is_below(after) != is_below(next)) continue;
-    const std::optional<Turn<S>> turn = turn_of(before, after, next);
-    if (!turn || magnitude(turn->value) > std::min(magnitude(before), magnitude(next)) + margin) continue;
-    const S towards = is_below(after) ? S(-turn->value) : turn->value;
+    const std::optional<S> turn = value_at_turn(before, after, next);
+    if (!turn) continue;
+    const S towards = is_below(after) ? S(-*turn) : *turn;
     const bool turns_back = (before + next - 2 * after > 0) != is_below(after);
     if (!turns_back || towards > margin) continue;
     look_for_turn(event, sample(i - 1), sample(i + 1), size);
@@ -143,7 +128,7 @@ void EventFinder<S>::look_at(std::size_t event, const std::vector<Vector<S>>& va
 
 template <Scalar S>
 typename EventFinder<S>::Sample EventFinder<S>::exact(std::size_t event, const S& t) {
-  const StateBetween<S> state = between_.at(mesh_, t);
+  const StateBetween<S> state = between_.from(state_, t);
   return {t, functions_.see(t, state.q, state.p, functions_.angles())[static_cast<Index>(event)]};
 }
 
@@ -230,7 +215,7 @@ template <Scalar S>
 void EventFinder<S>::add(std::size_t event, const S& t, bool rises, bool grazes) {
   const Crossing wanted = scene_.events[event].direction;
   if (!grazes && wanted != Crossing::any && (wanted == Crossing::up) != rises) return;
-  of_step_.push_back({event, rises, grazes, between_.at(mesh_, t)});
+  of_step_.push_back({event, rises, grazes, between_.from(state_, t)});
 }
 
 #define HBVM_DEFINE(S) template class EventFinder<S>;

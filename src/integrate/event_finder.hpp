@@ -61,13 +61,11 @@ class EventFinder final : public Observer<S> {
   void look_for_turn(std::size_t event, const Sample& before, const Sample& after, const S& size);
   void add(std::size_t event, const S& t, bool rises, bool grazes);
 
-  static Scene only_events(const Scene& scene);
-
   const Scene& scene_;
   Scene as_observations_;
   const Problem<S>& problem_;
   BetweenSteps<S>& between_;
-  std::optional<LastEvent> last_;
+  std::optional<LastEvent> last_;  // which, and how many are left
   Observations<S> functions_;
   StateEvaluator<S> point_;
   Snapshot<S> mesh_;       // the mesh point before

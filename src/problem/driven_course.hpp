@@ -36,6 +36,19 @@ class DrivenCourse {
   std::deque<Execution<S>> points_;
 };
 
+/// The coordinates of bodies, and driven ones as they are at t.
+template <Scalar S>
+Vector<S> with_driven(const Problem<S>& problem, const Vector<S>& of_bodies, const S& t) {
+  Vector<S> all = Vector<S>::Zero(problem.m());
+  all.head(of_bodies.size()) = of_bodies;
+  DrivenCourse<S> course(problem, 1);
+  if (course.empty()) return all;
+  course.time(0) = t;
+  course.evaluate();
+  course.set_positions(lanes(all));
+  return all;
+}
+
 /// The course at the time that q says, of one lane.
 template <Scalar S>
 void place(DrivenCourse<S>& course, const Problem<S>& problem, const Vector<S>& q) {

@@ -5,11 +5,13 @@
 
 #include "integrate/event_finder.hpp"
 #include "integrate/integrate.hpp"
+#include "linear/vector_text.hpp"
 #include "problem/driven_course.hpp"
 #include "reference/usual_step.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/log2_of.hpp"
 #include "scalar/text.hpp"
+#include "scene/add_event.hpp"
 #include "step/hbvm_method.hpp"
 
 namespace hbvm::core {
@@ -49,7 +51,7 @@ class TimeFinder {
       : request_(request),
         scene_(assemble<Mpfr>(request.scene)),
         point_(scene_.problem),
-        seen_(as_observations(request.scene)),
+        seen_(with_events_observed(request.scene)),
         values_(seen_, scene_.problem) {}
 
   struct Moved {
@@ -63,44 +65,19 @@ class TimeFinder {
     double most = -HUGE_VAL;
     for (std::size_t n = 0; n < events.size(); ++n) {
       Moved& event = events[n];
-      const Vector<Mpfr> q = with_driven(vector_of(states[n].q), event.t), p = whole(vector_of(states[n].p));
+      const Vector<Mpfr> q = with_driven(scene_.problem, vector_of<Mpfr>(states[n].q), event.t);
+      Vector<Mpfr> p = Vector<Mpfr>::Zero(q.size());
+      p.head(scene_.problem.mass.of_bodies()) = vector_of<Mpfr>(states[n].p);
       const Mpfr now = value(event, event.t, q, p), rate = rate_of(event, q, p);
       if (rate == 0) throw IntegrationError("event '" + request_.scene.events[event.event].name + "' grazes 0");
       const Mpfr move = now / rate;
       event.t -= move;
-      if (move != 0) most = std::max(most, (log2_of(move) - log2_of(event.t)) / std::log2(double{10}));
+      if (move != 0) most = std::max(most, log10_of(move) - log10_of(event.t));
     }
     return most;
   }
 
  private:
-  static Scene as_observations(const Scene& scene) {
-    Scene result = scene;
-    result.observations.clear();
-    for (const SceneEvent& event : scene.events) result.observations.push_back({event.name, event.value, event.line});
-    return result;
-  }
-
-  static Vector<Mpfr> vector_of(const std::vector<std::string>& texts) {
-    Vector<Mpfr> x(static_cast<Index>(texts.size()));
-    for (std::size_t i = 0; i < texts.size(); ++i) x[static_cast<Index>(i)] = literal<Mpfr>(texts[i]);
-    return x;
-  }
-  Vector<Mpfr> whole(const Vector<Mpfr>& of_bodies) const {
-    Vector<Mpfr> all = Vector<Mpfr>::Zero(scene_.problem.m());
-    all.head(of_bodies.size()) = of_bodies;
-    return all;
-  }
-  Vector<Mpfr> with_driven(const Vector<Mpfr>& of_bodies, const Mpfr& t) const {
-    Vector<Mpfr> all = whole(of_bodies);
-    DrivenCourse<Mpfr> course(scene_.problem, 1);
-    if (course.empty()) return all;
-    course.time(0) = t;
-    course.evaluate();
-    course.set_positions(lanes(all));
-    return all;
-  }
-
   Mpfr value(const Moved& event, const Mpfr& t, const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
     return values_.see(t, q, p)[static_cast<Index>(event.event)];
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@ struct JunitCase {
   enum class Outcome { passed, failed, skipped };
   std::string group, name;
   Outcome outcome = Outcome::passed;
-  std::string message = {};  ///< of one that did not pass
-  double seconds = 0;        ///< NaN if it is not known
+  std::string message = {};                                   ///< of one that did not pass
+  double seconds = std::numeric_limits<double>::quiet_NaN();  ///< unless it is known
 };
 
 /// A file of JUnit's XML with one suite.

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "interruption.hpp"
+#include "linear/vector_text.hpp"
 #include "reference/exact_end.hpp"
 #include "reference/store.hpp"
-#include "run/vector_text.hpp"
 #include "run_beside.hpp"
 #include "scalar/text.hpp"
 #include "step/hbvm_method.hpp"

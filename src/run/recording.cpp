@@ -16,7 +16,7 @@ std::vector<double> list_of(const Vector<S>& x) {
 }
 
 template <Scalar S>
-double log10_of(const S& x) {
+double decimal_log(const S& x) {
   using std::log10;
   return x > 0 ? approximately(S(log10(x))) : -std::numeric_limits<double>::infinity();
 }
@@ -76,8 +76,8 @@ void MotionRecorder<S>::observe(const Snapshot<S>& s) {
   if (s.n == 0) {
     H0_ = H;
     const S size = point_.energy_size(s.q, s.p), of_g = point_.constraint_size(s.q);
-    recording_.size_of_H = log10_of(size);
-    recording_.round_off = log10_of(S(epsilon<S>() * (of_g > 0 && of_g < size ? of_g : size)));
+    recording_.size_of_H = decimal_log(size);
+    recording_.round_off = decimal_log(S(epsilon<S>() * (of_g > 0 && of_g < size ? of_g : size)));
   }
   raise_magnitude(energy_, S(H - H0_));
   raise_to(constraints_, max_norm(point_.constraints(s.q)));
@@ -93,9 +93,9 @@ void MotionRecorder<S>::observe(const Snapshot<S>& s) {
   recording_.samples.push_back({.t = approximately(s.t),
                                 .q = list_of<S>(s.q),
                                 .lambda = lambda,
-                                .energy = log10_of(energy_),
-                                .constraints = log10_of(constraints_),
-                                .hidden = log10_of(hidden_),
+                                .energy = decimal_log(energy_),
+                                .constraints = decimal_log(constraints_),
+                                .hidden = decimal_log(hidden_),
                                 .H_change = approximately(S(H - H0_)),
                                 .observed = observed,
                                 .v = list_of<S>(v_),

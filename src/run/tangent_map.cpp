@@ -17,8 +17,6 @@ struct PhaseState {
   Vector<Mpfr> q, p;
 };
 
-double decimal_log(const Mpfr& x) { return log2_of(x) / std::log2(double{10}); }
-
 /// A state and its neighbours, stepped side by side.
 class TangentCourse {
  public:
@@ -63,9 +61,8 @@ class TangentCourse {
       map.times.push_back(approximately(grid_.time(made)));
       Mpfr greatest = 0;
       for (Index j = 0; j < n; ++j) raise_to(greatest, norm(Vector<Mpfr>(total.col(j))));
-      map.growth.push_back(decimal_log(greatest));
+      map.growth.push_back(log10_of(greatest));
       if (progress) progress(static_cast<double>(made) / static_cast<double>(grid_.steps()));
-      end_if_asked("following changes was interrupted");
     }
     map.q = now_.q;
     map.p = now_.p;
@@ -78,8 +75,8 @@ class TangentCourse {
     // Of vectors that have grown, the form is a small difference of great products.
     const Mpfr end_form = form_size(map.end);
     map.symplectic_defect /= end_form > form ? end_form : form;
-    map.distance = std::max(decimal_log(max_norm(Vector<Mpfr>(now_.q - scene_.q0))) - decimal_log(q_scale_),
-                            decimal_log(max_norm(Vector<Mpfr>(now_.p - scene_.p0))) - decimal_log(p_scale_));
+    map.distance = std::max(log10_of(max_norm(Vector<Mpfr>(now_.q - scene_.q0))) - log10_of(q_scale_),
+                            log10_of(max_norm(Vector<Mpfr>(now_.p - scene_.p0))) - log10_of(p_scale_));
     return map;
   }
 
@@ -89,9 +86,8 @@ class TangentCourse {
   PhaseState end() {
     for (long n = 0; n < grid_.steps();) {
       State<Mpfr> state(now_.q, now_.p);
-      for (const long last = std::min(n + block(), grid_.steps()); n < last; ++n) main_->step(state, step_size(n));
+      for (const long last = std::min(n + block(), grid_.steps()); n < last; ++n) step(*main_, state, n);
       now_ = {state.q, point_.tangential(state.q, state.p)};
-      end_if_asked("following changes was interrupted");
     }
     return now_;
   }
@@ -100,7 +96,6 @@ class TangentCourse {
   std::unique_ptr<Stepper<Mpfr>> stepper() const { return method_->make_stepper<Mpfr>(problem_, request_.solver); }
   /// Steps between which neighbours stay the same, and after which the output state is gone on from.
   long block() const { return std::clamp<long>(grid_.steps() / 10, 1, 32); }
-  const Mpfr& step_size(long n) const { return n + 1 == grid_.steps() ? grid_.last_step() : grid_.step(); }
 
   /// Changes are compared over the sizes of q and p. Of a start at rest p is that of a motion over q in a unit of time.
   void set_scales() {
@@ -151,6 +146,12 @@ class TangentCourse {
 
   static Mpfr norm(const Vector<Mpfr>& x) { return sqrt(Mpfr(dot(x, x))); }
 
+  /// A run answers Ctrl-C after each of its steps.
+  void step(Stepper<Mpfr>& stepper, State<Mpfr>& state, long n) const {
+    stepper.step(state, n + 1 == grid_.steps() ? grid_.last_step() : grid_.step());
+    end_if_asked("following changes was interrupted");
+  }
+
   /// Makes steps of the state and of neighbours in the directions of the basis. \return what these have become
   Matrix<Mpfr> advance(long first, long steps) {
     std::vector<State<Mpfr>> states;
@@ -160,8 +161,8 @@ class TangentCourse {
     }
     State<Mpfr> state(now_.q, now_.p);
     for (long n = first; n < first + steps; ++n) {
-      main_->step(state, step_size(n));
-      for (std::size_t i = 0; i < states.size(); ++i) neighbours_[i]->step(states[i], step_size(n));
+      step(*main_, state, n);
+      for (std::size_t i = 0; i < states.size(); ++i) step(*neighbours_[i], states[i], n);
     }
     now_ = {state.q, point_.tangential(state.q, state.p)};
     Matrix<Mpfr> changes(2 * m_, basis_.cols());

@@ -15,6 +15,9 @@ inline double log2_of(const Mpfr& x) {
   return std::log2(std::abs(fraction)) + static_cast<double>(exponent);
 }
 
+/// log10 |x| likewise.
+inline double log10_of(const Mpfr& x) { return log2_of(x) / std::log2(double{10}); }
+
 /// 2^log2, its fraction rounded to double.
 inline Mpfr power_of_two(double log2) {
   const double whole = std::floor(log2);

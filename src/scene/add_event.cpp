@@ -33,6 +33,13 @@ void add_event(Scene& scene, const std::string& name, const std::string& value, 
   }
 }
 
+Scene with_events_observed(const Scene& scene) {
+  Scene result = scene;
+  result.observations.clear();
+  for (const SceneEvent& event : scene.events) result.observations.push_back({event.name, event.value, event.line});
+  return result;
+}
+
 Scene with_event(const Scene& scene, const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) throw InputError("--event '" + text + "': use NAME: EXPRESSION");

@@ -6,9 +6,9 @@
 
 #include "hbvm/error.hpp"
 #include "interruption.hpp"
+#include "linear/vector_text.hpp"
 #include "reference/exact_end.hpp"
 #include "run/scene_run.hpp"
-#include "run/vector_text.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/log2_of.hpp"
 #include "scalar/text.hpp"

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "linear/vector_text.hpp"
 #include "long_work/json.hpp"
 #include "run/simulate.hpp"
-#include "run/vector_text.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scalar/with_scalar.hpp"

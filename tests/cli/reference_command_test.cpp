@@ -321,5 +321,16 @@ TEST(ReferenceCommand, SaysWhereTheMotionEnds) {
                {"singularity at about t = 1.11"});
 }
 
+TEST(ReferenceCommand, TellsWhenEventsCome) {
+  const Arguments asked{"reference", "simple_pendulum", "--event", "swing up: bob.x", "--digits", "25"};
+  expect_words(ended_with(0, asked + Arguments{"--until", "7"}).out,
+               {"event swing, up: t = 6.7430014192503841714848146", "bob.x", "the routes agree in"});
+  expect_refused(asked, {"--until"});
+  expect_refused(asked + Arguments{"--at", "1"}, {"--until"});
+  expect_refused(asked + Arguments{"--until", "7", "--prove"}, {"--event", "--prove"});
+  expect_refused(asked + Arguments{"--until", "7", "--route", "taylor"}, {"--event", "--route"});
+  expect_refused(asked + Arguments{"--until", "1"}, {"none comes until t = 1"});
+}
+
 }  // namespace
 }  // namespace hbvm::core

@@ -4,6 +4,7 @@
 
 #include "hbvm/error.hpp"
 #include "hbvm/reference.hpp"
+#include "words.hpp"
 
 namespace hbvm {
 namespace {
@@ -59,6 +60,23 @@ TEST(DoorReference, EndsWhenItIsAskedTo) {
   std::stop_source source;
   source.request_stop();
   EXPECT_THROW(reference({.scene = oscillator(), .times = {1}, .stop = source.get_token()}), Interrupted);
+}
+
+TEST(DoorReferenceEvents, AreRefusedWithWhatIsWrong) {
+  ReferenceRequest request{.scene = load_scene("simple_pendulum"), .times = {"7"}};
+  core::expect_words(core::message_of<InputError>([&] { reference_events(request); }), {"no event"});
+  request.scene.event("swing up: bob.x");
+  ASSERT_EQ(reference_events(request).size(), 1u);
+  ReferenceRequest wrong = request;
+  wrong.times.clear();
+  core::expect_words(core::message_of<InputError>([&] { reference_events(wrong); }), {"until when"});
+  wrong = request;
+  wrong.prove = true;
+  core::expect_words(core::message_of<InputError>([&] { reference_events(wrong); }), {"two routes"});
+  std::stop_source source;
+  source.request_stop();
+  request.stop = source.get_token();
+  EXPECT_THROW(reference_events(request), Interrupted);
 }
 
 }  // namespace

@@ -127,5 +127,14 @@ TEST(DoorSolvers, RefuseNonsense) {
   EXPECT_THROW(audit_solver(request), InputError);
 }
 
+/// As Ctrl-C does.
+TEST(DoorSolvers, EndWhenTheyAreAskedTo) {
+  std::stop_source source;
+  source.request_stop();
+  SolverRequest request{.solve = OwnKepler{"verlet"}, .scenes = {load_scene("kepler")}};
+  request.stop = source.get_token();
+  EXPECT_THROW(audit_solver(request), Interrupted);
+}
+
 }  // namespace
 }  // namespace hbvm

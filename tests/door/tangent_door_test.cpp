@@ -60,5 +60,15 @@ TEST(DoorTangent, TellsSensitivities) {
   EXPECT_THROW(tangent(request), InputError);
 }
 
+/// As Ctrl-C does.
+TEST(DoorTangent, EndWhenTheyAreAskedTo) {
+  std::stop_source source;
+  source.request_stop();
+  TangentRequest request{.scene = load_scene("kepler"), .step = "1/8"};
+  request.until = 10;
+  request.stop = source.get_token();
+  EXPECT_THROW(tangent(request), Interrupted);
+}
+
 }  // namespace
 }  // namespace hbvm

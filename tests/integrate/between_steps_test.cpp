@@ -8,7 +8,9 @@
 #include "printing.hpp"
 #include "reference/taylor.hpp"
 #include "scalar/log2_of.hpp"
+#include "solver/stage_failure.hpp"
 #include "step/hbvm_method.hpp"
+#include "words.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -73,6 +75,28 @@ TYPED_TEST_P(BetweenStepsOf, AreExactAtMeshPointsAndKeepTheConstraints) {
 }
 REGISTER_TYPED_TEST_SUITE_P(BetweenStepsOf, AreExactAtMeshPointsAndKeepTheConstraints);
 INSTANTIATE_TYPED_TEST_SUITE_P(Scalars, BetweenStepsOf, AllScalars);
+
+/// A stepper that can make no step.
+class NoStepper final : public ForwardingStepper<double> {
+ public:
+  using ForwardingStepper<double>::ForwardingStepper;
+  StepResult<double> step(State<double>&, const double&) override {
+    throw StageFailure(FailureCause::stage_equations_diverge, "no step", "1", 1);
+  }
+};
+
+TEST_F(BetweenStepsTest, SayWhichStepFails) {
+  SceneRun<double> run(load_scene("double_pendulum"), 4, 2, "1/16", "1");
+  Recorder<double> recorder;
+  run({&recorder});
+  BetweenSteps<double> between(
+      std::make_unique<NoStepper>(hbvm_of({4, 2})->make_stepper<double>(run.scene.problem, SolverKind::automatic)));
+  const Snapshot<double>& mesh = recorder.seen[2];
+  EXPECT_EQ(between.at(mesh, mesh.t).q, mesh.q);
+  for (const double t : {0.15, 0.1})
+    expect_words(message_of<IntegrationError>([&] { between.at(mesh, t); }),
+                 {"from the mesh point t = 0.125", "to t = " + std::to_string(t).substr(0, 3), "no step"});
+}
 
 }  // namespace
 }  // namespace hbvm::core

@@ -1,7 +1,7 @@
 #include "run/scene_run.hpp"
 
+#include "linear/vector_text.hpp"
 #include "printing.hpp"
-#include "run/vector_text.hpp"
 #include "runs/request_of.hpp"
 #include "scene/assemble.hpp"
 #include "verification/models.hpp"

@@ -8,10 +8,10 @@ from typing import Any, Mapping, Union
 
 from . import _hbvm
 from ._number import exact_text
-from ._record import Record
+from ._record import Shown
 
 
-class Coefficients(Record):
+class Coefficients(Shown):
     """What order conditions say of coefficients: orders, facts, and the entries that are wrong.
 
     >>> import hbvm
@@ -21,17 +21,13 @@ class Coefficients(Record):
     """
 
     def __init__(self, facts: dict[str, Any], text: str, mended: str) -> None:
-        super().__init__(facts)
-        self._text = text
+        super().__init__(facts, text)
         self._mended = mended
 
     @property
     def mended(self) -> str:
         """The mended coefficients in TOML; empty if nothing is to be mended, or it is not determined."""
         return self._mended
-
-    def __repr__(self) -> str:
-        return self._text.rstrip("\n")
 
     def __reduce__(self) -> Any:
         return Coefficients, (self._facts, self._text, self._mended)

@@ -10,7 +10,7 @@ from ._number import Number
 _DECIMAL = re.compile(r"-?\d+(\.\d+)?(e[+-]?\d+)?")
 # What these are is a number of the working precision; all other text is a name or words.
 _NUMBERS = frozenset(
-    "t q p lambda q_carry p_carry delta_H step until e_H e_B e_g e_hid condition worst_e_H worst_hidden H smallest first_t"
+    "t q p lambda q_carry p_carry delta_H step last_step until e_H e_B e_g e_hid condition worst_e_H worst_hidden H smallest first_t"
     " initial drift least least_t greatest greatest_t energy kinetic potential value".split()
 )
 _OF_NUMBERS = frozenset(("momenta", "observed", "work", "by"))
@@ -87,6 +87,20 @@ class Record:
         return "Record(" + ", ".join(f"{key}={value!r}" for key, value in shown) + ")"
 
 
+class Shown(Record):
+    """A result that is shown as the text that the program prints."""
+
+    def __init__(self, facts: dict[str, Any], text: str) -> None:
+        super().__init__(facts)
+        self._text = text
+
+    def __repr__(self) -> str:
+        return self._text.rstrip("\n")
+
+    def __reduce__(self) -> Any:
+        return type(self), (self._facts, self._text)
+
+
 class Listing(list):
     """A list that is shown as the table that the program prints."""
 
@@ -101,4 +115,4 @@ class Listing(list):
         return Listing, (list(self), self.text)
 
 
-Record.__module__ = Listing.__module__ = "hbvm"
+Record.__module__ = Shown.__module__ = Listing.__module__ = "hbvm"

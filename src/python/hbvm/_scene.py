@@ -9,7 +9,7 @@ from typing import Any, Iterable, Mapping, Sequence, Union
 from . import _hbvm
 from ._errors import InputError
 from ._number import Exact, exact_text
-from ._record import Listing, Record
+from ._record import Listing, Record, Shown
 
 Vector = Sequence[Exact]
 SceneLike = Union["Scene", str, "os.PathLike[str]"]
@@ -250,18 +250,8 @@ class Scene:
         return _read, (self.toml, self._name)
 
 
-class SceneFacts(Record):
+class SceneFacts(Shown):
     """What a scene is and how it starts."""
-
-    def __init__(self, facts: dict[str, Any], text: str) -> None:
-        super().__init__(facts)
-        self._text = text
-
-    def __repr__(self) -> str:
-        return self._text.rstrip("\n")
-
-    def __reduce__(self) -> Any:
-        return SceneFacts, (self._facts, self._text)
 
 
 def _read(toml: str, name: str) -> Scene:

@@ -8,23 +8,13 @@ from . import _hbvm
 from ._against import Names, Results, _csv
 from ._number import Exact, exact_text
 from ._progress import Bar, Progress
-from ._record import Record
+from ._record import Shown
 from ._scene import Scene, SceneLike
 from ._scene import scene as scene_of
 
 
-class Judgement(Record):
+class Judgement(Shown):
     """Verdicts about an integrator: `verdicts` has order, drift and reversal of each scene."""
-
-    def __init__(self, facts: dict[str, Any], text: str) -> None:
-        super().__init__(facts)
-        self._text = text
-
-    def __repr__(self) -> str:
-        return self._text.rstrip("\n")
-
-    def __reduce__(self) -> Any:
-        return Judgement, (self._facts, self._text)
 
 
 def judge(

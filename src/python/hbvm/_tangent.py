@@ -7,24 +7,14 @@ from typing import Any, Sequence
 from . import _hbvm
 from ._number import Exact, Number, exact_text
 from ._progress import Bar, Progress
-from ._record import Record
+from ._record import Shown
 from ._run import Precision
 from ._scene import SceneLike
 from ._scene import scene as scene_of
 
 
-class Tangent(Record):
+class Tangent(Shown):
     """Lyapunov exponents, digits lost, horizons, and the map of changes of the start to changes of the end."""
-
-    def __init__(self, facts: dict[str, Any], text: str) -> None:
-        super().__init__(facts)
-        self._text = text
-
-    def __repr__(self) -> str:
-        return self._text.rstrip("\n")
-
-    def __reduce__(self) -> Any:
-        return Tangent, (self._facts, self._text)
 
 
 def tangent(
