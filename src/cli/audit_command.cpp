@@ -16,6 +16,7 @@
 #include "hbvm/error.hpp"
 #include "hbvm/scheme.hpp"
 #include "hbvm/version.hpp"
+#include "interruption.hpp"
 #include "long_work.hpp"
 #include "long_work/json.hpp"
 #include "method/method_spec.hpp"
@@ -144,6 +145,7 @@ void atlas_command(const AuditArguments& o, const std::string& folder) {
   OrderedJson list = OrderedJson::array();
   bool holds = true;
   for (std::size_t n = 0; n < files.size(); ++n) {
+    end_if_asked("the folder was not gone through to its end");
     bar.update(static_cast<long>(n), static_cast<long>(files.size()));
     const SchemeAudit found = audit_scheme({.file = files[n]});
     holds = holds && found.holds;

@@ -160,6 +160,21 @@ TEST(Signals, EndARunWithCompleteLines) {
   }
 }
 
+/// Each would take from twenty seconds to hours.
+TEST(Signals, EndWhatTakesLong) {
+  for (const Arguments& arguments :
+       {Arguments{"audit", HBVM_SOURCE_DIR "/studies/atlas"},
+        {"audit", "--command", "sleep 3600 # {scene} {step} {until} {out}", "--limit", "0"},
+        {"tangent", "chaotic_double_pendulum", "--method", "hbvm:4,4", "--step", "1/8", "--until", "1000000"},
+        {"run", "chaotic_double_pendulum", "--step", "1/8", "--until", "1000000", "--event", "up: a.vx"}}) {
+    const Outcome outcome = hbvm(arguments, 60, [](pid_t program) {
+      std::this_thread::sleep_for(std::chrono::seconds(2));
+      kill(program, SIGINT);
+    });
+    EXPECT_EQ(outcome.code, 128 + SIGINT) << ::testing::PrintToString(arguments) << outcome.err;
+  }
+}
+
 /// They take about 0.1 s each. The run stands still while its lines are counted before the signal.
 TEST(Signals, DoNotWaitForABlockOfSlowSteps) {
   const Folder folder;
@@ -397,6 +412,14 @@ TEST(Start, AndReverseAreKept) {
                  {"another state"});
   std::filesystem::remove(start);
   EXPECT_EQ(resumed(file).dump(), whole.dump());
+}
+
+/// What it tells between its steps would be lost.
+TEST(Checkpoint, IsRefusedForWhatItDoesNotKeep) {
+  const Folder folder;
+  const Arguments run{"run", "kepler", "--step", "1/8", "--until", "1", "--checkpoint", folder / "kept"};
+  for (const Arguments& more : {Arguments{"--at", "1/3"}, {"--every-time", "1/3"}, {"--event", "near: planet.y"}})
+    expect_refused(run + more, {"--checkpoint", "events"});
 }
 
 }  // namespace
