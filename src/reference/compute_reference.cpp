@@ -190,10 +190,21 @@ class Attempt {
       if (route == Route::hbvm) hbvm_done_ = part;
       request_.progress(request_.only ? part : without_hbvm_ ? taylor_done_ : std::min(taylor_done_, hbvm_done_));
     };
-    // What errors grow by, and a few for their sum.
+    // For the sum of errors.
     constexpr int few = 3;
-    return function_(route)({scene, times, progress, nature_.legs(), keeper(route)},
-                            static_cast<double>(digits_) - few);
+    return function_(route)({request_.scene, scene, times, progress, leg_digits(), keeper(route)}, few);
+  }
+
+  /// A leg needs the digits that are asked for, and those that are still to be lost.
+  std::vector<unsigned> leg_digits() const {
+    std::vector<unsigned> digits;
+    const long legs = nature_.legs();
+    for (long n = 0; n < legs; ++n) {
+      const double saved =
+          nature_.digits_lost - nature_.digits_to_come(static_cast<double>(n) / static_cast<double>(legs));
+      digits.push_back(digits_ - static_cast<unsigned>(saved));
+    }
+    return digits;
   }
 
   /// Under keys that say what a leg depends on.

@@ -38,9 +38,9 @@ struct ReferenceRequest {
   KeptProof* proof = nullptr;  ///< is given what proves it
 };
 
-/// What a route finds in the digits of the scope, of which so many are to be right. Nothing if it does not serve a
-/// scene.
-using RouteFunction = std::function<std::optional<RouteRun>(const RouteWork&, double digits)>;
+/// What a route finds in the digits of its legs, of which all are to be right but so many. Nothing if it does not serve
+/// a scene.
+using RouteFunction = std::function<std::optional<RouteRun>(const RouteWork&, double spare)>;
 /// The route of that name.
 RouteFunction function_of(Route route);
 

@@ -14,7 +14,12 @@ namespace {
 
 void shake(Vector<Mpfr>& x) {
   constexpr int least = 64;
-  for (Index i = 0; i < x.size(); ++i) x[i] += x[i] * epsilon<Mpfr>() * static_cast<int>(least + i);
+  Index i = 0;
+  // Units of its own last digit: a state may have fewer than the scope.
+  for (Mpfr& entry : x) {
+    const auto bits = static_cast<int>(mpfr_get_prec(raw(entry)));
+    entry += ldexp(Mpfr(entry * static_cast<int>(least + i++)), 1 - bits);
+  }
 }
 
 /// The first value to the digits in which no other differs, at most those that were asked for.

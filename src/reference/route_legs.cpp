@@ -55,7 +55,7 @@ Leg run_legs(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, long 
     const auto last = std::upper_bound(first, times.end(), end);
     const std::string key = "leg " + std::to_string(n) + " of " + std::to_string(count);
     const std::optional<std::string> kept = keeper.find ? keeper.find(key) : std::nullopt;
-    Leg leg = kept ? leg_of(*kept) : run(begin, end, {first, last}, all.q, all.p);
+    Leg leg = kept ? leg_of(*kept) : run(static_cast<std::size_t>(n - 1), begin, end, {first, last}, all.q, all.p);
     if (!kept && keeper.keep) keeper.keep(key, to_json(leg));
     all.q = std::move(leg.q);
     all.p = std::move(leg.p);

@@ -24,11 +24,12 @@ struct Leg {
   double cpu_seconds = 0;
 };
 
-/// Leg after leg, in the digits of the scope. Each starts from the state alone in which the last has ended: whether
-/// that was made now or found again, what follows is the same.
-/// \param times asked for, ascending; the last ends the way
-/// \param run   the leg that starts at `begin` with these q, p and ends at `end`; `times` lie between
-using RunLeg = std::function<Leg(const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times,
+/// Leg after leg, in the digits of the scope or fewer. Each starts from the state alone in which the last has ended:
+/// whether that was made now or found again, what follows is the same. \param times asked for, ascending; the last ends
+/// the way \param run   the leg of this number, from 0 on. It starts at `begin` with these q, p and ends at `end`;
+/// `times` lie
+///              between
+using RunLeg = std::function<Leg(std::size_t number, const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times,
                                  const Vector<Mpfr>& q, const Vector<Mpfr>& p)>;
 /// \return the last leg's end, the points, steps and time of all
 Leg run_legs(const Assembled<Mpfr>& scene, const std::vector<Mpfr>& times, long count, const LegKeeper& keeper,

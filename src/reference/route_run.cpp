@@ -12,24 +12,49 @@
 #include "problem/state_evaluator.hpp"
 #include "reference/reference_motion.hpp"
 #include "reference/taylor.hpp"
+#include "scalar/in_place.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 
 namespace hbvm::core {
 namespace {
 
-unsigned working_digits() { return static_cast<unsigned>(digits10<Mpfr>()); }
+/// "60", or "60 to 33".
+std::string range_text(long first, long last) {
+  return first == last ? std::to_string(first) : fmt::format("{} to {}", first, last);
+}
 
-/// The way by motions, one a leg, that make(q, p, length, done) begins. `done` stays the part of the time that is done.
+/// The digits of the first leg and of the last.
+std::string digits_text(const std::vector<unsigned>& of_legs) { return range_text(of_legs.front(), of_legs.back()); }
+
+/// In the digits of the scope. A number keeps those that it was made with, also where another is assigned to it.
+Mpfr rounded(const Mpfr& x) {
+  Mpfr result = 0;
+  set(result, x);
+  return result;
+}
+
+Vector<Mpfr> rounded(const Vector<Mpfr>& x) {
+  Vector<Mpfr> result(x.size());
+  for (Index i = 0; i < x.size(); ++i) result[i] = rounded(x[i]);
+  return result;
+}
+
+/// The way by motions, one a leg, that make(problem, q, p, length, done) begins, in the digits of the leg. `done` stays
+/// the part of the time that is done.
 template <class Make>
 Leg way_by(const RouteWork& work, const Make& make) {
-  const auto run = [&](const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times, const Vector<Mpfr>& q,
-                       const Vector<Mpfr>& p) {
+  const auto run = [&](std::size_t number, const Mpfr& begin, const Mpfr& end, const std::vector<Mpfr>& times,
+                       const Vector<Mpfr>& q, const Vector<Mpfr>& p) {
     const double before = thread_seconds();
     double done = approximately(Mpfr(begin / work.times.back()));
-    auto motion = make(q, p, Mpfr(end - begin), done);
+    const bool fewer = work.leg_digits[number] < static_cast<unsigned>(digits10<Mpfr>());
+    const PrecisionScope scope(work.leg_digits[number]);
+    const std::optional<Assembled<Mpfr>> in_fewer = fewer ? std::optional(assemble<Mpfr>(work.source)) : std::nullopt;
+    auto motion =
+        make((in_fewer ? *in_fewer : work.scene).problem, rounded(q), rounded(p), rounded(Mpfr(end - begin)), done);
     const auto advance_to = [&](const Mpfr& t) {
-      motion.advance_to(t - begin, [&](const Mpfr& now) {
+      motion.advance_to(rounded(Mpfr(t - begin)), [&](const Mpfr& now) {
         done = approximately(Mpfr((begin + now) / work.times.back()));
         work.progress(done);
       });
@@ -46,17 +71,22 @@ Leg way_by(const RouteWork& work, const Make& make) {
     leg.cpu_seconds = thread_seconds() - before;
     return leg;
   };
-  return run_legs(work.scene, work.times, work.legs, work.keeper, run);
+  return run_legs(work.scene, work.times, static_cast<long>(work.leg_digits.size()), work.keeper, run);
 }
 
 }  // namespace
 
 RouteRun taylor_route(const RouteWork& work) {
-  const Leg way = way_by(work, [&](const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Mpfr&, const double& done) {
-    return TaylorMotion(work.scene.problem, q, p, [&] { work.progress(done); });
-  });
+  const Leg way =
+      way_by(work, [&](const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Mpfr&,
+                       const double& done) { return TaylorMotion(problem, q, p, [&] { work.progress(done); }); });
+  const auto order = [](unsigned digits) {
+    const PrecisionScope scope(digits);
+    return TaylorMotion::order_for(significand_bits<Mpfr>());
+  };
   return {fmt::format("Taylor series of order {}, {} steps, {} digits",
-                      TaylorMotion::order_for(significand_bits<Mpfr>()), way.steps, working_digits()),
+                      range_text(order(work.leg_digits.front()), order(work.leg_digits.back())), way.steps,
+                      digits_text(work.leg_digits)),
           way.cpu_seconds, way.points};
 }
 
@@ -66,14 +96,21 @@ int stages_of_route(double digits) {
   return std::clamp(static_cast<int>(std::lround(9 * digits / 20)), least_stages, max_s);
 }
 
-RouteRun hbvm_route(const RouteWork& work, double digits) {
-  const int s = stages_of_route(digits);
-  const Hbvm<Mpfr> method = make_hbvm<Mpfr>(s, s);
-  const Leg way = way_by(work, [&](const Vector<Mpfr>& q, const Vector<Mpfr>& p, const Mpfr& length, const double&) {
-    return HbvmMotion(work.scene.problem, method, q, p, digits, length);
+RouteRun hbvm_route(const RouteWork& work, double spare) {
+  std::optional<Hbvm<Mpfr>> method;
+  const Leg way = way_by(work, [&](const Problem<Mpfr>& problem, const Vector<Mpfr>& q, const Vector<Mpfr>& p,
+                                   const Mpfr& length, const double&) {
+    const double digits = digits10<Mpfr>() - spare;
+    const int s = stages_of_route(digits);
+    method.emplace(make_hbvm<Mpfr>(s, s));
+    return HbvmMotion(problem, *method, q, p, digits, length);
   });
-  return {fmt::format("HBVM({0},{0}), {1} steps, {2} digits", s, way.steps, working_digits()), way.cpu_seconds,
-          way.points};
+  const std::string first = std::to_string(stages_of_route(work.leg_digits.front() - spare)),
+                    last = std::to_string(stages_of_route(work.leg_digits.back() - spare));
+  return {
+      fmt::format("HBVM({0},{0}){1}, {2} steps, {3} digits", first,
+                  first == last ? "" : fmt::format(" to HBVM({0},{0})", last), way.steps, digits_text(work.leg_digits)),
+      way.cpu_seconds, way.points};
 }
 
 std::optional<RouteRun> closed_form_route(const RouteWork& work) {
@@ -144,28 +181,51 @@ MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times,
   Vector<Mpfr> q0 = assembled.q0, p0 = assembled.p0;
   const StartScales scales =
       change_start(assembled, literal<Mpfr>("1e-" + std::to_string(change)), std::min(end, radius), q0, p0);
-  TaylorMotion other(assembled.problem, q0, p0);
+  // The change is seen in the digits that it has: rounding grows as it does.
+  constexpr unsigned seen = change + 8;
+  const auto in_fewer = [](auto&& make) {
+    const PrecisionScope fewer(seen);
+    return make();
+  };
+  const Assembled<Mpfr> scene_of_other = in_fewer([&] { return assemble<Mpfr>(scene); });
+  TaylorMotion other = in_fewer([&] { return TaylorMotion(scene_of_other.problem, rounded(q0), rounded(p0)); });
   double worst = -change, most_grown = -change, times_longer = 1;
+  std::vector<double> grown;  // until the end of each piece
   for (int piece = 1; piece <= pieces && most_grown <= lost; ++piece) {
     const Mpfr t = end * piece / pieces;
     const auto walked = [&](const Mpfr& now) { progress(approximately(Mpfr(now / end))); };
     motion.advance_to(t, walked);
-    other.advance_to(t, walked);
+    in_fewer([&] { other.advance_to(rounded(t), walked); });
     const auto look = [&](const Vector<Mpfr>& all, const Vector<Mpfr>& all_changed, const Mpfr& scale) {
       const Index bodies = assembled.problem.mass.of_bodies();
       const Vector<Mpfr> x = all.head(bodies), changed = all_changed.head(bodies);
       const Mpfr size = max_norm(x), difference = distance(x, changed);
       if (size == 0 || difference == 0) return;
       worst = std::max(worst, (log2_of(difference) - log2_of(size)) / std::log2(double{10}));
-      most_grown = std::max(most_grown, (log2_of(difference) - log2_of(std::max(size, scale))) / std::log2(double{10}));
+      const double now = (log2_of(difference) - log2_of(std::max(size, scale))) / std::log2(double{10});
+      most_grown = std::max(most_grown, now);
+      grown.back() = std::max(grown.back(), now + change);
     };
+    grown.push_back(0);
     look(motion.q(), other.q(), scales.q);
     look(motion.p(), other.p(), scales.p);
     times_longer = static_cast<double>(pieces) / piece;
   }
-  const double digits_lost = worst + change + (most_grown + change) * (times_longer - 1);
-  return {std::max(double{0}, digits_lost), motion.least_radius(),
-          static_cast<double>(motion.steps() + 1) * times_longer};
+  const double rate = (most_grown + change) / static_cast<double>(grown.size());
+  const double digits_lost = std::max(double{0}, worst + change + (most_grown + change) * (times_longer - 1));
+  // A change that is made at a time grows by no more than what an earlier one grows by from its least on.
+  while (static_cast<int>(grown.size()) < pieces) grown.push_back(grown.back() + rate);
+  for (std::size_t piece = grown.size() - 1; piece-- > 0;) grown[piece] = std::min(grown[piece], grown[piece + 1]);
+  std::vector<double> to_come{digits_lost};
+  for (std::size_t piece = 0; piece + 1 < grown.size(); ++piece)
+    to_come.push_back(std::max(double{0}, digits_lost - grown[piece]));
+  return {digits_lost, motion.least_radius(), static_cast<double>(motion.steps() + 1) * times_longer, to_come};
+}
+
+double MotionNature::digits_to_come(double part) const {
+  if (to_come.empty()) return digits_lost;
+  const auto piece = static_cast<std::size_t>(part * static_cast<double>(to_come.size()));
+  return to_come[std::min(piece, to_come.size() - 1)];
 }
 
 long MotionNature::legs() const {

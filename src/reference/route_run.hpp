@@ -22,10 +22,11 @@ using RouteProgress = std::function<void(double)>;
 
 /// What a route is to find: the states at times that ascend, in the digits of the scope.
 struct RouteWork {
-  const Assembled<Mpfr>& scene;
+  const Scene& source;
+  const Assembled<Mpfr>& scene;  ///< made of it in the digits of the scope
   const std::vector<Mpfr>& times;
   RouteProgress progress;
-  long legs = 1;  ///< parts of the time that are kept
+  std::vector<unsigned> leg_digits;  ///< of each part of the time: none has more than the scope, nor than one before
   LegKeeper keeper = {};
 };
 
@@ -41,8 +42,12 @@ struct MotionNature {
   double digits_lost = 0;  ///< log10 of the factor by which a change of the start grows until the last time, at least 0
   double log2_radius = 0;  ///< least radius of convergence of the Taylor series
   double steps = 1;        ///< of a Taylor series until the last time
+  /// Digits that are lost from each of equal parts of the time until its end. Without, all are lost at any time.
+  std::vector<double> to_come = {};
+
   /// Parts of the time that take some hundred steps of a Taylor series each.
   long legs() const;
+  double digits_to_come(double part) const;
 };
 
 /// The stages s of HBVM(s,s) for so many digits, at most max_s.
@@ -50,9 +55,9 @@ int stages_of_route(double digits);
 /// The most digits for which HBVM has the stages that it needs.
 inline constexpr int most_digits_of_hbvm = 20 * max_s / 9;
 
-/// The states by HBVM(s,s) with so many digits right, by steps that it chooses itself: see HbvmMotion.
+/// The states by HBVM(s,s) by steps that it chooses itself, with all digits right but so many: see HbvmMotion.
 /// \throws IntegrationError
-RouteRun hbvm_route(const RouteWork& work, double digits);
+RouteRun hbvm_route(const RouteWork& work, double spare);
 
 /// The nature of a motion, from two motions at low precision that start close to each other. Where the change has grown
 /// so far that it tells no more, its rate until then is taken for all of the time. The radius is taken for the least.

@@ -21,12 +21,13 @@ const std::vector<Expression>& times() {
 
 std::vector<Mpfr> instants() { return {literal<Mpfr>("1/2"), Mpfr(2)}; }
 
+/// In one leg of all digits, which does not make its scene anew.
 RouteRun by_taylor(const Assembled<Mpfr>& scene) {
-  return taylor_route({scene, instants(), [](double) {}});
+  return taylor_route({{}, scene, instants(), [](double) {}, {working}});
 }
 
 RouteRun by_hbvm(const Assembled<Mpfr>& scene) {
-  return hbvm_route({scene, instants(), [](double) {}}, working - 3);
+  return hbvm_route({{}, scene, instants(), [](double) {}, {working}}, 3);
 }
 
 /// What runs are refused with that do not agree.

@@ -17,8 +17,8 @@ TEST(Routes, Agree) {
     const std::vector<Mpfr> at{literal<Mpfr>("1/3"), Mpfr(2)};
     double done = 0;
     const RouteProgress progress = [&done](double part) { done = part; };
-    const RouteRun a = taylor_route({scene, at, progress});
-    const RouteRun b = hbvm_route({scene, at, progress}, digits - 3);
+    const RouteRun a = taylor_route({text, scene, at, progress, {digits}});
+    const RouteRun b = hbvm_route({text, scene, at, progress, {digits}}, 3);
     EXPECT_NEAR(done, 1, 1e-12);
     ASSERT_EQ(a.points.size(), 2u);
     const Mpfr tolerance = literal<Mpfr>("1e-34");
@@ -53,6 +53,33 @@ TEST(Routes, KnowHowErrorsGrow) {
   const double grown = 50 + approximately(Mpfr(log10(change)));
   EXPECT_GT(grown, 4);
   EXPECT_NEAR(nature.digits_lost, grown, grown / 2);
+}
+
+/// Digits that are lost before need not be carried on: a leg has its own. Constants of the scene are no doubles.
+TEST(Routes, TakeFewerDigitsTowardsTheEnd) {
+  const Scene text = load_scene("chaotic_double_pendulum");
+  const std::vector<Expression> times{Expression::parse("5"), Expression::parse("30")};
+  const MotionNature nature = nature_of(text, times, [](double) {});
+  EXPECT_EQ(nature.digits_to_come(0), nature.digits_lost);
+  for (double part = 0; part < 1; part += 0.01) {
+    EXPECT_LE(nature.digits_to_come(part + 0.01), nature.digits_to_come(part));
+    EXPECT_GE(nature.digits_to_come(part), 0);
+  }
+  EXPECT_LT(nature.digits_to_come(1), 1);
+  constexpr unsigned most = 60;
+  const PrecisionScope scope(most);
+  const Assembled<Mpfr> scene = assemble<Mpfr>(text);
+  const std::vector<Mpfr> at{Mpfr(5), Mpfr(30)};
+  const RouteRun all = taylor_route({text, scene, at, [](double) {}, {most}});
+  const RouteWork legs{text, scene, at, [](double) {}, {60, 55, 50, 45}};
+  for (const RouteRun& fewer : {taylor_route(legs), hbvm_route(legs, 3)}) {
+    EXPECT_NE(fewer.settings.find("60 to 45 digits"), std::string::npos) << fewer.settings;
+    for (std::size_t n = 0; n < at.size(); ++n) {
+      const Mpfr off = distance(fewer.points[n].q, all.points[n].q);
+      EXPECT_LE(off, literal<Mpfr>("1e-38")) << fewer.settings;
+    }
+    EXPECT_GT(distance(fewer.points[1].q, all.points[1].q), literal<Mpfr>("1e-60")) << "as many digits as before";
+  }
 }
 
 /// A change is one of each body's own size. In SI units a kick in parts of the Earth's momentum would send a satellite
