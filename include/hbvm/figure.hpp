@@ -35,6 +35,7 @@ struct Curve {
   std::string label;  ///< written at its right end, unless it is the only one
   std::vector<PlotPoint> points;
   bool marked = false;  ///< a mark at every point
+  bool dots = false;    ///< points alone, without a line
 };
 
 /// A line that is part of the scene: a rod, the outline of a body, the axis of a joint, or a mesh behind them. It may

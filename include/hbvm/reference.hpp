@@ -44,6 +44,7 @@ struct ReferenceState {
   std::vector<std::string> momenta;  ///< those the problem conserves, in the order of their names
   long agreed = 0;  ///< digits after the leading one on which all routes agree, the least of all vectors
   std::vector<std::string> observed = {};   ///< what the scene observes
+  std::optional<double> digits_lost = {};   ///< an error of the start has grown by 10^digits_lost; none in a file
   std::optional<ProvedRadius> radius = {};  ///< if the digits are proved: besides their rounding to the last digit
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hbvm/figure.hpp"
+#include "hbvm/horizon.hpp"
 #include "hbvm/method.hpp"
 #include "hbvm/scene.hpp"
 
@@ -41,6 +42,7 @@ struct RunRequest {
   bool reverse = false;              ///< back in time
   bool account = false;              ///< tell where the time goes
   bool shadow = false;               ///< tell how many digits survived rounding
+  bool horizon = false;              ///< tell how many digits of the start are lost by each time
   bool error = false;                ///< tell how many digits are right
   bool prove = false;                ///< prove, of HBVM(k,s), what its steps without rounding are
   std::string start = {};            ///< JSON with q and p, as to_json() of a run gives it; messages call it start.json
@@ -71,6 +73,7 @@ struct Health {
   std::string worst_e_H;     ///< |H_n - H_0| over the greatest term of H
   std::string worst_hidden;  ///< the greatest cosine of an angle between a velocity and the gradient of a constraint
   std::vector<Warning> warnings;
+  std::optional<DigitsLost> horizon = {};  ///< if it was asked for
 };
 
 /// A quantity the exact motion conserves: its value at the start and its greatest change over the mesh.
@@ -90,6 +93,7 @@ struct Event {
   bool rises = false;   ///< the value is negative before
   bool grazes = false;  ///< the value comes to 0, as near as rounding tells, and turns back
   std::vector<std::string> q, p, lambda;
+  std::vector<std::string> observed;  ///< what the scene observes, there
 };
 
 /// Times between crossings of an event in one direction: the period, of a motion that has one.
@@ -141,6 +145,8 @@ struct Shadow {
   } worst;              ///< the component with the fewest digits along the path
   long every = 1;       ///< steps between two mesh points compared along the path
   std::string failure;  ///< why the shadow did not reach the end, if it did not; nothing else is known then
+  /// When q or p was first off by its size: no digit of it was left.
+  std::optional<double> gone_t = {};
 };
 
 /// How far the end of a run is from the exact motion. It is compared with a stored reference of this scene and time, if

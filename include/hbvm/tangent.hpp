@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hbvm/horizon.hpp"
 #include "hbvm/method.hpp"
 #include "hbvm/number.hpp"
 #include "hbvm/scene.hpp"
@@ -35,14 +36,6 @@ struct Exponent {
 /// An eigenvalue of the map of a motion that closes: a multiplier of the periodic motion.
 struct Multiplier {
   double real = 0, imaginary = 0;
-};
-
-/// When a precision has no right digit left of a start that it rounds.
-struct Horizon {
-  std::string precision;
-  double digits = 0;
-  std::optional<double> t = {};  ///< none if changes do not grow so far
-  bool extrapolated = false;     ///< beyond the time that was looked at, by the greatest exponent
 };
 
 struct Tangent {

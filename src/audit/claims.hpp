@@ -29,6 +29,10 @@ std::vector<Claim> general_claims(Extent extent);
 /// round-off. Steps of -h lead back. s = 1 .. 6 for Extent::full; s = 1 and 2 else.
 std::vector<Claim> work_claims(Extent extent);
 
+/// Claims about states at times that are no mesh points: q, p and lambda have order 2s at five points within a step.
+/// s = 1 .. 6 for Extent::full; s = 1 and 2 else.
+std::vector<Claim> between_claims(Extent extent);
+
 /// What a Runge-Kutta method must show on the problems without constraints: its order, and that of the energy error.
 /// The order is what its author states; if none, what its conditions show to ten digits, as a look in double would have
 /// it. Symmetry and conservation of angular momentum are claimed if the coefficients say so to ten digits.

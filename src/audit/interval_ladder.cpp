@@ -78,7 +78,9 @@ class IntervalLadder {
         log2_window_(group.log2_scale + group.log2_interval),
         end_errors_(group.asks_for(Quantity::q) || group.asks_for(Quantity::p) ||
                     group.asks_for(Quantity::tangential_p) || group.asks_for(Quantity::lagmul) ||
-                    group.asks_for(Quantity::output_lambda)) {
+                    group.asks_for(Quantity::output_lambda)),
+        between_(group.asks_for(Quantity::q_between) || group.asks_for(Quantity::p_between) ||
+                 group.asks_for(Quantity::lambda_between)) {
     if (group.asks_for(Quantity::angular_momentum)) momenta_ = conserved_momenta(problem_);
     const Mpfr until = group.windows * ldexp(Mpfr(1), log2_window_);
     for (const Laboratory::Start& start : laboratory_.starts()) {
@@ -99,12 +101,13 @@ class IntervalLadder {
                           unit_ + sensitivity.lambda + std::max(group_.log2_scale - log2_h, double{0})};
       Vector<Mpfr> q, p;
       run(trial, laboratory_.starts()[i], h, n * group_.windows, sensitivity, floors, q, p);
-      if (!end_errors_) continue;
+      if (!end_errors_ && !between_) continue;
       Destination& exact = destinations_[i];
       const Vector<Mpfr> tangential = point_.tangential(q, p);
       sharpen(exact, sensitivity, floors, q, tangential);
       margins.raise(Margins(exact.errors()));
-      compare(trial, exact, floors, q, p, tangential);
+      if (end_errors_) compare(trial, exact, floors, q, p, tangential);
+      if (between_) compare_between(trial, exact, floors, h);
     }
     for (const auto& [quantity, size] : sizes_)
       ladders[quantity].push_back({log2_h, size.error, size.floor, margins.set(size.floor)});
@@ -177,13 +180,30 @@ class IntervalLadder {
     add(Quantity::lagmul, distance(lambda, exact_lambda), std::max(floors.divided, margin.lambda));
   }
 
+  /// The errors at five points within the step that would follow.
+  void compare_between(Trial<S>& trial, const Destination& exact, const Floors& floors, const Mpfr& h) {
+    constexpr int points = 5;
+    Vector<Mpfr> q = exact.q(), p = exact.p(), lambda = point_.multiplier(q, p);
+    for (int i = 0; i < points; ++i) {
+      const Mpfr after = h * (2 * i + 1) / (2 * points);
+      trial.between(after, q, p, lambda);
+      const ReferenceMotion there(problem_, exact.q(), exact.p(), after, 1, group_.stages() + 2,
+                                  [this] { group_.check_time(); });
+      const Margins end(exact.errors()), own(there.errors());
+      add(Quantity::q_between, laboratory_.apart(q, there.q()), std::max({floors.q, end.q, own.q}));
+      add(Quantity::p_between, laboratory_.apart(p, there.p()), std::max({floors.p, end.p, own.p}));
+      add(Quantity::lambda_between, distance(lambda, there.lambda()),
+          std::max({floors.lambda, end.lambda, own.lambda}));
+    }
+  }
+
   double unit_;
   const ClaimGroup& group_;
   Laboratory laboratory_;
   const Problem<Mpfr>& problem_;
   StateEvaluator<Mpfr>& point_;
   int log2_window_;
-  bool end_errors_;
+  bool end_errors_, between_;
   std::vector<MomentumComponent<Mpfr>> momenta_;
   std::deque<Destination> destinations_;
   std::vector<Sensitivity> sensitivities_;

@@ -10,12 +10,15 @@
 namespace hbvm::core {
 namespace {
 
-constexpr std::array<std::pair<Quantity, std::string_view>, 23> quantities{{
+constexpr std::array<std::pair<Quantity, std::string_view>, 26> quantities{{
     {Quantity::q, "q"},
     {Quantity::p, "raw p"},
     {Quantity::tangential_p, "tangential p"},
     {Quantity::lagmul, "lagmul"},
     {Quantity::output_lambda, "output lambda"},
+    {Quantity::q_between, "q between"},
+    {Quantity::p_between, "p between"},
+    {Quantity::lambda_between, "lambda between"},
     {Quantity::delta_lambda, "delta lambda"},
     {Quantity::polynomials, "u and v"},
     {Quantity::g, "g"},

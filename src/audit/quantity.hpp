@@ -11,6 +11,9 @@ enum class Quantity {
   tangential_p,      ///< momentum of the output state, projected to the tangent space
   lagmul,            ///< multiplier extrapolated from the nodes, (57)
   output_lambda,     ///< multiplier of the output state, Theorem 1
+  q_between,         ///< position at five points within a step, as BetweenSteps finds it
+  p_between,         ///< tangential momentum likewise
+  lambda_between,    ///< multiplier likewise
   delta_lambda,      ///< lambda(u(c_j h), v(c_j h)) - lambda_j at the internal nodes, (33)
   polynomials,       ///< u and v at eight points of a step, of Corollary 2
   g,                 ///< constraints

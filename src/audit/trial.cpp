@@ -2,6 +2,7 @@
 
 #include "basis/gauss_legendre.hpp"
 #include "basis/legendre.hpp"
+#include "integrate/between_steps.hpp"
 #include "linear/rounded.hpp"
 #include "step/hbvm_method.hpp"
 
@@ -48,6 +49,23 @@ template <Scalar S>
 void Trial<S>::state(Vector<Mpfr>& q, Vector<Mpfr>& p) const {
   copy_exactly(q, state_->q);
   copy_exactly(p, state_->p);
+}
+
+template <Scalar S>
+void Trial<S>::between(const Mpfr& after, Vector<Mpfr>& q, Vector<Mpfr>& p, Vector<Mpfr>& lambda) const {
+  StateBetween<S> found;
+  {
+    const PrecisionScope working(digits_);
+    BetweenSteps<S> steps(make_stepper_());
+    Snapshot<S> mesh;
+    mesh.t = 0;
+    mesh.q = state_->q;
+    mesh.p = state_->p;
+    found = steps.at(mesh, rounded_to<S>(raw(after)));
+  }
+  copy_exactly(q, found.q);
+  copy_exactly(p, found.p);
+  copy_exactly(lambda, found.lambda);
 }
 
 template <Scalar S>

@@ -34,6 +34,8 @@ class Trial {
   void reverse();
 
   void state(Vector<Mpfr>& q, Vector<Mpfr>& p) const;
+  /// The output state after a time from here, which may be a part of a step.
+  void between(const Mpfr& after, Vector<Mpfr>& q, Vector<Mpfr>& p, Vector<Mpfr>& lambda) const;
   /// (57) of the last step.
   void multiplier(Vector<Mpfr>& lambda) const;
   /// Coefficients of the last step and its multipliers at the s Gauss nodes, each if asked for; not for a method

@@ -91,7 +91,7 @@ std::vector<Claim> claims_of(const AuditArguments& o) {
   } else {
     const Extent extent = o.full ? Extent::full : Extent::quick;
     claims = paper_claims(extent);
-    for (const std::vector<Claim>& more : {general_claims(extent), work_claims(extent)})
+    for (const std::vector<Claim>& more : {general_claims(extent), work_claims(extent), between_claims(extent)})
       claims.insert(claims.end(), more.begin(), more.end());
   }
   return o.claims ? filtered(std::move(claims), *o.claims) : claims;

@@ -20,6 +20,8 @@ void add_cost_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_lesson_command(CLI::App& app);
 void add_tangent_command(CLI::App& app);
+void add_section_command(CLI::App& app);
+void add_periodic_command(CLI::App& app);
 void add_help_command(CLI::App& app);
 void add_completion_command(CLI::App& app);
 

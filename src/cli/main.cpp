@@ -37,8 +37,9 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape)
         hbvm::core::add_methods_command, hbvm::core::add_scene_command, hbvm::core::add_compare_command,
         hbvm::core::add_convergence_command, hbvm::core::add_study_command, hbvm::core::add_audit_command,
         hbvm::core::add_stability_command, hbvm::core::add_reference_command, hbvm::core::add_cost_command,
-        hbvm::core::add_tangent_command, hbvm::core::add_report_command, hbvm::core::add_lesson_command,
-        hbvm::core::add_completion_command, hbvm::core::add_help_command})
+        hbvm::core::add_tangent_command, hbvm::core::add_section_command, hbvm::core::add_periodic_command,
+        hbvm::core::add_report_command, hbvm::core::add_lesson_command, hbvm::core::add_completion_command,
+        hbvm::core::add_help_command})
     add(app);
   try {
     const CLI::App* command = &app;

@@ -117,6 +117,8 @@ void print(const Scene& scene, const Reference& r) {
       fmt::print("{} digits after the leading one; the routes agree in {}\n", r.digits, state.agreed);
     else
       fmt::print("{} digits after the leading one, by one route: nothing confirms them\n", r.digits);
+    if (state.digits_lost && &state != &r.times.back())
+      fmt::print("an error of the start has grown by 10^{:.1f}\n", *state.digits_lost);
   }
   fmt::print("\n");
   for (const RouteReport& route : r.routes)

@@ -40,7 +40,8 @@ struct RunArguments {
   std::optional<std::string> every_time, until_event;
   std::vector<std::string> portraits, at;
   long every = 1;
-  bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false, prove = false;
+  bool json = false, account = false, strict = false, shadow = false, reverse = false, error = false, prove = false,
+       horizon = false;
   bool states = false, state = false, linear_energy = false;
   std::optional<std::string> checkpoint, resume;
   double every_seconds = 60;
@@ -106,6 +107,7 @@ hbvm::RunRequest asked_of(const RunArguments& o, const RunIdentity& identity) {
           .reverse = o.reverse,
           .account = o.account,
           .shadow = o.shadow,
+          .horizon = o.horizon,
           .error = o.error,
           .prove = o.prove,
           .start = identity.start,
@@ -299,6 +301,8 @@ void add_run_command(CLI::App& app) {
                     "motion without rounding is, and of its H and g");
   command->add_flag("--shadow", o->shadow,
                     "Repeat the run with 16 more digits and say how many of each component survived rounding");
+  command->add_flag("--horizon", o->horizon,
+                    "Say how many digits of the start are lost by each time, and when a precision has none left");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->add_flag("--state", o->state,
                     "Print the state at the end with all digits, the propagated one and that of output");

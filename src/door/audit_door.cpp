@@ -34,7 +34,7 @@ Claims operator+(const Claims& a, const Claims& b) {
 Claims paper_claims(bool full) {
   const core::Extent extent = full ? core::Extent::full : core::Extent::quick;
   return claims_of(core::paper_claims(extent)) + claims_of(core::general_claims(extent)) +
-         claims_of(core::work_claims(extent));
+         claims_of(core::work_claims(extent)) + claims_of(core::between_claims(extent));
 }
 
 Claims tableau_claims(const Tableau& tableau) { return claims_of(core::tableau_claims(core::completed(tableau))); }

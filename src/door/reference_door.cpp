@@ -68,6 +68,7 @@ std::string to_json(const Reference& r, const std::string& command) {
     for (std::size_t i = 0; i < state.momenta.size(); ++i) entry["momenta"][r.momentum_names[i]] = state.momenta[i];
     for (std::size_t i = 0; i < state.observed.size(); ++i) entry["observed"][r.observed_names[i]] = state.observed[i];
     entry["agreed"] = r.routes.size() > 1 ? core::OrderedJson(state.agreed) : core::OrderedJson(nullptr);
+    if (state.digits_lost) entry["digits_lost"] = *state.digits_lost;
     if (state.radius)
       entry["radius"] = {
           {"q", state.radius->q}, {"p", state.radius->p}, {"lambda", state.radius->lambda}, {"H", state.radius->H}};

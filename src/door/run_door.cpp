@@ -65,6 +65,7 @@ RunRequest request_of(const hbvm::RunRequest& asked, const std::optional<std::st
                      asked.prove,
                      parse_on_failure(asked.on_failure),
                      asked.reverse ? Direction::backward : Direction::forward};
+  request.horizon = asked.horizon;
   request.linear_energy = asked.linear_energy;
   for (const auto& [across, up] : asked.portraits) request.portraits.push_back({across, up});
   for (const Number& time : asked.at) request.at.push_back(expression_of(time, "at"));

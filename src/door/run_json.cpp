@@ -18,16 +18,35 @@ OrderedJson json_of(const std::vector<Warning>& warnings) {
 
 namespace {
 
-core::OrderedJson json_of(const Health& health) {
-  return {{"condition", health.condition},
-          {"worst_e_H", health.worst_e_H},
-          {"worst_hidden", health.worst_hidden},
-          {"warnings", core::json_of(health.warnings)}};
-}
-
 std::vector<double> rounded(std::vector<double> digits) {
   for (double& d : digits) d = std::round(100 * d) / 100;
   return digits;
+}
+
+core::OrderedJson json_of(const DigitsLost& horizon) {
+  if (!horizon.failure.empty()) return {{"failure", horizon.failure}};
+  const auto or_null = [](const std::optional<double>& t) {
+    return t ? core::json_number(*t) : core::OrderedJson(nullptr);
+  };
+  core::OrderedJson j{{"growth", core::OrderedJson::array()}, {"precisions", core::OrderedJson::array()}};
+  for (std::size_t n = 0; n < horizon.times.size(); ++n)
+    j["growth"].push_back({{"t", horizon.times[n]}, {"digits_lost", rounded({horizon.lost[n]}).front()}});
+  for (const Horizon& one : horizon.horizons)
+    j["precisions"].push_back({{"precision", one.precision},
+                               {"digits", one.digits},
+                               {"t", or_null(one.t)},
+                               {"extrapolated", one.extrapolated}});
+  j["measured_t"] = or_null(horizon.measured_t);
+  return j;
+}
+
+core::OrderedJson json_of(const Health& health) {
+  core::OrderedJson j{{"condition", health.condition},
+                      {"worst_e_H", health.worst_e_H},
+                      {"worst_hidden", health.worst_hidden},
+                      {"warnings", core::json_of(health.warnings)}};
+  if (health.horizon) j["horizon"] = json_of(*health.horizon);
+  return j;
 }
 
 core::OrderedJson json_of(const ErrorEstimate& error) {
@@ -133,7 +152,7 @@ std::string to_json(const Run& run, bool states) {
   j["lambda"] = run.lambda;
   j["output"] = {{"p", run.output_p}, {"lambda", run.output_lambda}, {"delta_H", run.output_delta_H}};
   if (states) j["states"] = states_of(run);
-  for (const Event& event : run.events)
+  for (const Event& event : run.events) {
     j["events"].push_back({{"name", event.name},
                            {"t", event.t},
                            {"direction", event.grazes  ? "grazes"
@@ -142,6 +161,9 @@ std::string to_json(const Run& run, bool states) {
                            {"q", event.q},
                            {"p", event.p},
                            {"lambda", event.lambda}});
+    for (std::size_t n = 0; n < event.observed.size(); ++n)
+      j["events"].back()["observed"][run.observations[n].name] = event.observed[n];
+  }
   for (const EventPeriod& period : run.periods)
     j["periods"].push_back({{"name", period.name},
                             {"direction", period.rises ? "up" : "down"},

@@ -263,6 +263,20 @@ std::string events_of(const Run& run, bool all_digits) {
   return n <= most || all_digits ? text : text + fmt::format("  ... and {} more (--state)\n", n - most);
 }
 
+/// When precisions have no digit left, and when that was seen.
+std::string horizon_of(const DigitsLost& horizon) {
+  if (!horizon.failure.empty()) return "\nhorizon: not known, as " + horizon.failure + "\n";
+  std::string text = fmt::format("\nhorizon: by t = {:.6g} an error of the start grows by 10^{:.1f}\n",
+                                 horizon.times.back(), horizon.lost.back());
+  for (const Horizon& one : horizon.horizons)
+    text += one.t ? fmt::format("  {:<10} has no digit left at t = {:.4g}{}\n", one.precision, *one.t,
+                                one.extrapolated ? ", if it goes on so" : "")
+                  : fmt::format("  {:<10} keeps digits, as far as is seen: less than one is lost in the second half\n",
+                                one.precision);
+  if (horizon.measured_t) text += fmt::format("  seen: this run had none at t = {:.4g}\n", *horizon.measured_t);
+  return text;
+}
+
 std::string whole_state(const Run& run) {
   const ErrorEstimate error = is_assessed(run) ? *run.error : ErrorEstimate{};
   const Shadow shadow = run.shadow.value_or(Shadow{});
@@ -290,6 +304,7 @@ std::string to_text(const Run& run, bool state) {
                   run.step, run.last_step.empty() ? "" : ", the last shortened to " + short_text(run.last_step), run.t);
   text += verdict_of(run) + errors_of(run) + decisions_of(run) + works_of(run) + observed_in(run, state);
   if (run.shadow) text += "\n" + core::to_text(*run.shadow);
+  if (run.health.horizon) text += horizon_of(*run.health.horizon);
   if (run.proved) text += proof_in(run, state);
   text += events_of(run, state);
   for (const StateAt& one : run.at) text += between_of(run, one, state);

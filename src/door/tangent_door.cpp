@@ -1,16 +1,15 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "door/door.hpp"
 #include "door/run_of.hpp"
 #include "hbvm/tangent.hpp"
 #include "long_work/json.hpp"
+#include "run/horizon.hpp"
 #include "run/tangent_map.hpp"
+#include "run/tangent_space.hpp"
 #include "scalar/log2_of.hpp"
 #include "scalar/text.hpp"
 #include "scene/coordinate_names.hpp"
@@ -25,38 +24,6 @@ std::vector<std::string> texts_of(const core::Vector<Mpfr>& x, int digits) {
   std::vector<std::string> texts;
   for (Index i = 0; i < x.size(); ++i) texts.push_back(core::to_scientific(x[i], digits));
   return texts;
-}
-
-/// The eigenvalues of start^+ end, from the greatest on.
-std::vector<Multiplier> multipliers_of(const core::TangentMap& map) {
-  // Directions are orthonormal over sizes, which need not be known here.
-  const auto near = [](const core::Matrix<Mpfr>& x) {
-    return Eigen::MatrixXd(x.unaryExpr([](const Mpfr& entry) { return core::approximately(entry); }));
-  };
-  const Eigen::MatrixXd start = near(map.start), end = near(map.end);
-  const Eigen::MatrixXd monodromy = start.colPivHouseholderQr().solve(end);
-  std::vector<Multiplier> multipliers;
-  const Eigen::VectorXcd eigenvalues = monodromy.eigenvalues();
-  for (Index i = 0; i < eigenvalues.size(); ++i) multipliers.push_back({eigenvalues[i].real(), eigenvalues[i].imag()});
-  std::stable_sort(multipliers.begin(), multipliers.end(), [](const Multiplier& a, const Multiplier& b) {
-    return std::hypot(a.real, a.imaginary) > std::hypot(b.real, b.imaginary);
-  });
-  return multipliers;
-}
-
-/// Where the growth reaches so many digits, or would.
-Horizon horizon_of(const Tangent& tangent, const std::string& precision, double digits) {
-  Horizon horizon{precision, digits, {}, false};
-  for (std::size_t n = 0; n < tangent.times.size(); ++n)
-    if (tangent.growth[n] >= digits) {
-      horizon.t = tangent.times[n];
-      return horizon;
-    }
-  const Exponent& greatest = tangent.exponents.front();
-  if (!(greatest.value > greatest.uncertainty)) return horizon;
-  horizon.t = tangent.times.back() + (digits - tangent.growth.back()) * std::log(double{10}) / greatest.value;
-  horizon.extrapolated = true;
-  return horizon;
 }
 
 }  // namespace
@@ -92,9 +59,14 @@ Tangent tangent(const TangentRequest& door) {
     found.exponents.push_back({exponent.value, exponent.uncertainty});
   found.symplectic_defect = core::log10_of(map.symplectic_defect);
   constexpr double closed = -4;
-  if (map.distance < closed) found.multipliers = multipliers_of(map);
+  if (map.distance < closed)
+    for (const std::complex<double>& multiplier : core::multipliers_of(map.start, map.end))
+      found.multipliers.push_back({multiplier.real(), multiplier.imag()});
+  const Exponent& greatest = found.exponents.front();
+  const double rate = greatest.value > greatest.uncertainty ? greatest.value / std::log(double{10}) : 0;
   for (const char* const name : {"double", "mpfr:34", "mpfr:50", "mpfr:100"})
-    found.horizons.push_back(horizon_of(found, name, core::Precision::parse(name).digits()));
+    found.horizons.push_back(
+        core::horizon_of(name, core::Precision::parse(name).digits(), found.times, found.growth, rate));
   for (const std::string& constant : door.constants)
     found.sensitivities.emplace_back(constant, texts_of(core::constant_sensitivity(request, constant), digits.asked));
   return found;

@@ -33,7 +33,9 @@ EventFinder<S>::EventFinder(const Scene& scene, const Problem<S>& problem, Betwe
       between_(between),
       last_(last),
       functions_(as_observations_, problem),
-      point_(problem) {}
+      point_(problem) {
+  if (!scene.observations.empty()) seen_.emplace(scene, problem);
+}
 
 template <Scalar S>
 void EventFinder<S>::observe(const Snapshot<S>& snapshot) {
@@ -41,6 +43,7 @@ void EventFinder<S>::observe(const Snapshot<S>& snapshot) {
   const Vector<S> values = functions_.values();
   const StateBetween<S> state = between_.output(snapshot);
   of_step_.clear();
+  if (seen_) seen_->observe(snapshot);
   if (snapshot.n > 0) look_between(snapshot, state);
   std::stable_sort(of_step_.begin(), of_step_.end(), [](const FoundEvent<S>& a, const FoundEvent<S>& b) {
     return magnitude(a.state.t) < magnitude(b.state.t);
@@ -215,7 +218,9 @@ template <Scalar S>
 void EventFinder<S>::add(std::size_t event, const S& t, bool rises, bool grazes) {
   const Crossing wanted = scene_.events[event].direction;
   if (!grazes && wanted != Crossing::any && (wanted == Crossing::up) != rises) return;
-  of_step_.push_back({event, rises, grazes, between_.from(state_, t)});
+  FoundEvent<S> found{event, rises, grazes, between_.from(state_, t), {}};
+  if (seen_) found.observed = seen_->see(t, found.state.q, found.state.p, seen_->angles());
+  of_step_.push_back(std::move(found));
 }
 
 #define HBVM_DEFINE(S) template class EventFinder<S>;

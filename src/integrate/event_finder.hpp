@@ -15,6 +15,7 @@ struct FoundEvent {
   bool rises = false;     ///< the value is negative before
   bool grazes = false;    ///< it comes to 0, as near as rounding tells, and turns back
   StateBetween<S> state;
+  Vector<S> observed;  ///< values of the scene's observations there
 };
 
 /// The event that ends a run: which, and the how many-th.
@@ -67,6 +68,7 @@ class EventFinder final : public Observer<S> {
   BetweenSteps<S>& between_;
   std::optional<LastEvent> last_;  // which, and how many are left
   Observations<S> functions_;
+  std::optional<Observations<S>> seen_;  // where the scene observes something
   StateEvaluator<S> point_;
   Snapshot<S> mesh_;       // the mesh point before
   StateBetween<S> state_;  // and the output state there

@@ -9,15 +9,12 @@
 #include "scalar/text.hpp"
 
 namespace hbvm::core {
-namespace {
 
-/// floor(log10 |x|), the exponent of the leading digit; x is not 0.
 long decimal_exponent(const Mpfr& x) {
   const std::string text = to_scientific(x, 25);
   return std::stol(text.substr(text.find('e') + 1));
 }
 
-/// x to the digit of 10^last.
 std::string to_digit(const Mpfr& x, long last) {
   if (x == 0) return "0";
   const long leading = decimal_exponent(x);
@@ -29,6 +26,8 @@ std::string to_digit(const Mpfr& x, long last) {
   }
   return rounded_text(to_text(x), static_cast<int>(leading - last + 1));
 }
+
+namespace {
 
 Vector<Mpfr> single(const Mpfr& x) { return Vector<Mpfr>::Constant(1, x); }
 

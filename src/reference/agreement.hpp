@@ -9,6 +9,11 @@
 
 namespace hbvm::core {
 
+/// floor(log10 |x|), the exponent of the leading digit; x is not 0.
+long decimal_exponent(const Mpfr& x);
+/// x to the digit of 10^last.
+std::string to_digit(const Mpfr& x, long last);
+
 /// What one route found, and what the route is called.
 struct NamedRun {
   std::string name;

@@ -200,8 +200,7 @@ class Attempt {
     std::vector<unsigned> digits;
     const long legs = nature_.legs();
     for (long n = 0; n < legs; ++n) {
-      const double saved =
-          nature_.digits_lost - nature_.digits_to_come(static_cast<double>(n) / static_cast<double>(legs));
+      const double saved = nature_.digits_lost - nature_.to_come(static_cast<double>(n) / static_cast<double>(legs));
       digits.push_back(digits_ - static_cast<unsigned>(saved));
     }
     return digits;
@@ -296,6 +295,9 @@ Reference compute_reference(const ReferenceRequest& request, const std::function
       continue;
     }
     result.times = agreement.states();
+    const std::vector<Mpfr> times = evaluated(request.times, request.scene.constants);
+    for (std::size_t n = 0; n < times.size(); ++n)
+      result.times[n].digits_lost = nature.lost_by(approximately(Mpfr(times[n] / times.back())));
     result.momentum_names = agreement.momentum_names();
     result.lambda_names = names_of_constraints(assembled.problem);
     std::vector<std::vector<ExactPoint>> points;

@@ -9,10 +9,10 @@
 
 #include "clock.hpp"
 #include "hbvm_motion.hpp"
+#include "linear/rounded.hpp"
 #include "problem/state_evaluator.hpp"
 #include "reference/reference_motion.hpp"
 #include "reference/taylor.hpp"
-#include "scalar/in_place.hpp"
 #include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 
@@ -27,19 +27,6 @@ std::string range_text(long first, long last) {
 /// The digits of the first leg and of the last.
 std::string digits_text(const std::vector<unsigned>& of_legs) { return range_text(of_legs.front(), of_legs.back()); }
 
-/// In the digits of the scope. A number keeps those that it was made with, also where another is assigned to it.
-Mpfr rounded(const Mpfr& x) {
-  Mpfr result = 0;
-  set(result, x);
-  return result;
-}
-
-Vector<Mpfr> rounded(const Vector<Mpfr>& x) {
-  Vector<Mpfr> result(x.size());
-  for (Index i = 0; i < x.size(); ++i) result[i] = rounded(x[i]);
-  return result;
-}
-
 /// The way by motions, one a leg, that make(problem, q, p, length, done) begins, in the digits of the leg. `done` stays
 /// the part of the time that is done.
 template <class Make>
@@ -51,10 +38,10 @@ Leg way_by(const RouteWork& work, const Make& make) {
     const bool fewer = work.leg_digits[number] < static_cast<unsigned>(digits10<Mpfr>());
     const PrecisionScope scope(work.leg_digits[number]);
     const std::optional<Assembled<Mpfr>> in_fewer = fewer ? std::optional(assemble<Mpfr>(work.source)) : std::nullopt;
-    auto motion =
-        make((in_fewer ? *in_fewer : work.scene).problem, rounded(q), rounded(p), rounded(Mpfr(end - begin)), done);
+    auto motion = make((in_fewer ? *in_fewer : work.scene).problem, rounded<Mpfr>(q), rounded<Mpfr>(p),
+                       rounded_to<Mpfr>(raw(Mpfr(end - begin))), done);
     const auto advance_to = [&](const Mpfr& t) {
-      motion.advance_to(rounded(Mpfr(t - begin)), [&](const Mpfr& now) {
+      motion.advance_to(rounded_to<Mpfr>(raw(Mpfr(t - begin))), [&](const Mpfr& now) {
         done = approximately(Mpfr((begin + now) / work.times.back()));
         work.progress(done);
       });
@@ -188,14 +175,15 @@ MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times,
     return make();
   };
   const Assembled<Mpfr> scene_of_other = in_fewer([&] { return assemble<Mpfr>(scene); });
-  TaylorMotion other = in_fewer([&] { return TaylorMotion(scene_of_other.problem, rounded(q0), rounded(p0)); });
+  TaylorMotion other =
+      in_fewer([&] { return TaylorMotion(scene_of_other.problem, rounded<Mpfr>(q0), rounded<Mpfr>(p0)); });
   double worst = -change, most_grown = -change, times_longer = 1;
   std::vector<double> grown;  // until the end of each piece
   for (int piece = 1; piece <= pieces && most_grown <= lost; ++piece) {
     const Mpfr t = end * piece / pieces;
     const auto walked = [&](const Mpfr& now) { progress(approximately(Mpfr(now / end))); };
     motion.advance_to(t, walked);
-    in_fewer([&] { other.advance_to(rounded(t), walked); });
+    in_fewer([&] { other.advance_to(rounded_to<Mpfr>(raw(t)), walked); });
     const auto look = [&](const Vector<Mpfr>& all, const Vector<Mpfr>& all_changed, const Mpfr& scale) {
       const Index bodies = assembled.problem.mass.of_bodies();
       const Vector<Mpfr> x = all.head(bodies), changed = all_changed.head(bodies);
@@ -213,19 +201,24 @@ MotionNature nature_of(const Scene& scene, const std::vector<Expression>& times,
   }
   const double rate = (most_grown + change) / static_cast<double>(grown.size());
   const double digits_lost = std::max(double{0}, worst + change + (most_grown + change) * (times_longer - 1));
-  // A change that is made at a time grows by no more than what an earlier one grows by from its least on.
   while (static_cast<int>(grown.size()) < pieces) grown.push_back(grown.back() + rate);
-  for (std::size_t piece = grown.size() - 1; piece-- > 0;) grown[piece] = std::min(grown[piece], grown[piece + 1]);
-  std::vector<double> to_come{digits_lost};
-  for (std::size_t piece = 0; piece + 1 < grown.size(); ++piece)
-    to_come.push_back(std::max(double{0}, digits_lost - grown[piece]));
-  return {digits_lost, motion.least_radius(), static_cast<double>(motion.steps() + 1) * times_longer, to_come};
+  return {digits_lost, motion.least_radius(), static_cast<double>(motion.steps() + 1) * times_longer, grown};
 }
 
-double MotionNature::digits_to_come(double part) const {
-  if (to_come.empty()) return digits_lost;
-  const auto piece = static_cast<std::size_t>(part * static_cast<double>(to_come.size()));
-  return to_come[std::min(piece, to_come.size() - 1)];
+double MotionNature::lost_by(double part) const {
+  const auto pieces = static_cast<std::size_t>(part * static_cast<double>(grown.size()));
+  double most = 0;
+  for (std::size_t n = 0; n < std::min(pieces, grown.size()); ++n) most = std::max(most, grown[n]);
+  return grown.empty() ? digits_lost : most;
+}
+
+double MotionNature::to_come(double part) const {
+  const auto pieces = static_cast<std::size_t>(part * static_cast<double>(grown.size()));
+  if (pieces == 0) return digits_lost;
+  // It grows by no more than what an earlier one grows by from its least on.
+  double least = digits_lost;
+  for (std::size_t n = std::min(pieces, grown.size()) - 1; n < grown.size(); ++n) least = std::min(least, grown[n]);
+  return std::max(double{0}, digits_lost - std::max(double{0}, least));
 }
 
 long MotionNature::legs() const {

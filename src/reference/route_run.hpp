@@ -42,12 +42,15 @@ struct MotionNature {
   double digits_lost = 0;  ///< log10 of the factor by which a change of the start grows until the last time, at least 0
   double log2_radius = 0;  ///< least radius of convergence of the Taylor series
   double steps = 1;        ///< of a Taylor series until the last time
-  /// Digits that are lost from each of equal parts of the time until its end. Without, all are lost at any time.
-  std::vector<double> to_come = {};
+  /// log10 of what a change of the start has grown by at the end of each of equal parts of the time.
+  std::vector<double> grown = {};
 
   /// Parts of the time that take some hundred steps of a Taylor series each.
   long legs() const;
-  double digits_to_come(double part) const;
+  /// Digits that are lost until a part of the time, and those that a change made there loses until the end. Without
+  /// `grown`, all are lost at any time.
+  double lost_by(double part) const;
+  double to_come(double part) const;
 };
 
 /// The stages s of HBVM(s,s) for so many digits, at most max_s.

@@ -90,6 +90,22 @@ Json json_of(const Axis& axis, const AxisRange& range) {
 /// No more digits than are drawn.
 double rounded(double x) { return std::strtod(fmt::format("{:.7g}", x).c_str(), nullptr); }
 
+/// Words in lines of a figure of that width; a word longer than a line is cut.
+std::vector<std::string> lines_of(const std::string& footnote, double width) {
+  constexpr double small_letter = 5.3, margins = 24;
+  const auto most = static_cast<std::size_t>(std::max(1.0, (width - margins) / small_letter));
+  std::vector<std::string> lines;
+  std::string rest = footnote;
+  while (letters(rest) > most) {
+    std::size_t cut = rest.rfind(' ', most);
+    if (cut == std::string::npos || cut == 0) cut = most;
+    lines.push_back(rest.substr(0, cut));
+    rest = rest.substr(rest[cut] == ' ' ? cut + 1 : cut);
+  }
+  if (!rest.empty()) lines.push_back(rest);
+  return lines;
+}
+
 }  // namespace
 
 std::size_t letters(const std::string& text) {
@@ -107,8 +123,11 @@ FigureLayout layout_of(const Figure& figure) {
   double right = least_right_of_box;
   for (const Panel& panel : figure.panels) right = std::max(right, right_of(panel));
   const double width = left_of_box + box_width + right, height = above_box + box_height + below_box;
-  const double top = figure.caption.empty() ? 0 : title_height, foot = figure.footnote.empty() ? 0 : footnote_height;
-  FigureLayout layout{{static_cast<double>(columns) * width, static_cast<double>(rows) * height + top + foot}, {}};
+  const double across = static_cast<double>(columns) * width;
+  const std::vector<std::string> footnote = lines_of(figure.footnote, across);
+  const double top = figure.caption.empty() ? 0 : title_height,
+               foot = footnote.empty() ? 0 : footnote_height + line_height * static_cast<double>(footnote.size() - 1);
+  FigureLayout layout{{across, static_cast<double>(rows) * height + top + foot}, {}, footnote};
   for (std::size_t i = 0; i < count; ++i) {
     PanelPlace place = ranges_of(figure.panels[i]);
     const std::size_t row = i / columns;

@@ -22,6 +22,7 @@ struct PanelPlace {
 struct FigureLayout {
   PlotPoint size;  ///< in pixels
   std::vector<PanelPlace> panels;
+  std::vector<std::string> footnote;  ///< in lines that are no longer than the figure is wide
 };
 
 FigureLayout layout_of(const Figure& figure);

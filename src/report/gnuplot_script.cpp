@@ -156,7 +156,9 @@ class PanelScript {
     constexpr std::size_t few = 40;
     const bool differ = panel_.curves.size() > 1 && !panel_.equal_axes;
     std::string style;
-    if (curve.marked)
+    if (curve.dots)
+      style = "with points pt 7 ps 0.12";
+    else if (curve.marked)
       style = fmt::format("with linespoints lw 1.4 dt {} pt {} ps 0.5", dash, mark);
     else if (differ && curve.points.size() > few)
       style = fmt::format("with linespoints lw 1.2 pt {} ps 0.6 pi {}", mark, 1 + curve.points.size() / 8 + i);
@@ -352,9 +354,11 @@ std::string picture(const Figure& figure, const Terminal& terminal) {
   if (!figure.caption.empty())
     words += fmt::format("set label 1 {} at screen 0.5,{:.5f} center {}\n", quoted(figure.caption),
                          1 - 0.55 * title_height / size[1], font(14));
-  if (!figure.footnote.empty())
-    words += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left {} tc rgb '#555555'\n",
-                         quoted(plain(figure.footnote)), 12 / size[0], 0.5 * footnote_height / size[1], font(9));
+  for (std::size_t n = 0; n < layout.footnote.size(); ++n) {
+    const double below = 0.5 * footnote_height + line_height * static_cast<double>(layout.footnote.size() - 1 - n);
+    words += fmt::format("set label {} {} at screen {:.5f},{:.5f} left {} tc rgb '#555555'\n", 2 + n,
+                         in_lines(plain(layout.footnote[n])), 12 / size[0], below / size[1], font(9));
+  }
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
     text += PanelScript(figure.panels[i], layout.panels[i]).text(size, i == 0 ? words : "");
   return text + "unset multiplot\n";

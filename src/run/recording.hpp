@@ -1,9 +1,11 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hbvm/horizon.hpp"
 #include "integrate/observations.hpp"
 #include "problem/redundant_constraints.hpp"
 #include "problem/state_evaluator.hpp"
@@ -43,6 +45,7 @@ struct Recording {
   std::vector<std::string> constraints;   ///< whose multipliers these are
   std::vector<std::string> observations;  ///< names of what was observed
   std::vector<Sample> samples;
+  std::optional<DigitsLost> horizon = {};  ///< if it is to be shown
   /// Decimal logarithms of the terms of H at the start, and of their rounding or that of the terms of g, if it is less.
   double size_of_H = std::numeric_limits<double>::infinity(), round_off = -size_of_H;
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "run/horizon.hpp"
 #include "run/multiplier_names.hpp"
 #include "run/smooth_path.hpp"
 
@@ -208,6 +209,18 @@ Panel errors_panel(const Recording& recording) {
   return panel;
 }
 
+/// The digits of each precision that an error of the start has left.
+Panel horizon_panel(const Recording& recording) {
+  const DigitsLost& horizon = *recording.horizon;
+  Panel panel = against_time("Digits of the start that are left", {"digits"});
+  panel.labels_beside = true;
+  for (const Horizon& one : horizon.horizons)
+    panel.curves.push_back(curve_of(one.precision, recording, [&](const auto& sample) {
+      return std::max(double{0}, one.digits - lost_by(horizon, sample.t));
+    }));
+  return panel;
+}
+
 /// On a line: where each body is at each time.
 Panel world_lines(const Sketch& sketch, const Recording& recording) {
   Panel panel = against_time("Motion", {"x"});
@@ -305,6 +318,7 @@ Figure run_figure(const Sketch& sketch, const Recording& recording, const std::v
   if (!recording.constraints.empty()) figure.panels.push_back(multipliers_panel(recording));
   if (linear_energy) figure.panels.push_back(energy_panel(recording));
   figure.panels.push_back(errors_panel(recording));
+  if (recording.horizon) figure.panels.push_back(horizon_panel(recording));
   return figure;
 }
 

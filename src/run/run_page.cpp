@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "run/horizon.hpp"
 #include "run/multiplier_names.hpp"
 #include "scene/sketch.hpp"
 
@@ -50,6 +51,17 @@ PageChart errors_of(const Recording& recording) {
   return chart;
 }
 
+PageChart digits_left_of(const Recording& recording) {
+  const DigitsLost& horizon = *recording.horizon;
+  PageChart chart{"Digits of the start that are left", "digits", AxisScale::linear, {}};
+  for (const Horizon& one : horizon.horizons) {
+    PageCurve& curve = chart.curves.emplace_back(PageCurve{one.precision, {}});
+    for (const Recording::Sample& sample : recording.samples)
+      curve.values.push_back(std::max(double{0}, one.digits - lost_by(horizon, sample.t)));
+  }
+  return chart;
+}
+
 PageChart energy_of(const Recording& recording) {
   PageChart chart{"Error of energy, linear", recording.conserved + " − H₀", AxisScale::linear, {}};
   chart.curves.push_back(curve_of(chart.symbol, recording, &Recording::Sample::H_change));
@@ -93,6 +105,7 @@ std::string run_page(const RunRequest& request, const Recording& recording, cons
   if (!shown_multipliers(recording).empty()) page.charts.push_back(multipliers_of(recording));
   if (request.linear_energy) page.charts.push_back(energy_of(recording));
   page.charts.push_back(errors_of(recording));
+  if (recording.horizon) page.charts.push_back(digits_left_of(recording));
   page.every = recording.every;
   page.steps = recording.steps;
   page.last_step = last_step(recording);

@@ -34,6 +34,7 @@ struct RunRequest {
   std::vector<Expression> at = {};                         ///< times at which the state is to be told, too
   std::optional<Expression> every_time = {};               ///< and the multiples of this
   std::optional<LastEvent> until_event = {};               ///< the run ends where it comes, if it does
+  bool horizon = false;                                    ///< follow the growth of a change of the start
 };
 
 }  // namespace hbvm::core

@@ -13,6 +13,7 @@
 #include "linear/vector_text.hpp"
 #include "run/error_estimate.hpp"
 #include "run/health.hpp"
+#include "run/horizon.hpp"
 #include "run/proved_run.hpp"
 #include "run/shadow.hpp"
 #include "run/simulate.hpp"
@@ -201,6 +202,9 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
   }
   if (course.checkpoints && (!asked_times.empty() || !request.scene.events.empty()))
     throw InputError("--checkpoint: a run that tells events, or states at times of its own, cannot be kept");
+  std::optional<DigitsLost> horizon;
+  if (request.horizon) horizon = digits_lost(request, {});
+  if (hooks.recording && horizon && horizon->failure.empty()) hooks.recording->horizon = horizon;
   std::unique_ptr<CsvFile> csv = hooks.open_csv ? hooks.open_csv() : nullptr;
   Run result = told_of(request);
   result.lambda_names = names_of_constraints(scene.problem);
@@ -285,7 +289,7 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
     for (const FoundEvent<S>& event : events->found())
       result.events.push_back({request.scene.events[event.event].name, to_text(event.state.t), event.rises,
                                event.grazes, to_texts(of_bodies(event.state.q)), to_texts(of_bodies(event.state.p)),
-                               multipliers_of(event.state)});
+                               multipliers_of(event.state), to_texts(event.observed)});
   if (events) result.periods = periods_of(request.scene, events->found());
   if (states_at)
     for (const StateBetween<S>& state : states_at->states())
@@ -314,6 +318,8 @@ Run run_in(const RunRequest& request, const RunHooks& hooks) {
         {"redundant_constraints", to_text(redundancy) + " at the start; they were violated by up to " +
                                       to_scientific(simulated.redundancy, 3) + " of their terms"});
   if (shadowed) result.shadow = shadowed->compare(request, method, course.start);
+  if (horizon && result.shadow) horizon->measured_t = result.shadow->gone_t;
+  result.health.horizon = std::move(horizon);
   if (request.prove) result.proved = prove_run<S>(request, method, stepper.nodes(), simulated.state, hooks.progress);
   if (request.error)
     result.error = estimate_error(request, method, course.start, of_bodies(end.q), of_bodies(output.p), output_lambda);
@@ -338,7 +344,7 @@ Run run(const RunRequest& request, const RunHooks& hooks) {
     until_there.until_event.reset();
     try {
       RunRequest search = request;
-      search.account = search.shadow = search.error = search.prove = false;
+      search.account = search.shadow = search.horizon = search.error = search.prove = false;
       search.at.clear();
       search.every_time.reset();
       RunHooks quiet;

@@ -20,6 +20,7 @@ class Comparison final : public Observer<Mpfr> {
 
   void observe(const Snapshot<Mpfr>& snapshot) override {
     const bool last = snapshot.n == steps_;
+    Mpfr off[2] = {0, 0}, size[2] = {0, 0};  // of q, of p
     const Index m = states_.rows() / 2, column = last ? states_.cols() - 1 : snapshot.n / every_;
     const bool compared = last || snapshot.n % every_ == 0;
     for (Index i = 0; i < 2 * m; ++i) {
@@ -30,14 +31,19 @@ class Comparison final : public Observer<Mpfr> {
       const Mpfr shadowed = rounded_to<Mpfr>(raw(exactly(states_(i, column))));
       raise_magnitude(c.size, shadowed);
       c.at_end = magnitude(Mpfr(shadowed - x));
+      raise_to(off[i / m], c.at_end);
+      raise_to(size[i / m], c.size);
       if (!(c.at_end > c.greatest)) continue;
       c.greatest = c.at_end;
       c.t = snapshot.t;
     }
+    for (const std::size_t part : {0u, 1u})
+      if (!gone_t_ && size[part] > 0 && off[part] >= size[part]) gone_t_ = approximately(snapshot.t);
   }
 
   void report(Shadow& shadow, double all) const {
     const auto m = components_.size() / 2;
+    shadow.gone_t = gone_t_;
     shadow.worst.digits = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 2 * m; ++i) {
       const Component& c = components_[i];
@@ -61,6 +67,7 @@ class Comparison final : public Observer<Mpfr> {
   const Matrix<S>& states_;
   long every_, steps_;
   std::vector<Component> components_;
+  std::optional<double> gone_t_;
 };
 
 }  // namespace

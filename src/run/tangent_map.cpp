@@ -5,17 +5,14 @@
 
 #include "integrate/output_state.hpp"
 #include "interruption.hpp"
+#include "reference/closed_form/recognition.hpp"
 #include "run/run_stepper.hpp"
+#include "run/tangent_space.hpp"
 #include "scalar/log2_of.hpp"
-#include "scene/nearest_position.hpp"
 #include "scene/set_number.hpp"
 
 namespace hbvm::core {
 namespace {
-
-struct PhaseState {
-  Vector<Mpfr> q, p;
-};
 
 /// A state and its neighbours, stepped side by side.
 class TangentCourse {
@@ -35,13 +32,14 @@ class TangentCourse {
     method_ = RunStepper<Mpfr>(scene_, request.method, grid_.step(), request.solver, OnFailure::stop).method();
     main_ = stepper();
     now_ = {scene_.q0, point_.tangential(scene_.q0, scene_.p0)};
-    set_scales();
-    set_basis();
+    space_.emplace(problem_, now_);
+    basis_ = space_->basis(now_, epsilon_);
+    for (Index i = 0; i < basis_.cols(); ++i) neighbours_.push_back(stepper());
   }
 
   TangentMap follow(const std::function<void(double)>& progress) {
     TangentMap map;
-    map.start = unscaled(basis_);
+    map.start = space_->unscaled(basis_);
     const Mpfr form = form_size(map.start);
     const Matrix<Mpfr> forms = forms_of(map.start);
     const Index n = basis_.cols();
@@ -66,7 +64,7 @@ class TangentCourse {
     }
     map.q = now_.q;
     map.p = now_.p;
-    map.end = unscaled(Matrix<Mpfr>(basis_ * total));
+    map.end = space_->unscaled(Matrix<Mpfr>(basis_ * total));
     map.exponents = exponents_of(map.times, logs);
     map.symplectic_defect = 0;
     const Matrix<Mpfr> end_forms = forms_of(map.end);
@@ -75,8 +73,8 @@ class TangentCourse {
     // Of vectors that have grown, the form is a small difference of great products.
     const Mpfr end_form = form_size(map.end);
     map.symplectic_defect /= end_form > form ? end_form : form;
-    map.distance = std::max(log10_of(max_norm(Vector<Mpfr>(now_.q - scene_.q0))) - log10_of(q_scale_),
-                            log10_of(max_norm(Vector<Mpfr>(now_.p - scene_.p0))) - log10_of(p_scale_));
+    map.distance = std::max(log10_of(max_norm(Vector<Mpfr>(now_.q - scene_.q0))) - log10_of(space_->q_scale()),
+                            log10_of(max_norm(Vector<Mpfr>(now_.p - scene_.p0))) - log10_of(space_->p_scale()));
     return map;
   }
 
@@ -97,55 +95,6 @@ class TangentCourse {
   /// Steps between which neighbours stay the same, and after which the output state is gone on from.
   long block() const { return std::clamp<long>(grid_.steps() / 10, 1, 32); }
 
-  /// Changes are compared over the sizes of q and p. Of a start at rest p is that of a motion over q in a unit of time.
-  void set_scales() {
-    q_scale_ = max_norm(now_.q);
-    p_scale_ = max_norm(now_.p);
-    if (q_scale_ == 0) q_scale_ = 1;
-    if (p_scale_ == 0) p_scale_ = max_norm(problem_.mass.momentum(Vector<Mpfr>(Vector<Mpfr>::Constant(m_, q_scale_))));
-  }
-
-  Vector<Mpfr> scaled(const PhaseState& a, const PhaseState& b, const Mpfr& by) const {
-    Vector<Mpfr> change(2 * m_);
-    change.head(m_) = (a.q - b.q) / (by * q_scale_);
-    change.tail(m_) = (a.p - b.p) / (by * p_scale_);
-    return change;
-  }
-  Matrix<Mpfr> unscaled(const Matrix<Mpfr>& changes) const {
-    Matrix<Mpfr> result = changes;
-    result.topRows(m_) *= q_scale_;
-    result.bottomRows(m_) *= p_scale_;
-    return result;
-  }
-
-  /// The state that is consistent and nearest to a change of the present one.
-  PhaseState neighbour(const Vector<Mpfr>& change) {
-    PhaseState there{now_.q + epsilon_ * q_scale_ * change.head(m_), now_.p + epsilon_ * p_scale_ * change.tail(m_)};
-    if (problem_.nu() > 0) there.q = nearest_position(problem_, there.q);
-    there.p = point_.tangential(there.q, there.p);
-    return there;
-  }
-
-  /// Tangent vectors at the start, orthonormal: of the unit vectors' projections those that stand best apart.
-  void set_basis() {
-    const Index n = 2 * (m_ - problem_.nu());
-    std::vector<Vector<Mpfr>> left;
-    for (Index j = 0; j < 2 * m_; ++j)
-      left.push_back(scaled(neighbour(Vector<Mpfr>(Vector<Mpfr>::Unit(2 * m_, j))), now_, epsilon_));
-    basis_ = Matrix<Mpfr>(2 * m_, n);
-    for (Index i = 0; i < n; ++i) {
-      std::size_t longest = 0;
-      for (std::size_t j = 1; j < left.size(); ++j)
-        if (norm(left[j]) > norm(left[longest])) longest = j;
-      const Vector<Mpfr> unit = left[longest] / norm(left[longest]);
-      basis_.col(i) = unit;
-      for (Vector<Mpfr>& vector : left) vector -= unit * dot(unit, vector);
-    }
-    for (Index i = 0; i < n; ++i) neighbours_.push_back(stepper());
-  }
-
-  static Mpfr norm(const Vector<Mpfr>& x) { return sqrt(Mpfr(dot(x, x))); }
-
   /// A run answers Ctrl-C after each of its steps.
   void step(Stepper<Mpfr>& stepper, State<Mpfr>& state, long n) const {
     stepper.step(state, n + 1 == grid_.steps() ? grid_.last_step() : grid_.step());
@@ -156,7 +105,7 @@ class TangentCourse {
   Matrix<Mpfr> advance(long first, long steps) {
     std::vector<State<Mpfr>> states;
     for (Index i = 0; i < basis_.cols(); ++i) {
-      const PhaseState start = neighbour(basis_.col(i));
+      const PhaseState start = space_->moved(now_, epsilon_ * basis_.col(i));
       states.emplace_back(start.q, start.p);
     }
     State<Mpfr> state(now_.q, now_.p);
@@ -168,7 +117,7 @@ class TangentCourse {
     Matrix<Mpfr> changes(2 * m_, basis_.cols());
     for (std::size_t i = 0; i < states.size(); ++i)
       changes.col(static_cast<Index>(i)) =
-          scaled({states[i].q, point_.tangential(states[i].q, states[i].p)}, now_, epsilon_);
+          space_->change({states[i].q, point_.tangential(states[i].q, states[i].p)}, now_, epsilon_);
     return changes;
   }
 
@@ -245,7 +194,7 @@ class TangentCourse {
   std::unique_ptr<Stepper<Mpfr>> main_;
   std::vector<std::unique_ptr<Stepper<Mpfr>>> neighbours_;
   PhaseState now_;
-  Mpfr q_scale_, p_scale_;
+  std::optional<TangentSpace> space_;
   Matrix<Mpfr> basis_;  // of the tangent space at the present state, over the scales
 };
 

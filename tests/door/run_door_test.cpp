@@ -210,9 +210,11 @@ TEST(DoorRun, TellStatesBetweenTheSteps) {
 
 TEST(DoorRun, TellEventsAndPeriods) {
   RunRequest request{.scene = load_scene("simple_pendulum"), .method = "hbvm:8,8", .step = "1/4", .until = "30"};
-  request.scene.event("swing up: bob.x").event("turn: bob.vx");
+  request.scene.event("swing up: bob.x").event("turn: bob.vx").observe("height", "bob.y");
   const hbvm::Run made = hbvm::run(request);
   ASSERT_EQ(made.periods.size(), 3u);
+  // What the scene observes is told of the state there.
+  for (const Event& event : made.events) EXPECT_EQ(event.observed.at(0), event.q.at(1));
   EXPECT_EQ(made.periods[0].name, "swing");
   EXPECT_EQ(made.periods[0].crossings, 4);
   EXPECT_EQ(made.periods[0].least.substr(0, 12), "6.7430014192");
@@ -220,6 +222,7 @@ TEST(DoorRun, TellEventsAndPeriods) {
   const auto json = nlohmann::json::parse(to_json(made));
   EXPECT_EQ(json.at("events").at(0).at("name"), "turn");
   EXPECT_EQ(json.at("events").at(0).at("direction"), "down");
+  EXPECT_EQ(json.at("events").at(0).at("observed").at("height"), made.events[0].q[1]);
   core::expect_words(to_text(made), {"events\n", "swing up again after 6.7430014192"});
   // It ends at the third turn, at rest.
   request.until_event = "turn,3";

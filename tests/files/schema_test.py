@@ -47,7 +47,7 @@ with open("there.json", "w") as file:
 printed("double_pendulum", "--method", "hbvm:3,2", *steps, "--start", "there.json", "--reverse")
 for precision in ["double", "quad", "mpfr:30"]:
     printed("charged_double_pendulum", "--method", "hbvm:auto,1", *steps, "--precision", precision, "--account",
-            "--shadow", "--error")
+            "--shadow", "--error", "--horizon")
 passed = printed("passing.toml", "--method", "hbvm:auto,2", "--step", "1/4", "--until", "16", "--on-failure", "halve",
                  "--solver", "fixed-point", "--shadow", "--error")
 assert passed["halved"]["steps"] > 0 and passed["chosen"]["raised"] and passed["observables"]
@@ -67,7 +67,8 @@ assert list(printed("driven.toml", "--method", "hbvm:3,2", *steps)["work"]["by"]
 moved = printed("double_pendulum", *steps, "--states", "--every", "8", "--observe", "a.vx")
 assert [state["t"] for state in moved["states"]] == ["0", "0.5", "1"]
 
-swung = printed("simple_pendulum", "--step", "1/4", "--until", "91/3", "--event", "swing: bob.x", "--at", "1/3")
+swung = printed("simple_pendulum", "--step", "1/4", "--until", "91/3", "--event", "swing: bob.x", "--at", "1/3", "--observe", "y=bob.y")
+assert swung["events"][0]["observed"]["y"] == swung["events"][0]["q"][1]
 assert swung["events"][0]["direction"] == "down" and len(swung["periods"]) == 2 and swung["at"] and swung["last_step"]
 
 assert seen == set(schema["properties"]), seen ^ set(schema["properties"])

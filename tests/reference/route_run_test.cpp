@@ -60,12 +60,12 @@ TEST(Routes, TakeFewerDigitsTowardsTheEnd) {
   const Scene text = load_scene("chaotic_double_pendulum");
   const std::vector<Expression> times{Expression::parse("5"), Expression::parse("30")};
   const MotionNature nature = nature_of(text, times, [](double) {});
-  EXPECT_EQ(nature.digits_to_come(0), nature.digits_lost);
+  EXPECT_EQ(nature.to_come(0), nature.digits_lost);
   for (double part = 0; part < 1; part += 0.01) {
-    EXPECT_LE(nature.digits_to_come(part + 0.01), nature.digits_to_come(part));
-    EXPECT_GE(nature.digits_to_come(part), 0);
+    EXPECT_LE(nature.to_come(part + 0.01), nature.to_come(part));
+    EXPECT_GE(nature.to_come(part), 0);
   }
-  EXPECT_LT(nature.digits_to_come(1), 1);
+  EXPECT_LT(nature.to_come(1), 1);
   constexpr unsigned most = 60;
   const PrecisionScope scope(most);
   const Assembled<Mpfr> scene = assemble<Mpfr>(text);

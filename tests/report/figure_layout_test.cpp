@@ -62,6 +62,28 @@ TEST(FigureLayout, HasRoomForNamesBesideAPanel) {
   EXPECT_GE(layout.size[0], layout.panels[0].left + box_width + 22 + 7 * 10 + 10);
 }
 
+/// A command that made a figure is longer than the figure is wide: no word of it is lost, and no line is cut.
+TEST(FigureLayout, BreaksAFootnoteIntoLines) {
+  Figure figure = two_panels();
+  const FigureLayout before = layout_of(figure);
+  EXPECT_EQ(before.footnote, std::vector<std::string>{"note"});
+  const std::string word(40, 'w'), endless(400, 'e');
+  figure.footnote = endless + " " + word + " " + word + " " + word + " " + word + " 'quoted'";
+  const FigureLayout layout = layout_of(figure);
+  ASSERT_GT(layout.footnote.size(), 3u);
+  EXPECT_EQ(layout.size[1], before.size[1] + line_height * static_cast<double>(layout.footnote.size() - 1));
+  std::string all;
+  for (const std::string& line : layout.footnote) {
+    EXPECT_LE(static_cast<double>(line.size()) * 5, layout.size[0]) << line;
+    EXPECT_GE(line.size(), 8u) << line;
+    all += line;
+  }
+  std::erase(all, ' ');
+  EXPECT_EQ(all, endless + word + word + word + word + "'quoted'");
+  figure.footnote = "";
+  EXPECT_TRUE(layout_of(figure).footnote.empty());
+}
+
 TEST(FigureLayout, CountsLettersNotBytes) { EXPECT_EQ(letters("λ°a"), 3u); }
 
 }  // namespace

@@ -54,6 +54,19 @@ TEST(GnuplotScript, NamesAllCurvesBesideThePanelWithTheirMarks) {
                {"set label 'a' at graph 1.03,", "set label 'b' at graph 1.03,0.5", "point pt 7", "point pt 5"});
 }
 
+/// Gnuplot reads two quotes after an opening one as one of the text; a line that begins with a quote is in double
+/// quotes.
+TEST(GnuplotScript, WritesAFootnoteInLinesAndPointsWithoutThem) {
+  Panel panel;
+  panel.curves = {Curve{"", {{0, 1}, {1, 2}}}};
+  panel.curves.front().dots = true;
+  Figure figure;
+  figure.panels = {panel};
+  figure.footnote = std::string(70, 'w') + " 'quoted' " + std::string(60, 'v');
+  const std::string script = gnuplot_script(figure, "figure.svg");
+  expect_words(script, {"set label 3 \"'quoted'", "with points pt 7"});
+}
+
 TEST(GnuplotScript, StacksBarsUnderTheirNames) {
   Panel panel;
   panel.x.names = {"double", "two\nlines \"quoted\""};

@@ -37,7 +37,7 @@ std::map<std::string, Folders> allowed() {
   result["report"] = {"", "report"};
   result["long_work"] = {"", "long_work"};
   both_chains.insert({"report", "long_work"});
-  for (const char* folder : {"run", "audit", "compare", "cost", "study", "lesson", "door"}) {
+  for (const char* folder : {"run", "audit", "compare", "cost", "study", "section", "lesson", "door"}) {
     both_chains.insert(folder);
     result[folder] = both_chains;
   }

@@ -29,6 +29,7 @@ from ._record import Listing, Record
 from ._reference import Reference, check_proof, reference
 from ._run import Run, kept, run
 from ._scene import Scene, SceneFacts, scene, scenes
+from ._section import Periodic, Section, periodic, section
 from ._solver import Judgement, judge
 from ._study import Comparison, Convergence, Study, compare, convergence, study
 from ._tangent import Tangent, reference_events, tangent
@@ -38,9 +39,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Against", "Audit", "Coefficients", "Columns", "Comparison", "Convergence", "Error", "Exact", "FloatWarning", "InputError",
-    "IntegrationError", "Interrupted", "Judgement", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Plan", "Record", "Reference",
-    "Run", "Rung", "Scene", "SceneFacts", "Study", "Tangent", "audit", "check_lesson", "check_proof", "coefficients", "compare", "convergence", "cost", "judge", "kept",
-    "lessons", "methods", "nodes", "precision_of", "read_csv", "reference", "reference_events", "run", "scene", "scenes", "study", "tangent", "verify_order",
+    "IntegrationError", "Interrupted", "Judgement", "Listing", "Nodes", "Number", "Numbers", "Order", "Page", "Periodic", "Plan", "Record", "Reference",
+    "Run", "Rung", "Scene", "SceneFacts", "Section", "Study", "Tangent", "audit", "check_lesson", "check_proof", "coefficients", "compare", "convergence", "cost", "judge", "kept",
+    "lessons", "methods", "nodes", "periodic", "precision_of", "read_csv", "reference", "reference_events", "run", "scene", "scenes", "section", "study", "tangent", "verify_order",
 ]
 
 

@@ -67,6 +67,9 @@ def _panel(axes: Axes, panel: dict[str, Any], colours: list[str]) -> None:
     for number, curve in enumerate(panel["curves"]):
         marker = _MARKERS[number % len(_MARKERS)] if curve["marked"] else None
         colour = colours[number % len(colours)]
+        if curve["dots"]:
+            axes.plot(*_points(curve["points"]), color=colour, marker=".", markersize=2, linestyle="none")
+            continue
         axes.plot(*_points(curve["points"]), color=colour, marker=marker, markersize=4, linewidth=1.2,
                   label=_words(curve["label"]) or None)
     for mark in panel["marks"]:

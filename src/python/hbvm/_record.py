@@ -11,7 +11,7 @@ _DECIMAL = re.compile(r"-?\d+(\.\d+)?(e[+-]?\d+)?")
 # What these are is a number of the working precision; all other text is a name or words.
 _NUMBERS = frozenset(
     "t q p lambda q_carry p_carry delta_H step last_step until e_H e_B e_g e_hid condition worst_e_H worst_hidden H smallest first_t"
-    " initial drift least least_t greatest greatest_t energy kinetic potential value".split()
+    " initial drift least least_t greatest greatest_t energy kinetic potential value period x y".split()
 )
 _OF_NUMBERS = frozenset(("momenta", "observed", "work", "by"))
 

@@ -199,6 +199,7 @@ def run(
     reverse: bool = False,
     account: bool = False,
     shadow: bool = False,
+    horizon: bool = False,
     error: bool = False,
     prove: bool = False,
     start: Run | str | None = None,
@@ -219,6 +220,7 @@ def run(
     on_failure  "stop", or "halve": a step that cannot be made is divided
     account     tell where the time goes
     shadow      tell how many digits survived rounding
+    horizon     tell how many digits of the start are lost by each time, in `health.horizon`
     error       tell how many digits are right
     prove       prove what the method does without rounding, in `proved`
     start       a run, or its JSON, from whose end this one goes on
@@ -253,6 +255,7 @@ def run(
         "reverse": reverse,
         "account": account,
         "shadow": shadow,
+        "horizon": horizon,
         "error": error,
         "prove": prove,
         "start": _start(start),

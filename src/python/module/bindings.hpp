@@ -16,5 +16,6 @@ void add_lesson(pybind11::module_& module);
 void add_facts(pybind11::module_& module);
 void add_solver(pybind11::module_& module);
 void add_tangent(pybind11::module_& module);
+void add_section(pybind11::module_& module);
 
 }  // namespace hbvm::python

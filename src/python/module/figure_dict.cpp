@@ -79,7 +79,8 @@ py::dict dict_of(const Panel& panel) {
   py::dict dict("title"_a = panel.title, "x"_a = dict_of(panel.x), "y"_a = dict_of(panel.y),
                 "equal_axes"_a = panel.equal_axes, "round_off"_a = panel.round_off);
   dict["curves"] = list_of(panel.curves, [](const Curve& curve) {
-    return py::dict("label"_a = curve.label, "points"_a = curve.points, "marked"_a = curve.marked);
+    return py::dict("label"_a = curve.label, "points"_a = curve.points, "marked"_a = curve.marked,
+                    "dots"_a = curve.dots);
   });
   dict["lines"] = list_of(panel.lines, [](const Polyline& line) {
     return py::dict("points"_a = line.points, "look"_a = name_of(line.look), "colour"_a = line.colour);

@@ -37,6 +37,6 @@ PYBIND11_MODULE(_hbvm, module) {
   for (const auto add :
        {hbvm::python::add_scene, hbvm::python::add_run, hbvm::python::add_reference, hbvm::python::add_audit,
         hbvm::python::add_cost, hbvm::python::add_study, hbvm::python::add_lesson, hbvm::python::add_facts,
-        hbvm::python::add_solver, hbvm::python::add_tangent})
+        hbvm::python::add_solver, hbvm::python::add_tangent, hbvm::python::add_section})
     add(module);
 }

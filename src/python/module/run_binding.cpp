@@ -58,7 +58,7 @@ void add_run(py::module_& module) {
       "run",
       [](const Scene& scene, const std::string& method, const std::optional<std::string>& step,
          const std::string& until, const std::string& precision, const std::string& solver,
-         const std::string& on_failure, bool reverse, bool account, bool shadow, bool error, bool prove,
+         const std::string& on_failure, bool reverse, bool account, bool shadow, bool horizon, bool error, bool prove,
          const std::string& start, bool picture, const std::vector<std::pair<std::string, std::string>>& portraits,
          bool linear_energy, long every, const std::vector<std::string>& at,
          const std::optional<std::string>& every_time, const std::optional<std::string>& until_event, py::list kept,
@@ -71,6 +71,7 @@ void add_run(py::module_& module) {
         request.reverse = reverse;
         request.account = account;
         request.shadow = shadow;
+        request.horizon = horizon;
         request.prove = prove;
         request.error = error;
         request.start = start;
@@ -85,9 +86,9 @@ void add_run(py::module_& module) {
       },
       py::kw_only(), py::arg("scene"), py::arg("method"), py::arg("step"), py::arg("until"), py::arg("precision"),
       py::arg("solver"), py::arg("on_failure"), py::arg("reverse"), py::arg("account"), py::arg("shadow"),
-      py::arg("error"), py::arg("prove"), py::arg("start"), py::arg("picture"), py::arg("portraits"),
-      py::arg("linear_energy"), py::arg("every"), py::arg("at"), py::arg("every_time"), py::arg("until_event"),
-      py::arg("kept"), py::arg("progress"));
+      py::arg("horizon"), py::arg("error"), py::arg("prove"), py::arg("start"), py::arg("picture"),
+      py::arg("portraits"), py::arg("linear_energy"), py::arg("every"), py::arg("at"), py::arg("every_time"),
+      py::arg("until_event"), py::arg("kept"), py::arg("progress"));
 }
 
 }  // namespace hbvm::python
