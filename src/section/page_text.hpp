@@ -4,7 +4,8 @@
 
 namespace hbvm::core {
 
-/// The file section.html, compiled in: @title@, @heading@, @about@, @footer@ and @data@ stand for what a page is of.
+/// The file section.html, compiled in. Words between two at signs stand for what a page is of: title, heading, about,
+/// footer and data.
 const std::string& section_page_text();
 
 }  // namespace hbvm::core

@@ -5,6 +5,8 @@ MENTIONS = {
     "hbvm run --json",
     "hbvm run --error",
     "hbvm run --out",
+    "hbvm run --start",
+    "hbvm run --horizon",
     "hbvm audit --full",
     "hbvm audit --command",
     "hbvm reference --event",

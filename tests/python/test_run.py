@@ -116,7 +116,7 @@ def test_every_key_of_the_schema_is_an_attribute():
     seen = {"states"}
     pendulum = hbvm.scene("double_pendulum").observe("tension", "tension(pivot, a)")
     runs = [
-        hbvm.run(pendulum, until=1, step="1/8", error=True, shadow=True, account=True),
+        hbvm.run(pendulum, until=1, step="1/8", error=True, shadow=True, account=True, horizon=True),
         hbvm.run("kepler", until=1, step="1/8", on_failure="halve", reverse=True),
         hbvm.run("double_pendulum", "hbvm:4,2", until=1, step="1/8", start=hbvm.run("double_pendulum", until=1)),
         hbvm.run("kepler", until=20, step=1, on_failure="halve", error=True),
@@ -124,14 +124,14 @@ def test_every_key_of_the_schema_is_an_attribute():
         hbvm.run(hbvm.scene("double_pendulum").project(), until=1, step="1/8", precision=40),
         hbvm.run(**PENDULUM),
         hbvm.run("bead_on_torus", until=1, step="1/4"),
-        hbvm.run(hbvm.scene("simple_pendulum").event("swing: bob.x"), step="1/4", until="91/3", at=["1/3"]),
+        hbvm.run(hbvm.scene("simple_pendulum").event("swing: bob.x").observe("y", "bob.y"), step="1/4", until="91/3", at=["1/3"]),
         hbvm.run("double_pendulum", "hbvm:2,2", until=1, step="1/8", precision=20, prove=True),
     ]
     for run in runs:
         walk(json.loads(run.json), run, [], seen)
         assert len(run.states) == run.steps + 1
     keys = set(schema_keys(SCHEMA))
-    rare = {"shadow.failure", "error.failure", "chosen.raised.t", "chosen.raised.k", "chosen.raised.r"}
+    rare = {"health.horizon.failure", "shadow.failure", "error.failure", "chosen.raised.t", "chosen.raised.k", "chosen.raised.r"}
     assert len(keys) > 60
     assert keys - seen - rare == set()
 

@@ -108,7 +108,7 @@ def periodic(
     >>> import hbvm
     >>> found = hbvm.periodic("henon_heiles", until=8)
     >>> found.period, found.stable
-    (Number('6.07561578432290161291645547481'), True)
+    (6.07561578432290161291645547481, True)
     """
     found = scene_of(scene)
     with Bar(progress, found.name) as callback:
