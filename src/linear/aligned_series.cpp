@@ -59,9 +59,9 @@ void AlignedSeries::set(Index n, const Mpfr& a) {
   count_limbs(n);
 }
 
-void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first, Index last) {
-  if (!a.finite_ || !b.finite_) return mpfr_set_nan(raw(r));
-  if (first > last) return set_zero(r);
+void set_convolution(mpfr_ptr r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first, Index last) {
+  if (!a.finite_ || !b.finite_) return mpfr_set_nan(r);
+  if (first > last) return mpfr_set_zero(r, 1);
   // Of a product of used and used limbs those from limb L - 1 of 2 L on count. As many limbs of either factor make
   // them, but for one if either is as long as can be. The longest product takes that many of all.
   const int L = static_cast<int>(a.limbs_);
@@ -82,7 +82,7 @@ void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, In
   });
   Limb* const sum = a.sum_.data();
   products.set_upper_sum(sum, limbs);
-  set_limb_sum(raw(r), sum, limbs + 2, a.exponent_ + b.exponent_ - limb_bits * (L - limbs));
+  set_limb_sum(r, sum, limbs + 2, a.exponent_ + b.exponent_ - limb_bits * (L - limbs));
 }
 
 }  // namespace hbvm::core

@@ -23,8 +23,9 @@ class AlignedSeries {
   /// Coefficient n; those before it are set. Coefficient 0 begins a new series.
   void set(Index n, const Mpfr& a);
 
-  friend void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first,
+  friend void set_convolution(mpfr_ptr r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first,
                               Index last);
+  friend class GrowingConvolution;
 
  private:
   Limb* at(Index n) { return &digits_[static_cast<std::size_t>(n * limbs_)]; }
@@ -43,6 +44,9 @@ class AlignedSeries {
 
 /// r = sum_{first <= i <= last} a_i b_{n-i}, for series of the same digits; NaN if one has a coefficient that is not
 /// finite.
-void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first, Index last);
+void set_convolution(mpfr_ptr r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first, Index last);
+inline void set_convolution(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, Index n, Index first, Index last) {
+  set_convolution(raw(r), a, b, n, first, last);
+}
 
 }  // namespace hbvm::core

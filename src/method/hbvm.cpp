@@ -6,6 +6,7 @@
 #include "basis/legendre.hpp"
 #include "hbvm/error.hpp"
 #include "linear/in_double.hpp"
+#include "linear/large_product.hpp"
 #include "linear/product.hpp"
 #include "linear/rounded.hpp"
 #include "scalar/in_place.hpp"
@@ -37,25 +38,36 @@ Matrix<Mpfr> values_at(const Vector<Mpfr>& c, int count) {
   return P;
 }
 
+/// Every other column, from the first on.
+Matrix<Mpfr> every_other(const Matrix<Mpfr>& a, Index first) {
+  Matrix<Mpfr> r(a.rows(), (a.cols() - first + 1) / 2);
+  for (Index j = 0; j < r.cols(); ++j)
+    for (Index i = 0; i < r.rows(); ++i) set(r(i, j), a(i, first + 2 * j));
+  return r;
+}
+
 /// I P^T Omega: mirrored nodes have the terms of even and of odd functions in common, but for the sign.
 Matrix<Mpfr> butcher_matrix(const Matrix<Mpfr>& I, const Matrix<Mpfr>& projection) {
   const Index s = I.rows(), half = (s + 1) / 2;
-  const Matrix<Mpfr> rows = I.topRows(half).transpose();
+  // I_0 = c_i, of which c_i - 1/2 is odd about 1/2; the other I_l are odd for even l.
+  const auto sums = [&](Index first) {
+    if (first >= s) return Matrix<Mpfr>(Matrix<Mpfr>::Zero(half, half));
+    const Matrix<Mpfr> rows = I.topRows(half), columns = projection.leftCols(half).transpose();
+    return large_product(every_other(rows, first), every_other(columns, first).transpose());
+  };
+  const Matrix<Mpfr> even = sums(2), odd = sums(1);
   Matrix<Mpfr> A(s, s);
-  Mpfr even, odd, first;
+  Mpfr first;
   for (Index j = 0; j < half; ++j)
     for (Index i = 0; i < half; ++i) {
-      // I_0 = c_i, of which c_i - 1/2 is odd about 1/2; the other I_l are odd for even l.
       set_product(first, projection(0, j), I(i, 0));
-      set_dot(even, &rows(0, i) + 2, 2, &projection(0, j) + 2, 2, (s - 1) / 2);
-      set_dot(odd, &rows(0, i) + 1, 2, &projection(0, j) + 1, 2, s / 2);
-      set_sum(A(i, j), first, even);
-      set_difference(A(i, s - 1 - j), A(i, j), odd);
-      set_sum(A(i, j), A(i, j), odd);
+      set_sum(A(i, j), first, even(i, j));
+      set_difference(A(i, s - 1 - j), A(i, j), odd(i, j));
+      set_sum(A(i, j), A(i, j), odd(i, j));
       set_product(first, projection(0, j), I(s - 1 - i, 0));
-      set_difference(A(s - 1 - i, j), first, even);
-      set_difference(A(s - 1 - i, s - 1 - j), A(s - 1 - i, j), odd);
-      set_sum(A(s - 1 - i, j), A(s - 1 - i, j), odd);
+      set_difference(A(s - 1 - i, j), first, even(i, j));
+      set_difference(A(s - 1 - i, s - 1 - j), A(s - 1 - i, j), odd(i, j));
+      set_sum(A(s - 1 - i, j), A(s - 1 - i, j), odd(i, j));
     }
   return A;
 }

@@ -62,7 +62,7 @@ ProgramSeries::ProgramSeries(const Program<Mpfr>& program, Index inputs, std::ve
   for (const Operand& output : program.output_operands()) outputs_.push_back(value_of(output));
   values_.assign(static_cast<std::size_t>(count * (order + 1)), Mpfr(0));
   position_.assign(static_cast<std::size_t>(count), -1);
-  for (const Node& node : nodes_) {
+  for (Node& node : nodes_) {
     if (node.computed) continue;
     const bool both = node.op == Op::multiply && node.a.series >= 0 && node.b.series >= 0;
     if (both || node.op == Op::reciprocal || node.op == Op::log || node.op == Op::atan) align(node.a.series);
@@ -70,7 +70,24 @@ ProgramSeries::ProgramSeries(const Program<Mpfr>& program, Index inputs, std::ve
     if (node.op == Op::reciprocal || node.op == Op::sqrt || node.op == Op::exp) align(node.z);
     for (const Index i : {node.aux, node.other}) align(i);
     if (node.other >= 0 && node.op != Op::atan) align(node.z);
+    if (both)
+      add_convolutions(node, {{0, 0}});
+    else if (node.op == Op::sqrt || node.op == Op::log)
+      add_convolutions(node, {{1, 1}});
+    else if (node.op == Op::atan)
+      add_convolutions(node, {{1, 1}, {0, 0}});
+    else if (node.op == Op::reciprocal || node.op == Op::exp)
+      add_convolutions(node, {{1, 0}});
+    else if (node.op == Op::tanh)
+      add_convolutions(node, {{1, 0}, {0, 0}});
+    else if (node.other >= 0)
+      add_convolutions(node, {{1, 0}, {1, 0}});
   }
+}
+
+void ProgramSeries::add_convolutions(Node& node, std::initializer_list<std::pair<Index, Index>> from) {
+  node.sums = static_cast<Index>(convolutions_.size());
+  for (const auto& [a, b] : from) convolutions_.emplace_back(order_ + 1, a, b);
 }
 
 void ProgramSeries::align(Index i) {
@@ -83,12 +100,18 @@ void ProgramSeries::keep(Index i, Index n) {
   if (i >= 0 && position_[static_cast<std::size_t>(i)] >= 0) aligned(i).set(n, series(i)[n]);
 }
 
-void ProgramSeries::set_convolution(Mpfr& r, Index a, Index b, Index n, Index first, Index last) {
-  hbvm::core::set_convolution(r, aligned(a), aligned(b), n, first, last);
+void ProgramSeries::set_convolution(Mpfr& r, Index sums, Index a, Index b, Index n, Index first, Index last) {
+  GrowingConvolution& growing = convolutions_[static_cast<std::size_t>(sums)];
+  if (growing.serves(n))
+    growing.set(r, aligned(a), aligned(b), n);
+  else
+    hbvm::core::set_convolution(r, aligned(a), aligned(b), n, first, last);
 }
 
-void ProgramSeries::set_square(Mpfr& r, Index a, Index n, Index first, Mpfr& t) {
-  set_convolution(r, a, a, n, first, (n + 1) / 2 - 1);  // i < n - i
+void ProgramSeries::set_square(Mpfr& r, Index sums, Index a, Index n, Index first, Mpfr& t) {
+  GrowingConvolution& growing = convolutions_[static_cast<std::size_t>(sums)];
+  if (growing.serves(n)) return growing.set(r, aligned(a), aligned(a), n);
+  hbvm::core::set_convolution(r, aligned(a), aligned(a), n, first, (n + 1) / 2 - 1);  // i < n - i
   mpfr_mul_2ui(raw(r), raw(r), 1, MPFR_RNDN);
   if (n % 2 == 0 && n / 2 >= first) add_product(r, series(a)[n / 2], series(a)[n / 2], t);
 }
@@ -142,9 +165,9 @@ void ProgramSeries::multiply(const Node& node, Index n) {
     return set_product(z, *(number.number ? number.number : &at(number, 0)), at(varying, n));
   }
   if (node.a.series == node.b.series)
-    set_square(z, node.a.series, n, 0, t_);
+    set_square(z, node.sums, node.a.series, n, 0, t_);
   else
-    set_convolution(z, node.a.series, node.b.series, n, 0, n);
+    set_convolution(z, node.sums, node.a.series, node.b.series, n, 0, n);
 }
 
 void ProgramSeries::start(const Node& node) {
@@ -203,18 +226,18 @@ void ProgramSeries::go_on(const Node& node, Index n) {
     mpfr_mul_ui(raw(series(node.aux)[n]), raw(a_n), whole, MPFR_RNDN);
     keep(node.aux, n);
   };
-  const auto set_integral = [&](Mpfr& r, Index w) {
-    set_convolution(t_, node.aux, w, n, 1, n);
+  const auto set_integral = [&](Mpfr& r, Index w, Index sums) {
+    set_convolution(t_, sums, node.aux, w, n, 1, n);
     mpfr_div_ui(raw(r), raw(t_), whole, MPFR_RNDN);
   };
   switch (node.op) {
     case Op::reciprocal:
-      set_convolution(t_, node.a.series, node.z, n, 1, n);
+      set_convolution(t_, node.sums, node.a.series, node.z, n, 1, n);
       set_product(t_, t_, z[0]);
       set_negative(z[n], t_);
       break;
     case Op::sqrt:
-      set_square(t_, node.z, n, 1, z[n]);
+      set_square(t_, node.sums, node.z, n, 1, z[n]);
       set_difference(t_, a_n, t_);
       mpfr_div_2ui(raw(t_), raw(t_), 1, MPFR_RNDN);
       set_quotient(z[n], t_, z[0]);
@@ -223,34 +246,34 @@ void ProgramSeries::go_on(const Node& node, Index n) {
     case Op::atan: {
       // z' w = a', where w is a of the logarithm, and 1 + a^2 of the arc tangent.
       const Index w = node.op == Op::log ? node.a.series : node.other;
-      set_convolution(t_, node.aux, w, n, 1, n - 1);
+      set_convolution(t_, node.sums, node.aux, w, n, 1, n - 1);
       mpfr_div_ui(raw(t_), raw(t_), whole, MPFR_RNDN);
       set_difference(t_, a_n, t_);
       set_quotient(z[n], t_, series(w)[0]);
       mpfr_mul_ui(raw(series(node.aux)[n]), raw(z[n]), whole, MPFR_RNDN);
       keep(node.aux, n);
-      if (node.op == Op::atan) set_square(series(w)[n], node.a.series, n, 0, t_);
+      if (node.op == Op::atan) set_square(series(w)[n], node.sums + 1, node.a.series, n, 0, t_);
       break;
     }
     case Op::exp:
       set_weighted();
-      set_integral(z[n], node.z);
+      set_integral(z[n], node.z, node.sums);
       break;
     case Op::tanh: {
       Mpfr* const square = series(node.other);
       set_weighted();
-      set_integral(t_, node.other);
+      set_integral(t_, node.other, node.sums);
       set_difference(z[n], a_n, t_);
       keep(node.z, n);
-      set_square(square[n], node.z, n, 0, t_);
+      set_square(square[n], node.sums + 1, node.z, n, 0, t_);
       break;
     }
     default: {
       set_weighted();
       const bool is_sine = node.op == Op::sin || node.op == Op::sinh;
       const Index sine = is_sine ? node.z : node.other, cosine = is_sine ? node.other : node.z;
-      set_integral(series(sine)[n], cosine);
-      set_integral(series(cosine)[n], sine);
+      set_integral(series(sine)[n], cosine, node.sums);
+      set_integral(series(cosine)[n], sine, node.sums + 1);
       if (node.op == Op::sin || node.op == Op::cos) set_negative(series(cosine)[n], series(cosine)[n]);
       break;
     }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "linear/aligned_series.hpp"
+#include "linear/growing_convolution.hpp"
 #include "problem/effect/program.hpp"
 
 namespace hbvm::core {
@@ -46,6 +47,7 @@ class ProgramSeries {
     Index aux = -1;         ///< i a_i of sin, cos, sinh, cosh, tanh and exp, i z_i of log and atan
     Index other = -1;       ///< cos of a sin, sin of a cos, likewise of sinh and cosh; w of tanh and atan
     bool computed = false;  ///< by the node of the other
+    Index sums = -1;        ///< its first convolution; that of a second one follows
   };
   Mpfr* series(Index i) { return &values_[static_cast<std::size_t>(i * (order_ + 1))]; }
   const Mpfr* series(Index i) const { return &values_[static_cast<std::size_t>(i * (order_ + 1))]; }
@@ -55,9 +57,12 @@ class ProgramSeries {
   AlignedSeries& aligned(Index i) { return aligned_[static_cast<std::size_t>(position_[static_cast<std::size_t>(i)])]; }
   /// Coefficient n of series i is known.
   void keep(Index i, Index n);
-  void set_convolution(Mpfr& r, Index a, Index b, Index n, Index first, Index last);
-  /// r = sum_{first <= i <= n - first} a_i a_{n-i}: equal terms once.
-  void set_square(Mpfr& r, Index a, Index n, Index first, Mpfr& t);
+  /// The convolutions of a node, each from these coefficients of its factors on.
+  void add_convolutions(Node& node, std::initializer_list<std::pair<Index, Index>> from);
+  /// r = sum_{first <= i <= last} a_i b_{n-i}, by the convolution of this number.
+  void set_convolution(Mpfr& r, Index sums, Index a, Index b, Index n, Index first, Index last);
+  /// r = sum_{first <= i <= n - first} a_i a_{n-i}, likewise: equal terms once.
+  void set_square(Mpfr& r, Index sums, Index a, Index n, Index first, Mpfr& t);
   void linear(const Node& node, Index n);
   void multiply(const Node& node, Index n);
   void start(const Node& node);
@@ -68,6 +73,7 @@ class ProgramSeries {
   std::vector<Value> outputs_;
   std::vector<Mpfr> values_;  ///< series after series
   std::vector<AlignedSeries> aligned_;
+  std::vector<GrowingConvolution> convolutions_;
   std::vector<Index> position_;  ///< of a series in aligned_, or -1
   Mpfr zero_ = 0, t_ = 0;
 };

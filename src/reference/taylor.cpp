@@ -91,6 +91,10 @@ void TaylorMotion::collect_forms() {
     std::vector<Form> own = formula ? formula_forms(a) : affine_forms(a);
     std::move(own.begin(), own.end(), std::back_inserter(forms_));
   }
+  for (Form& form : forms_) {
+    form.hidden.emplace(order_ + 2, 1, form.factor == 0 ? 0 : 1);
+    form.pulling.emplace(order_ + 2, 1, 0);
+  }
 }
 
 std::vector<TaylorMotion::Form> TaylorMotion::formula_forms(Index a) {
@@ -338,12 +342,19 @@ void TaylorMotion::set_force(Index n) {
 }
 
 void TaylorMotion::set_hidden(Mpfr& r, std::size_t l, Index n) {
-  const Form& form = forms_[l];
-  if (form.factor == 0) return set_convolution(r, form.series, form.velocity, n + 1, 1, n + 1);
+  Form& form = forms_[l];
+  if (form.factor == 0) {
+    if (form.hidden->serves(n + 1)) return form.hidden->set(r, form.series, form.velocity, n + 1);
+    return set_convolution(r, form.series, form.velocity, n + 1, 1, n + 1);
+  }
   // With (k+1) G_{k+1} = factor v_k: sum_i (n+2-i) G_i G_{n+2-i}, of which mirrored terms make n + 2 together.
-  set_convolution(r, form.series, form.series, n + 2, 1, (n + 1) / 2);
-  mpfr_mul_2ui(raw(r), raw(r), 1, MPFR_RNDN);
-  if (n % 2 == 0) add_product(r, form_series(l)[n / 2 + 1], form_series(l)[n / 2 + 1], x_);
+  if (form.hidden->serves(n + 2)) {
+    form.hidden->set(r, form.series, form.series, n + 2);
+  } else {
+    set_convolution(r, form.series, form.series, n + 2, 1, (n + 1) / 2);
+    mpfr_mul_2ui(raw(r), raw(r), 1, MPFR_RNDN);
+    if (n % 2 == 0) add_product(r, form_series(l)[n / 2 + 1], form_series(l)[n / 2 + 1], x_);
+  }
   mpfr_mul_ui(raw(r), raw(r), static_cast<unsigned long>(n + 2), MPFR_RNDN);
   mpfr_div_2ui(raw(r), raw(r), 1, MPFR_RNDN);
   set_quotient(r, r, form.factor);
@@ -355,11 +366,15 @@ void TaylorMotion::set_multipliers(Index n) {
   // What multipliers of lower degree take from F, and what the velocities of lower degree leave of (G^T v)_{n+1}.
   for (Index a = 0; a < nu; ++a) set_zero(rhs_[a]);
   for (std::size_t l = 0; l < forms_.size(); ++l) {
-    const Form& form = forms_[l];
+    Form& form = forms_[l];
     set_hidden(t_, l, n);
     set_sum(rhs_[form.constraint], rhs_[form.constraint], t_);
     if (n == 0) continue;
-    set_convolution(t_, form.series, aligned_lambda_[static_cast<std::size_t>(form.constraint)], n, 1, n);
+    const AlignedSeries& multiplier = aligned_lambda_[static_cast<std::size_t>(form.constraint)];
+    if (form.pulling->serves(n))
+      form.pulling->set(t_, form.series, multiplier, n);
+    else
+      set_convolution(t_, form.series, multiplier, n, 1, n);
     for (const auto& [j, sign] : form.columns) add_signed(F_[j], t_, -sign);
   }
   problem_.mass.velocity(lanes(std::as_const(F_)), lanes(weighted_));

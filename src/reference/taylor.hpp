@@ -3,6 +3,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "problem/gram_factor.hpp"
 #include "problem/problem.hpp"
@@ -90,6 +91,7 @@ class TaylorMotion {
     /// Its terms are the columns times this, if it is not 0: then its velocity is its derivative over it.
     Mpfr factor = 0;
     AlignedSeries series, velocity;
+    std::optional<GrowingConvolution> hidden, pulling;  ///< of the hidden constraint, and with the multiplier
     struct Part {
       std::size_t slope, output;
       Mpfr weight;
