@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "hbvm/tangent.hpp"
+#include "picture_file.hpp"
 #include "progress_bar.hpp"
 #include "scene_argument.hpp"
 #include "signals.hpp"
@@ -15,12 +16,14 @@ namespace {
 struct TangentArguments {
   SceneArgument scene;
   std::string method = usual_method, until, precision = "double", solver = "auto";
-  std::optional<std::string> step;
+  std::optional<std::string> step, plot;
   std::vector<std::string> constants;
   bool json = false;
 };
 
 void tangent_command(const TangentArguments& o) {
+  std::optional<PictureFile> picture;
+  if (o.plot) picture.emplace(*o.plot);
   TangentRequest request{.scene = o.scene.load(), .method = o.method, .step = o.step, .until = o.until};
   request.precision = o.precision;
   request.solver = o.solver;
@@ -30,6 +33,7 @@ void tangent_command(const TangentArguments& o) {
   request.progress = [&](double part) { bar.update(static_cast<long>(part * parts), parts); };
   end_runs_on_signals();
   const Tangent found = tangent(request);
+  if (picture) picture->write([&] { return figure_of(found); }, {});
   std::cout << (o.json ? to_json(found) + "\n" : to_text(found)) << std::flush;
 }
 
@@ -52,6 +56,8 @@ void add_tangent_command(CLI::App& app) {
       ->add_option("--constants", o->constants,
                    "How the end changes with these constants of the scene, with commas between")
       ->delimiter(',');
+  command->add_option("--plot", o->plot,
+                      "Draw how the exponents settle, and digits lost, into this file: .svg, .pdf or .png");
   command->add_flag("--json", o->json, "Print one JSON object and nothing else");
   command->footer("Example: hbvm tangent henon_heiles --step 1/8 --until 20");
   command->callback([o] { tangent_command(*o); });

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "door/door.hpp"
 #include "door/run_of.hpp"
 #include "hbvm/tangent.hpp"
+#include "hbvm/version.hpp"
 #include "long_work/json.hpp"
 #include "run/horizon.hpp"
 #include "run/tangent_map.hpp"
@@ -13,6 +15,7 @@
 #include "scalar/log2_of.hpp"
 #include "scalar/text.hpp"
 #include "scene/coordinate_names.hpp"
+#include "scene/set_number.hpp"
 
 namespace hbvm {
 namespace {
@@ -41,6 +44,7 @@ Tangent tangent(const TangentRequest& door) {
   const core::TangentDigits digits = core::TangentDigits::of(request.precision);
   const core::PrecisionScope scope(static_cast<unsigned>(digits.working));
   Tangent found{.scene = request.scene.name,
+                .title = request.scene.title,
                 .method = request.method->text(),
                 .step = request.step.text(),
                 .until = request.until.text(),
@@ -55,6 +59,18 @@ Tangent tangent(const TangentRequest& door) {
   }
   found.times = map.times;
   found.growth = map.growth;
+  found.command = "hbvm tangent " + request.scene.name + core::settings_in_command(request.scene) + " --method " +
+                  found.method + " --step '" + found.step + "' --until '" + found.until + "' --precision " +
+                  found.precision;
+  // In the order of the exponents: rates of directions settle in no order of their own.
+  std::vector<std::size_t> order(map.exponents.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return map.means.back()[a] > map.means.back()[b]; });
+  for (const std::vector<double>& means : map.means) {
+    std::vector<double>& sorted = found.means.emplace_back();
+    for (const std::size_t i : order) sorted.push_back(means[i]);
+  }
   for (const core::LyapunovExponent& exponent : map.exponents)
     found.exponents.push_back({exponent.value, exponent.uncertainty});
   found.symplectic_defect = core::log10_of(map.symplectic_defect);
@@ -70,6 +86,32 @@ Tangent tangent(const TangentRequest& door) {
   for (const std::string& constant : door.constants)
     found.sensitivities.emplace_back(constant, texts_of(core::constant_sensitivity(request, constant), digits.asked));
   return found;
+}
+
+Figure figure_of(const Tangent& tangent) {
+  Panel exponents, lost;
+  exponents.title = "Mean rates of growth until t";
+  exponents.x.label = lost.x.label = "t";
+  exponents.y.label = "exponent";
+  const std::size_t shown = std::min(tangent.exponents.size(), curve_colours.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    Curve& curve = exponents.curves.emplace_back();
+    for (std::size_t n = 0; n < tangent.times.size(); ++n)
+      curve.points.push_back({tangent.times[n], tangent.means[n][i]});
+    // Between two times of a motion that has not gone far, rates are large and say little.
+    constexpr std::size_t settled = 10;
+    curve.points.erase(curve.points.begin(),
+                       curve.points.begin() + static_cast<std::ptrdiff_t>(curve.points.size() / settled));
+  }
+  lost.title = "Digits lost";
+  lost.y.label = "digits";
+  Curve& curve = lost.curves.emplace_back();
+  for (std::size_t n = 0; n < tangent.times.size(); ++n) curve.points.push_back({tangent.times[n], tangent.growth[n]});
+  Figure figure;
+  figure.caption = plain(tangent.title);
+  figure.footnote = std::string("hbvm ") + version() + ": " + tangent.command;
+  figure.panels = {std::move(exponents), std::move(lost)};
+  return figure;
 }
 
 std::string to_text(const Tangent& tangent) {
@@ -107,7 +149,8 @@ std::string to_json(const Tangent& tangent) {
                       {"end", tangent.end},     {"directions", tangent.directions}, {"changes", tangent.changes}};
   j["growth"] = core::OrderedJson::array();
   for (std::size_t n = 0; n < tangent.times.size(); ++n)
-    j["growth"].push_back({{"t", tangent.times[n]}, {"digits_lost", core::json_number(tangent.growth[n])}});
+    j["growth"].push_back(
+        {{"t", tangent.times[n]}, {"digits_lost", core::json_number(tangent.growth[n])}, {"means", tangent.means[n]}});
   j["exponents"] = core::OrderedJson::array();
   for (const Exponent& exponent : tangent.exponents)
     j["exponents"].push_back(

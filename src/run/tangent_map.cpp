@@ -45,6 +45,7 @@ class TangentCourse {
     const Index n = basis_.cols();
     Matrix<Mpfr> total = Matrix<Mpfr>::Identity(n, n);
     std::vector<std::vector<double>> logs;
+    std::vector<double> sums;
     long made = 0;
     while (made < grid_.steps()) {
       const long steps = std::min(block(), grid_.steps() - made);
@@ -55,8 +56,14 @@ class TangentCourse {
       total = Matrix<Mpfr>(upper * total);
       std::vector<double> grown;
       for (Index i = 0; i < n; ++i) grown.push_back(log2_of(upper(i, i)) * std::log(double{2}));
-      logs.push_back(std::move(grown));
       map.times.push_back(approximately(grid_.time(made)));
+      std::vector<double>& means = map.means.emplace_back();
+      for (std::size_t i = 0; i < grown.size(); ++i) {
+        if (logs.empty()) sums.push_back(0);
+        sums[i] += grown[i];
+        means.push_back(sums[i] / map.times.back());
+      }
+      logs.push_back(std::move(grown));
       Mpfr greatest = 0;
       for (Index j = 0; j < n; ++j) raise_to(greatest, norm(Vector<Mpfr>(total.col(j))));
       map.growth.push_back(log10_of(greatest));

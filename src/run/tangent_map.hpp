@@ -17,10 +17,12 @@ struct LyapunovExponent {
 /// How the end of a run changes with its start. It is the derivative of its steps, on the manifold of states that
 /// fulfil g and the hidden constraints.
 struct TangentMap {
-  Vector<Mpfr> q, p;                        ///< the end, an output state
-  Matrix<Mpfr> start, end;                  ///< a column a direction, q over p: at the start, and what it has become
-  std::vector<double> times;                ///< of the ends of blocks
-  std::vector<double> growth;               ///< log10 of the greatest factor of a change until then
+  Vector<Mpfr> q, p;           ///< the end, an output state
+  Matrix<Mpfr> start, end;     ///< a column a direction, q over p: at the start, and what it has become
+  std::vector<double> times;   ///< of the ends of blocks
+  std::vector<double> growth;  ///< log10 of the greatest factor of a change until then
+  /// Means of the rates of growth of each direction, from the start until each of these times.
+  std::vector<std::vector<double>> means;
   std::vector<LyapunovExponent> exponents;  ///< from the greatest on
   Mpfr symplectic_defect;                   ///< by which the end's 2-form differs from the start's, over its size
   double distance = 0;                      ///< log10 of how far the end is from the start, over the sizes of q and p

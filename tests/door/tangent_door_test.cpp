@@ -24,6 +24,11 @@ TEST(DoorTangent, TellsWhenAPrecisionHasNoDigitLeft) {
                      {"Lyapunov exponents", "double     has no digit left at t = ", "if it goes on so"});
   const auto json = nlohmann::json::parse(to_json(found));
   EXPECT_EQ(json.at("exponents").size(), 4u);
+  // The means tend to the exponents, but for the first tenth of the time.
+  ASSERT_EQ(found.means.size(), found.times.size());
+  EXPECT_NEAR(found.means.back()[0], found.exponents[0].value, found.exponents[0].uncertainty);
+  EXPECT_NEAR(found.means.back()[0], -found.means.back()[3], found.exponents[0].uncertainty);
+  EXPECT_EQ(figure_of(found).panels.size(), 2u);
   EXPECT_EQ(json.at("directions").size(), 4u);
   EXPECT_EQ(json.at("directions").at(0).size(), found.names.size());
 }

@@ -2,19 +2,38 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Sequence
+from typing import TYPE_CHECKING, Any, Sequence
 
 from . import _hbvm
 from ._number import Exact, Number, exact_text
 from ._progress import Bar, Progress
-from ._record import Shown
+from ._record import Record
 from ._run import Precision
 from ._scene import SceneLike
 from ._scene import scene as scene_of
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-class Tangent(Shown):
+
+class Tangent(Record):
     """Lyapunov exponents, digits lost, horizons, and the map of changes of the start to changes of the end."""
+
+    def __init__(self, made: dict[str, Any]) -> None:
+        super().__init__(json.loads(made["json"]))
+        self._made = made
+
+    def plot(self) -> Figure:
+        """How the exponents settle, and digits lost, by matplotlib."""
+        from ._figure import drawn
+
+        return drawn(self._made["figure"])
+
+    def __repr__(self) -> str:
+        return self._made["text"].rstrip("\n")
+
+    def __reduce__(self) -> Any:
+        return Tangent, (self._made,)
 
 
 def tangent(
@@ -39,7 +58,7 @@ def tangent(
     """
     found = scene_of(scene)
     with Bar(progress, found.name) as callback:
-        made, text = _hbvm.tangent(
+        made = _hbvm.tangent(
             scene=found._raw(),
             method=method,
             step=None if step is None else exact_text(step, "step"),
@@ -48,7 +67,7 @@ def tangent(
             constants=list(constants),
             progress=callback,
         )
-    return Tangent(json.loads(made), text)
+    return Tangent(made)
 
 
 def reference_events(

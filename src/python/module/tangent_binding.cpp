@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
+#include "figure_dict.hpp"
 #include "hbvm/reference.hpp"
 #include "hbvm/tangent.hpp"
 #include "supervision.hpp"
@@ -8,6 +9,8 @@
 namespace py = pybind11;
 
 namespace hbvm::python {
+
+using namespace pybind11::literals;
 
 void add_tangent(py::module_& module) {
   module.def(
@@ -23,7 +26,7 @@ void add_tangent(py::module_& module) {
         request.progress = supervision.parts();
         request.stop = supervision.token();
         const Tangent found = supervision.of([&] { return tangent(request); });
-        return std::pair(to_json(found), to_text(found));
+        return py::dict("json"_a = to_json(found), "text"_a = to_text(found), "figure"_a = dict_of(figure_of(found)));
       },
       py::kw_only(), py::arg("scene"), py::arg("method"), py::arg("step"), py::arg("until"), py::arg("precision"),
       py::arg("constants"), py::arg("progress"));
