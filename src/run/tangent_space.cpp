@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "linear/product.hpp"
 #include "reference/closed_form/recognition.hpp"
 #include "scene/nearest_position.hpp"
 
