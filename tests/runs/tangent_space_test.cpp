@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "linear/product.hpp"
 #include "printing.hpp"
 #include "scalar/log2_of.hpp"
 #include "scene/assemble.hpp"
