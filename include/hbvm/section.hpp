@@ -51,7 +51,8 @@ struct SectionOrbit {
 };
 
 struct Section {
-  std::string scene, title, method, step, until, precision, plane, direction;
+  std::string scene, method, step, until, precision, plane, direction;
+  std::string title;               ///< of the scene, or its name
   std::vector<std::string> names;  ///< that starts differ by
   std::string x, y;                ///< the axes' formulas
   std::vector<SectionOrbit> orbits;
@@ -69,7 +70,7 @@ std::string page_of(const Section& section, const SectionRequest& request);
 
 std::string to_text(const Section& section);
 std::string to_json(const Section& section);
-/// A line a point: number of the orbit, its start, t, the axes. \throws nothing
+/// A line a point: number of the orbit, its start, t, the axes.
 std::string to_csv(const Section& section);
 
 }  // namespace hbvm

@@ -36,10 +36,7 @@ class VectorField {
     point_.set_velocity(y.q, y.p, v);
     return v;
   }
-  Vector<Mpfr> force(const PhasePoint& y) {
-    const auto& forces = point_.forces(y.q, y.p);
-    return forces.applied + forces.constraint;
-  }
+  Vector<Mpfr> force(const PhasePoint& y) { return point_.force(y.q, y.p); }
   /// Its two parts, of which an acceleration may be a small difference.
   const typename StateEvaluator<Mpfr>::Forces& forces(const PhasePoint& y) { return point_.forces(y.q, y.p); }
 

@@ -60,8 +60,7 @@ SolverAudit audit_program(const ProgramArguments& arguments) {
     return read_file(out);
   };
   ProgressBar bar("audit");
-  constexpr long parts = 1'000;
-  request.progress = [&](double part) { bar.update(static_cast<long>(part * parts), parts); };
+  request.progress = bar.part_done("the program was not judged to the end");
   end_runs_on_signals();
   return audit_solver(request);
 }

@@ -23,8 +23,7 @@ void periodic_command(const PeriodicArguments& o) {
   hbvm::PeriodicRequest request{.scene = o.scene.load(), .until = o.until, .plane = o.plane};
   request.digits = o.digits;
   ProgressBar bar(o.scene.name);
-  constexpr long parts = 1'000;
-  request.progress = [&](double part) { bar.update(static_cast<long>(part * parts), parts); };
+  request.progress = bar.part_done("the search for a periodic motion was not finished");
   end_runs_on_signals();
   const Periodic found = periodic(request);
   std::cout << (o.json ? to_json(found) + "\n" : to_text(found)) << std::flush;

@@ -15,6 +15,7 @@
 #include "integrate/time_grid.hpp"
 #include "interruption.hpp"
 #include "output_files.hpp"
+#include "outside_parentheses.hpp"
 #include "picture_file.hpp"
 #include "progress_bar.hpp"
 #include "read_file.hpp"
@@ -86,11 +87,8 @@ RunIdentity identity_of(const RunArguments& o, const CLI::App& command) {
 
 /// "a.x,a.px", at the comma that is in no parentheses.
 std::pair<std::string, std::string> portrait_of(const std::string& pair) {
-  int open = 0;
-  for (std::size_t i = 0; i < pair.size(); ++i) {
-    open += pair[i] == '(' ? 1 : pair[i] == ')' ? -1 : 0;
-    if (pair[i] == ',' && open == 0) return {pair.substr(0, i), pair.substr(i + 1)};
-  }
+  const std::size_t comma = find_outside_parentheses(pair, ',');
+  if (comma != std::string::npos) return {pair.substr(0, comma), pair.substr(comma + 1)};
   throw InputError("--plot-xy " + pair + ": use two quantities, as a.x,a.px");
 }
 

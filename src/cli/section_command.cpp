@@ -10,6 +10,7 @@
 #include "output_files.hpp"
 #include "picture_file.hpp"
 #include "scene_argument.hpp"
+#include "section/section_page.hpp"
 #include "signals.hpp"
 
 namespace hbvm::core {
@@ -55,7 +56,7 @@ void section_command(const SectionArguments& o) {
     return;
   }
   if (o.csv) write_and_say(*o.csv, to_csv(*found));
-  if (picture) picture->write([&] { return figure_of(*found); }, [&] { return page_of(*found, request); });
+  if (picture) picture->write([&] { return figure_of(*found); }, [&] { return section_page(*found, work); });
   std::cout << (o.json ? to_json(*found) + "\n" : to_text(*found)) << std::flush;
 }
 
@@ -80,7 +81,7 @@ void add_section_command(CLI::App& app) {
   command->add_option("--method", o->method, "As of hbvm run")->capture_default_str();
   command->add_option("--step", o->step, "Step size; without, one that suits the scene's own start");
   command->add_option("--until", o->until, "Final time of each motion")->required();
-  command->add_option("--precision", o->precision, "Double, quad, or mpfr:N, or N alone: crossings are found to that")
+  command->add_option("--precision", o->precision, "double, quad, or mpfr:N, or N alone: crossings are found to that")
       ->capture_default_str();
   command->add_option("--solver", o->solver, "Of the stage equations, as of hbvm run")->capture_default_str();
   command->add_option("--csv", o->csv, "Write the points to this file, a line each");

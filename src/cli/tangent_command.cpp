@@ -29,8 +29,7 @@ void tangent_command(const TangentArguments& o) {
   request.solver = o.solver;
   request.constants = o.constants;
   ProgressBar bar(o.scene.name);
-  constexpr long parts = 1'000;
-  request.progress = [&](double part) { bar.update(static_cast<long>(part * parts), parts); };
+  request.progress = bar.part_done("following changes was interrupted");
   end_runs_on_signals();
   const Tangent found = tangent(request);
   if (picture) picture->write([&] { return figure_of(found); }, {});

@@ -5,7 +5,6 @@
 
 #include "door/door.hpp"
 #include "hbvm/periodic.hpp"
-#include "linear/vector_text.hpp"
 #include "long_work/json.hpp"
 #include "reference/agreement.hpp"
 #include "run/periodic_orbit.hpp"
@@ -81,8 +80,8 @@ std::string to_text(const Periodic& periodic) {
   for (const Multiplier& multiplier : periodic.multipliers)
     text += fmt::format("  {:+.9g} {:+.9g} i\n", multiplier.real, multiplier.imaginary);
   return text + (periodic.stable
-                     ? "none is greater than 1: changes of the start grow by no power of the time, or slowly\n"
-                     : "the motion is unstable: changes of its start grow exponentially\n");
+                     ? "none is off the unit circle: changes of the start grow by a power of the time at most\n"
+                     : "one is beyond the unit circle: changes of the start grow exponentially\n");
 }
 
 std::string to_json(const Periodic& periodic) {

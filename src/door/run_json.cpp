@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "door/horizon_text.hpp"
 #include "door/run_of.hpp"
 #include "hbvm/run.hpp"
 #include "hbvm/version.hpp"
@@ -25,18 +26,11 @@ std::vector<double> rounded(std::vector<double> digits) {
 
 core::OrderedJson json_of(const DigitsLost& horizon) {
   if (!horizon.failure.empty()) return {{"failure", horizon.failure}};
-  const auto or_null = [](const std::optional<double>& t) {
-    return t ? core::json_number(*t) : core::OrderedJson(nullptr);
-  };
   core::OrderedJson j{{"growth", core::OrderedJson::array()}, {"precisions", core::OrderedJson::array()}};
   for (std::size_t n = 0; n < horizon.times.size(); ++n)
     j["growth"].push_back({{"t", horizon.times[n]}, {"digits_lost", rounded({horizon.lost[n]}).front()}});
-  for (const Horizon& one : horizon.horizons)
-    j["precisions"].push_back({{"precision", one.precision},
-                               {"digits", one.digits},
-                               {"t", or_null(one.t)},
-                               {"extrapolated", one.extrapolated}});
-  j["measured_t"] = or_null(horizon.measured_t);
+  for (const Horizon& one : horizon.horizons) j["precisions"].push_back(core::json_of(one));
+  j["measured_t"] = horizon.measured_t ? core::json_number(*horizon.measured_t) : core::OrderedJson(nullptr);
   return j;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "door/horizon_text.hpp"
 #include "hbvm/run.hpp"
 #include "hbvm/table.hpp"
 #include "run/shadow.hpp"
@@ -269,10 +270,7 @@ std::string horizon_of(const DigitsLost& horizon) {
   std::string text = fmt::format("\nhorizon: by t = {:.6g} an error of the start grows by 10^{:.1f}\n",
                                  horizon.times.back(), horizon.lost.back());
   for (const Horizon& one : horizon.horizons)
-    text += one.t ? fmt::format("  {:<10} has no digit left at t = {:.4g}{}\n", one.precision, *one.t,
-                                one.extrapolated ? ", if it goes on so" : "")
-                  : fmt::format("  {:<10} keeps digits, as far as is seen: less than one is lost in the second half\n",
-                                one.precision);
+    text += core::line_of(one, ", as far as is seen: less than one is lost in the second half");
   if (horizon.measured_t) text += fmt::format("  seen: this run had none at t = {:.4g}\n", *horizon.measured_t);
   return text;
 }

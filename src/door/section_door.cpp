@@ -47,8 +47,8 @@ SectionWork section_work(const SectionRequest& asked) {
     } catch (const ExpressionError& error) {
       throw InputError("the axis '" + formula + "': " + error.what());
     }
-  for (const std::string& text : asked.starts) work.axes.push_back(parse_start_axis(text));
-  work.starts = starts_of(scene, work.axes);
+  for (const std::string& text : asked.starts) work.numbers.push_back(parse_starts(text));
+  work.starts = starts_of(scene, work.numbers);
   work.command = command_of(asked, work);
   return work;
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "door/door.hpp"
+#include "door/horizon_text.hpp"
 #include "door/run_of.hpp"
 #include "hbvm/tangent.hpp"
 #include "hbvm/version.hpp"
@@ -98,7 +99,7 @@ Figure figure_of(const Tangent& tangent) {
     Curve& curve = exponents.curves.emplace_back();
     for (std::size_t n = 0; n < tangent.times.size(); ++n)
       curve.points.push_back({tangent.times[n], tangent.means[n][i]});
-    // Between two times of a motion that has not gone far, rates are large and say little.
+    // The first tenth of the time is left out: means over so short a time are large and say little.
     constexpr std::size_t settled = 10;
     curve.points.erase(curve.points.begin(),
                        curve.points.begin() + static_cast<std::ptrdiff_t>(curve.points.size() / settled));
@@ -127,9 +128,7 @@ std::string to_text(const Tangent& tangent) {
   text += fmt::format("\na change of the start grows by up to 10^{:.1f}: so many digits are lost until then\n",
                       tangent.growth.back());
   for (const Horizon& horizon : tangent.horizons)
-    text += horizon.t ? fmt::format("  {:<10} has no digit left at t = {:.4g}{}\n", horizon.precision, *horizon.t,
-                                    horizon.extrapolated ? ", if it goes on so" : "")
-                      : fmt::format("  {:<10} keeps digits: no exponent is above its uncertainty\n", horizon.precision);
+    text += core::line_of(horizon, ": no exponent is above its uncertainty");
   text += fmt::format("the 2-form of two changes is kept to {:.0f} digits\n",
                       std::max(double{0}, -tangent.symplectic_defect));
   if (!tangent.multipliers.empty()) text += "\nthe motion closes; multipliers\n";
@@ -160,11 +159,7 @@ std::string to_json(const Tangent& tangent) {
   for (const Multiplier& multiplier : tangent.multipliers)
     j["multipliers"].push_back({multiplier.real, multiplier.imaginary});
   j["horizon"] = core::OrderedJson::array();
-  for (const Horizon& horizon : tangent.horizons)
-    j["horizon"].push_back({{"precision", horizon.precision},
-                            {"digits", horizon.digits},
-                            {"t", horizon.t ? core::json_number(*horizon.t) : core::OrderedJson(nullptr)},
-                            {"extrapolated", horizon.extrapolated}});
+  for (const Horizon& horizon : tangent.horizons) j["horizon"].push_back(core::json_of(horizon));
   j["sensitivities"] = core::OrderedJson::object();
   for (const auto& [constant, changes] : tangent.sensitivities) j["sensitivities"][constant] = changes;
   return core::dumped(j, 2);

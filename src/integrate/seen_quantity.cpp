@@ -495,8 +495,7 @@ class SeenQuantities<S>::Names {
     const std::vector<std::size_t> points = working(problem_, of.empty() ? "" : of[0]);
     if (!evaluator_) evaluator_ = std::make_shared<StateEvaluator<S>>(problem_);
     return {[points, evaluator = evaluator_, &problem = problem_](const State& state) {
-      const auto& forces = evaluator->forces(state.q, state.p);
-      return work_done(problem, points, Vector<S>(forces.applied + forces.constraint));
+      return work_done(problem, points, evaluator->force(state.q, state.p));
     }};
   }
 

@@ -51,6 +51,7 @@ GrowingConvolution::GrowingConvolution(GrowingConvolution&& other) noexcept
 
 void GrowingConvolution::set(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, Index n) {
   const Index m = n - from_a_ - from_b_, last = n - from_b_;
+  if (!by_blocks(n)) return set_convolution(r, a, b, n, from_a_, last);
   if (!a.finite_ || !b.finite_) return mpfr_set_nan(raw(r));
   if (!sums_) sums_ = _fmpz_vec_init(length_);
   if (m <= taken_) {

@@ -24,9 +24,9 @@ class GrowingConvolution {
   GrowingConvolution& operator=(GrowingConvolution&&) = delete;
 
   /// Whether blocks make it quicker: not for the first few n.
-  bool serves(Index n) const { return n - from_a_ - from_b_ >= 2 * near_; }
-  /// r = sum_{i >= from_a, n - i >= from_b} a_i b_{n-i}, for an n that it serves. It is asked for with one n after
-  /// another; the first of them begins new series. The series are the same from then on; they may be one.
+  bool by_blocks(Index n) const { return n - from_a_ - from_b_ >= 2 * near_; }
+  /// r = sum_{i >= from_a, n - i >= from_b} a_i b_{n-i}. It is asked for with one n after another, those by blocks at
+  /// least; the first of these begins new series. The series are the same from then on; they may be one.
   void set(Mpfr& r, const AlignedSeries& a, const AlignedSeries& b, Index n);
 
  private:

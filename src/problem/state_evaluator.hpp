@@ -54,6 +54,11 @@ class StateEvaluator {
   };
   /// \throws IntegrationError as tangential does
   const Forces& forces(const Vector<S>& q, const Vector<S>& p);
+  /// p', their sum. \throws IntegrationError likewise
+  Vector<S> force(const Vector<S>& q, const Vector<S>& p) {
+    const Forces& both = forces(q, p);
+    return both.applied + both.constraint;
+  }
 
   /// q' at the state: M^-1 p, and the velocities of driven points.
   void set_velocity(const Vector<S>& q, const Vector<S>& p, Vector<S>& v);

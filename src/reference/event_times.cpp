@@ -86,8 +86,7 @@ class TimeFinder {
     const Mpfr step = event.t * pow(Mpfr(10), -static_cast<int>(digits10<Mpfr>()) / 3);
     Vector<Mpfr> v = Vector<Mpfr>::Zero(q.size());
     point_.set_velocity(q, p, v);
-    const auto& forces = point_.forces(q, p);
-    const Vector<Mpfr> change = forces.applied + forces.constraint;
+    const Vector<Mpfr> change = point_.force(q, p);
     const Mpfr after = value(event, Mpfr(event.t + step), q + step * v, p + step * change),
                before = value(event, Mpfr(event.t - step), q - step * v, p - step * change);
     return (after - before) / (2 * step);

@@ -36,9 +36,8 @@ ExactPoint HbvmMotion::output() {
 double HbvmMotion::first_length() {
   // A step that is far too long costs more than some that are too short.
   constexpr double part = 2;
-  const StateEvaluator<Mpfr>::Forces forces = point_.forces(state_.q, state_.p);
   Vector<Mpfr> v(state_.p.size()), acceleration(v.size());
-  const Vector<Mpfr> force = forces.applied + forces.constraint;
+  const Vector<Mpfr> force = point_.force(state_.q, state_.p);
   problem_.mass.velocity(lanes(state_.p), lanes(v));
   problem_.mass.velocity(lanes(force), lanes(acceleration));
   double least = infinite;

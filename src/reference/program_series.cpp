@@ -100,17 +100,13 @@ void ProgramSeries::keep(Index i, Index n) {
   if (i >= 0 && position_[static_cast<std::size_t>(i)] >= 0) aligned(i).set(n, series(i)[n]);
 }
 
-void ProgramSeries::set_convolution(Mpfr& r, Index sums, Index a, Index b, Index n, Index first, Index last) {
-  GrowingConvolution& growing = convolutions_[static_cast<std::size_t>(sums)];
-  if (growing.serves(n))
-    growing.set(r, aligned(a), aligned(b), n);
-  else
-    hbvm::core::set_convolution(r, aligned(a), aligned(b), n, first, last);
+void ProgramSeries::set_convolution(Mpfr& r, Index sums, Index a, Index b, Index n) {
+  convolutions_[static_cast<std::size_t>(sums)].set(r, aligned(a), aligned(b), n);
 }
 
 void ProgramSeries::set_square(Mpfr& r, Index sums, Index a, Index n, Index first, Mpfr& t) {
   GrowingConvolution& growing = convolutions_[static_cast<std::size_t>(sums)];
-  if (growing.serves(n)) return growing.set(r, aligned(a), aligned(a), n);
+  if (growing.by_blocks(n)) return growing.set(r, aligned(a), aligned(a), n);
   hbvm::core::set_convolution(r, aligned(a), aligned(a), n, first, (n + 1) / 2 - 1);  // i < n - i
   mpfr_mul_2ui(raw(r), raw(r), 1, MPFR_RNDN);
   if (n % 2 == 0 && n / 2 >= first) add_product(r, series(a)[n / 2], series(a)[n / 2], t);
@@ -167,7 +163,7 @@ void ProgramSeries::multiply(const Node& node, Index n) {
   if (node.a.series == node.b.series)
     set_square(z, node.sums, node.a.series, n, 0, t_);
   else
-    set_convolution(z, node.sums, node.a.series, node.b.series, n, 0, n);
+    set_convolution(z, node.sums, node.a.series, node.b.series, n);
 }
 
 void ProgramSeries::start(const Node& node) {
@@ -227,12 +223,12 @@ void ProgramSeries::go_on(const Node& node, Index n) {
     keep(node.aux, n);
   };
   const auto set_integral = [&](Mpfr& r, Index w, Index sums) {
-    set_convolution(t_, sums, node.aux, w, n, 1, n);
+    set_convolution(t_, sums, node.aux, w, n);
     mpfr_div_ui(raw(r), raw(t_), whole, MPFR_RNDN);
   };
   switch (node.op) {
     case Op::reciprocal:
-      set_convolution(t_, node.sums, node.a.series, node.z, n, 1, n);
+      set_convolution(t_, node.sums, node.a.series, node.z, n);
       set_product(t_, t_, z[0]);
       set_negative(z[n], t_);
       break;
@@ -246,7 +242,7 @@ void ProgramSeries::go_on(const Node& node, Index n) {
     case Op::atan: {
       // z' w = a', where w is a of the logarithm, and 1 + a^2 of the arc tangent.
       const Index w = node.op == Op::log ? node.a.series : node.other;
-      set_convolution(t_, node.sums, node.aux, w, n, 1, n - 1);
+      set_convolution(t_, node.sums, node.aux, w, n);
       mpfr_div_ui(raw(t_), raw(t_), whole, MPFR_RNDN);
       set_difference(t_, a_n, t_);
       set_quotient(z[n], t_, series(w)[0]);

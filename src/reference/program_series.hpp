@@ -59,8 +59,8 @@ class ProgramSeries {
   void keep(Index i, Index n);
   /// The convolutions of a node, each from these coefficients of its factors on.
   void add_convolutions(Node& node, std::initializer_list<std::pair<Index, Index>> from);
-  /// r = sum_{first <= i <= last} a_i b_{n-i}, by the convolution of this number.
-  void set_convolution(Mpfr& r, Index sums, Index a, Index b, Index n, Index first, Index last);
+  /// Coefficient n of the convolution of this number.
+  void set_convolution(Mpfr& r, Index sums, Index a, Index b, Index n);
   /// r = sum_{first <= i <= n - first} a_i a_{n-i}, likewise: equal terms once.
   void set_square(Mpfr& r, Index sums, Index a, Index n, Index first, Mpfr& t);
   void linear(const Node& node, Index n);

@@ -343,12 +343,9 @@ void TaylorMotion::set_force(Index n) {
 
 void TaylorMotion::set_hidden(Mpfr& r, std::size_t l, Index n) {
   Form& form = forms_[l];
-  if (form.factor == 0) {
-    if (form.hidden->serves(n + 1)) return form.hidden->set(r, form.series, form.velocity, n + 1);
-    return set_convolution(r, form.series, form.velocity, n + 1, 1, n + 1);
-  }
+  if (form.factor == 0) return form.hidden->set(r, form.series, form.velocity, n + 1);
   // With (k+1) G_{k+1} = factor v_k: sum_i (n+2-i) G_i G_{n+2-i}, of which mirrored terms make n + 2 together.
-  if (form.hidden->serves(n + 2)) {
+  if (form.hidden->by_blocks(n + 2)) {
     form.hidden->set(r, form.series, form.series, n + 2);
   } else {
     set_convolution(r, form.series, form.series, n + 2, 1, (n + 1) / 2);
@@ -370,11 +367,7 @@ void TaylorMotion::set_multipliers(Index n) {
     set_hidden(t_, l, n);
     set_sum(rhs_[form.constraint], rhs_[form.constraint], t_);
     if (n == 0) continue;
-    const AlignedSeries& multiplier = aligned_lambda_[static_cast<std::size_t>(form.constraint)];
-    if (form.pulling->serves(n))
-      form.pulling->set(t_, form.series, multiplier, n);
-    else
-      set_convolution(t_, form.series, multiplier, n, 1, n);
+    form.pulling->set(t_, form.series, aligned_lambda_[static_cast<std::size_t>(form.constraint)], n);
     for (const auto& [j, sign] : form.columns) add_signed(F_[j], t_, -sign);
   }
   problem_.mass.velocity(lanes(std::as_const(F_)), lanes(weighted_));

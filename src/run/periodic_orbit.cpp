@@ -8,8 +8,9 @@
 
 #include "integrate/observations.hpp"
 #include "interruption.hpp"
+#include "linear/norm.hpp"
+#include "linear/product.hpp"
 #include "linear/rounded.hpp"
-#include "reference/closed_form/recognition.hpp"
 #include "reference/hbvm_motion.hpp"
 #include "reference/route_run.hpp"
 #include "reference/taylor.hpp"
@@ -68,8 +69,11 @@ class ClosingEquations {
   /// log10 of how far it is from the scene's start, over the scales.
   double moved_by(const Closed& x) { return log10_of(max_norm(space_.change(x.start, start_, Mpfr(1)))); }
 
-  PhaseState after(const PhaseState& x, const Mpfr& t) {
-    TaylorMotion motion(problem_, x.q, x.p, [] { end_if_asked(unfinished); });
+  TaylorMotion motion_from(const PhaseState& x) const {
+    return {problem_, x.q, x.p, [] { end_if_asked(unfinished); }};
+  }
+  PhaseState after(const PhaseState& x, const Mpfr& t) const {
+    TaylorMotion motion = motion_from(x);
     motion.advance_to(t);
     return {motion.q(), motion.p()};
   }
@@ -89,9 +93,8 @@ class ClosingEquations {
   Vector<Mpfr> flow(const PhaseState& x) {
     Vector<Mpfr> v(x.q.size());
     point_.set_velocity(x.q, x.p, v);
-    const auto& forces = point_.forces(x.q, x.p);
-    return space_.change({v, forces.applied + forces.constraint},
-                         {Vector<Mpfr>::Zero(v.size()), Vector<Mpfr>::Zero(v.size())}, Mpfr(1));
+    const Vector<Mpfr> nothing = Vector<Mpfr>::Zero(v.size());
+    return space_.change({v, point_.force(x.q, x.p)}, {nothing, nothing}, Mpfr(1));
   }
 
   Defect defect(const Closed& x, const PhaseState& end) {
@@ -162,9 +165,9 @@ class ClosingStep {
     const Eigen::VectorXd step = solver_.solve(right);
     Vector<Mpfr> change = Vector<Mpfr>::Zero(m2);
     for (Index j = 0; j < n; ++j)
-      change += Mpfr(size * exactly(step[j] * part)) * rounded<Mpfr>(Vector<Mpfr>(basis_.col(j)));
+      change += Mpfr(size * in_mpfr(step[j] * part)) * rounded<Mpfr>(Vector<Mpfr>(basis_.col(j)));
     x.start = equations.space().moved(x.start, change);
-    x.period *= 1 + size * exactly(step[n] * part);
+    x.period *= 1 + size * in_mpfr(step[n] * part);
     return log10_of(size) + std::log10(step.lpNorm<Eigen::Infinity>());
   }
 
@@ -174,11 +177,7 @@ class ClosingStep {
   std::vector<std::complex<double>> multipliers() const { return multipliers_of(basis_, ends_); }
 
  private:
-  static Mpfr exactly(double x) {
-    Mpfr result = 0;
-    mpfr_set_d(raw(result), x, MPFR_RNDN);
-    return result;
-  }
+  static Mpfr in_mpfr(double x) { return rounded_to<Mpfr>(raw(exactly(x))); }
   static double quotient(const Mpfr& there, const Mpfr& here, const Mpfr& small) {
     return approximately(Mpfr((there - here) / small));
   }
@@ -202,12 +201,14 @@ std::vector<Mpfr> returns_of(ClosingEquations& equations, const Scene& scene, co
     double distance;
   };
   std::vector<Near> found;
+  TaylorMotion motion = equations.motion_from(start);
   PhaseState last = start;
   double before = 0, here = 0, least = HUGE_VAL;
   Mpfr t = 0;
   while (t < end) {
     const Mpfr next = t + step < end ? Mpfr(t + step) : end;
-    const PhaseState state = equations.after(last, Mpfr(next - t));
+    motion.advance_to(next);
+    const PhaseState state{motion.q(), motion.p()};
     const double there = distance(state);
     if (here < before && here <= there) {
       // The distance across the flow, where that is least.
@@ -278,7 +279,9 @@ Closed closed_near(ClosingEquations& equations, const Mpfr& t, int& iterations,
         x = std::move(tried);
         end = std::move(tried_end);
         defect = std::move(found);
-      } catch (const IntegrationError&) {  // there is no motion from there
+      } catch (const Interrupted&) {
+        throw;
+      } catch (const Error&) {  // there is no such state, or no motion from it
       }
     if (!nearer)
       throw IntegrationError(fmt::format(

@@ -5,7 +5,8 @@
 
 #include "integrate/output_state.hpp"
 #include "interruption.hpp"
-#include "reference/closed_form/recognition.hpp"
+#include "linear/norm.hpp"
+#include "linear/product.hpp"
 #include "run/run_stepper.hpp"
 #include "run/tangent_space.hpp"
 #include "scalar/log2_of.hpp"

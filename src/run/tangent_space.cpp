@@ -4,8 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "linear/norm.hpp"
 #include "linear/product.hpp"
-#include "reference/closed_form/recognition.hpp"
 #include "scene/nearest_position.hpp"
 
 namespace hbvm::core {

@@ -4,7 +4,6 @@
 #include "long_work/json.hpp"
 #include "reference/compute_reference.hpp"
 #include "run/scene_run.hpp"
-#include "scalar/literal.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -64,32 +63,33 @@ RunRequest orbit_request(const SectionWork& work, std::size_t start) {
 
 std::optional<Section> run_section(const SectionWork& work, const CellOptions& options) {
   std::vector<WorkCell> cells;
+  std::vector<std::vector<double>> near;  // here, so that a value that has none is told before anything is run
+  for (const VariedScene& start : work.starts) near.push_back(start.near());
   for (std::size_t n = 0; n < work.starts.size(); ++n) {
     const RunRequest request = orbit_request(work, n);
     cells.push_back({key_of(request, work), [request] { return to_json(orbit_of(request)); }});
   }
   const std::vector<std::optional<std::string>> results = run_cells(cells, options);
   Section section{.scene = work.request.scene.name,
-                  .title = work.request.scene.title,
                   .method = work.request.method->text(),
                   .step = work.request.step.text(),
                   .until = work.request.until.text(),
                   .precision = work.request.precision.name(),
                   .plane = work.plane,
                   .direction = work.direction,
+                  .title = work.request.scene.title.empty() ? work.request.scene.name : work.request.scene.title,
                   .names = {},
                   .x = work.x,
                   .y = work.y,
                   .orbits = {},
                   .command = work.command};
-  for (const StartAxis& axis : work.axes) section.names.push_back(axis.name);
+  for (const VariedNumber& number : work.numbers) section.names.push_back(number.name);
   bool any = false;
   for (std::size_t n = 0; n < results.size(); ++n) {
     if (!results[n]) return std::nullopt;
     SectionOrbit& orbit = section.orbits.emplace_back(orbit_of(*results[n]));
-    orbit.start = work.starts[n].values;
-    for (const std::string& value : orbit.start)
-      orbit.start_near.push_back(evaluate<double>(Expression::parse(value), work.starts[n].scene.constants));
+    for (const Expression& value : work.starts[n].values) orbit.start.push_back(value.text());
+    orbit.start_near = near[n];
     any = any || orbit.failure.empty();
   }
   if (!any) throw InputError("no start has a motion: " + section.orbits.front().failure);

@@ -14,8 +14,8 @@ namespace hbvm::core {
 struct SectionWork {
   RunRequest request;  ///< its scene has the plane as its one event, and the axes as its two observations
   std::string plane, direction, x, y;
-  std::vector<StartAxis> axes;
-  std::vector<SectionStart> starts;
+  std::vector<VariedNumber> numbers;  ///< that starts differ by
+  std::vector<VariedScene> starts;
   std::string command;
 };
 

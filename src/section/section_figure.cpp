@@ -9,6 +9,10 @@
 
 namespace hbvm::core {
 
+std::string crossing_text(const Section& section) {
+  return section.plane + " = 0" + (section.direction == "any" ? "" : ", " + section.direction + "wards");
+}
+
 Figure section_figure(const Section& section) {
   Panel panel;
   panel.x = {plain(section.x)};
@@ -23,10 +27,10 @@ Figure section_figure(const Section& section) {
       curve.points.push_back({std::strtod(point.x.c_str(), nullptr), std::strtod(point.y.c_str(), nullptr)});
     count += section.orbits[n].points.size();
   }
-  panel.title = plain(fmt::format("{} points of {} orbits where {} = 0{}", count, section.orbits.size(), section.plane,
-                                  section.direction == "any" ? "" : ", " + section.direction + "wards"));
+  panel.title =
+      plain(fmt::format("{} points of {} orbits where {}", count, section.orbits.size(), crossing_text(section)));
   Figure figure;
-  figure.caption = plain(section.title.empty() ? section.scene : section.title);
+  figure.caption = plain(section.title);
   figure.footnote = std::string("hbvm ") + version() + ": " + section.command;
   figure.panels.push_back(std::move(panel));
   return figure;

@@ -13,6 +13,7 @@
 #include "scalar/literal.hpp"
 #include "scene/coordinate_names.hpp"
 #include "section/page_text.hpp"
+#include "section/section_figure.hpp"
 
 namespace hbvm::core {
 namespace {
@@ -56,12 +57,8 @@ OrderedJson paths_of(RunRequest request) {
 }
 
 OrderedJson json_of(const Section& section, const SectionWork& work) {
-  OrderedJson json{{"title", section.title.empty() ? section.scene : section.title},
-                   {"x", section.x},
-                   {"y", section.y},
-                   {"names", section.names},
-                   {"colours", curve_colours},
-                   {"orbits", OrderedJson::array()}};
+  OrderedJson json{{"title", section.title}, {"x", section.x},           {"y", section.y},
+                   {"names", section.names}, {"colours", curve_colours}, {"orbits", OrderedJson::array()}};
   for (std::size_t n = 0; n < section.orbits.size(); ++n) {
     const SectionOrbit& orbit = section.orbits[n];
     if (orbit.points.empty()) continue;
@@ -87,12 +84,10 @@ std::string with(std::string text, const std::string& place, const std::string& 
 }  // namespace
 
 std::string section_page(const Section& section, const SectionWork& work) {
-  const std::string title = section.title.empty() ? section.scene : section.title;
-  const std::string about = fmt::format("Where {} = 0{}. {}, steps of {} to t = {}, {}.", section.plane,
-                                        section.direction == "any" ? "" : ", " + section.direction + "wards",
+  const std::string about = fmt::format("Where {}. {}, steps of {} to t = {}, {}.", crossing_text(section),
                                         section.method, section.step, section.until, section.precision);
-  std::string page = with(section_page_text(), "title", html(title));
-  page = with(page, "heading", html(title));
+  std::string page = with(section_page_text(), "title", html(section.title));
+  page = with(page, "heading", html(section.title));
   page = with(page, "about", html(about));
   page = with(page, "footer", html(std::string("hbvm ") + version() + ": " + section.command));
   return with(page, "data", within_script(dumped(json_of(section, work), -1)));

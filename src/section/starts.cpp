@@ -3,25 +3,13 @@
 #include <charconv>
 #include <set>
 
-#include "scene/set_number.hpp"
+#include "hbvm/error.hpp"
+#include "outside_parentheses.hpp"
 
 namespace hbvm::core {
 namespace {
 
 constexpr std::size_t most = 10'000;
-
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts{""};
-  int open = 0;
-  for (const char c : text) {
-    open += c == '(' ? 1 : c == ')' ? -1 : 0;
-    if (c == at && open == 0)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
 
 long count_of(const std::string& text, const std::string& whole) {
   long count = 0;
@@ -34,50 +22,34 @@ long count_of(const std::string& text, const std::string& whole) {
 
 }  // namespace
 
-StartAxis parse_start_axis(const std::string& text) {
+VariedNumber parse_starts(const std::string& text) {
+  const std::string usage = "'" + text + "': use NAME=FROM:TO:COUNT, or NAME=A,B,C";
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw InputError("'" + text + "': use NAME=FROM:TO:COUNT, or NAME=A,B,C");
-  StartAxis axis{text.substr(0, equals), {}};
+  if (equals == std::string::npos || equals == 0) throw InputError(usage);
+  VariedNumber number{text.substr(0, equals), {}};
   const std::string rest = text.substr(equals + 1);
-  const std::vector<std::string> range = split(rest, ':');
+  const std::vector<std::string> range = split_outside_parentheses(rest, ':');
   if (range.size() == 1) {
-    for (const std::string& value : split(rest, ',')) axis.values.push_back(Expression::parse(value));
-    return axis;
+    for (const std::string& value : split_outside_parentheses(rest, ','))
+      number.values.push_back(Expression::parse(value));
+    return number;
   }
-  if (range.size() != 3) throw InputError("'" + text + "': use NAME=FROM:TO:COUNT, or NAME=A,B,C");
+  if (range.size() != 3) throw InputError(usage);
   const Expression from = Expression::parse(range[0]), to = Expression::parse(range[1]);
   const long count = count_of(range[2], text);
-  if (count == 1) {
-    axis.values.push_back(from);
-    return axis;
-  }
-  for (long n = 0; n < count; ++n)
-    axis.values.push_back(Expression::parse("(" + from.text() + ")+((" + to.text() + ")-(" + from.text() + "))*" +
-                                            std::to_string(n) + "/" + std::to_string(count - 1)));
-  return axis;
+  number.values = count == 1 ? std::vector{from} : values_between(from, to, count);
+  return number;
 }
 
-std::vector<SectionStart> starts_of(const Scene& scene, const std::vector<StartAxis>& axes) {
+std::vector<VariedScene> starts_of(const Scene& scene, const std::vector<VariedNumber>& numbers) {
   std::set<std::string> names;
   std::size_t count = 1;
-  for (const StartAxis& axis : axes) {
-    if (!names.insert(axis.name).second) throw InputError("starts differ by '" + axis.name + "' twice");
-    count *= axis.values.size();
+  for (const VariedNumber& number : numbers) {
+    if (!names.insert(number.name).second) throw InputError("starts differ by '" + number.name + "' twice");
+    count *= number.values.size();
     if (count > most) throw InputError("there are more than " + std::to_string(most) + " starts");
   }
-  std::vector<SectionStart> starts{{{}, scene}};
-  for (const StartAxis& axis : axes) {
-    std::vector<SectionStart> more;
-    for (const SectionStart& start : starts)
-      for (const Expression& value : axis.values) {
-        SectionStart& next = more.emplace_back(start);
-        next.values.push_back(value.text());
-        next.scene = with_number(start.scene, axis.name, value);
-      }
-    starts = std::move(more);
-  }
-  return starts;
+  return varied_scenes(scene, numbers);
 }
 
 }  // namespace hbvm::core

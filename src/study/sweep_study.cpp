@@ -8,19 +8,12 @@
 #include "experiment.hpp"
 #include "long_work/json.hpp"
 #include "run/scene_run.hpp"
-#include "scalar/literal.hpp"
 #include "scalar/text.hpp"
 #include "scene/observe.hpp"
-#include "scene/set_number.hpp"
+#include "scene/varied_scene.hpp"
 
 namespace hbvm::core {
 namespace {
-
-/// A number of the scene, and the values it takes.
-struct SweptNumber {
-  std::string name;
-  std::vector<Expression> values;
-};
 
 /// One point of the grid: a value of each swept number, and the run there.
 struct SweepPoint {
@@ -60,37 +53,29 @@ SweepRun read_sweep_run(const std::string& text) {
 }
 
 /// [[sweep]]: set = "L", and values = [...], or from, to and count.
-SweptNumber read_swept(TomlTable reader) {
-  SweptNumber swept{reader.string("set"), {}};
+VariedNumber read_swept(TomlTable reader) {
+  VariedNumber swept{reader.string("set"), {}};
   reader.rename("sweep of '" + swept.name + "'");
   if (reader.has("values")) {
     const toml::node& node = reader.require("values");
     if (!node.is_array() || node.as_array()->empty()) reader.fail(node, "'values' is no list of numbers");
     swept.values = reader.to_vector(node, node.as_array()->size(), "values");
   } else {
-    const std::string from = reader.number("from").text(), to = reader.number("to").text();
+    const Expression from = reader.number("from"), to = reader.number("to");
     const long count = reader.integer("count");
     constexpr long most = 1'000'000;
     if (count < 2 || count > most) reader.fail("'count' is not between 2 and 10^6");
-    for (long i = 0; i < count; ++i)
-      swept.values.push_back(Expression::parse(fmt::format("({})+(({})-({}))*{}/{}", from, to, from, i, count - 1)));
+    swept.values = values_between(from, to, count);
   }
   reader.finish();
   return swept;
 }
 
-/// All combinations, the last number the fastest.
-std::vector<SweepPoint> points_of(const RunRequest& request, const std::vector<SweptNumber>& swept) {
-  std::vector<SweepPoint> points{{{}, request}};
-  for (const SweptNumber& number : swept) {
-    std::vector<SweepPoint> more;
-    for (const SweepPoint& point : points)
-      for (const Expression& value : number.values) {
-        SweepPoint& next = more.emplace_back(point);
-        next.request.scene = with_number(point.request.scene, number.name, value);
-        next.at.push_back(evaluate<double>(value, point.request.scene.constants));
-      }
-    points = std::move(more);
+std::vector<SweepPoint> points_of(const RunRequest& request, const std::vector<VariedNumber>& swept) {
+  std::vector<SweepPoint> points;
+  for (const VariedScene& varied : varied_scenes(request.scene, swept)) {
+    points.push_back({varied.near(), request});
+    points.back().request.scene = varied.scene;
   }
   return points;
 }
@@ -226,11 +211,11 @@ Part<Findings> sweep_study(const Experiment& experiment, TomlTable& top) {
     request.scene = with_observation(request.scene, name, reader.string("value"));
     reader.finish();
   }
-  std::vector<SweptNumber> swept;
+  std::vector<VariedNumber> swept;
   for (const toml::table* table : sweeps) swept.push_back(read_swept(TomlTable(top.source(), *table, "sweep")));
   if (swept.empty()) top.fail("a sweep has a table [[sweep]] for each number that it changes");
   Sweep sweep{{}, {}, points_of(request, swept), {}};
-  for (const SweptNumber& number : swept) sweep.swept.push_back(number.name);
+  for (const VariedNumber& number : swept) sweep.swept.push_back(number.name);
   for (const SceneObservation& o : request.scene.observations)
     for (const char* of : {"", "_least", "_greatest"}) sweep.observed.push_back(o.name + of);
   Part<Findings> part;

@@ -166,7 +166,11 @@ TEST(Signals, EndWhatTakesLong) {
        {Arguments{"audit", HBVM_SOURCE_DIR "/studies/atlas"},
         {"audit", "--command", "sleep 3600 # {scene} {step} {until} {out}", "--limit", "0"},
         {"tangent", "chaotic_double_pendulum", "--method", "hbvm:4,4", "--step", "1/8", "--until", "1000000"},
-        {"run", "chaotic_double_pendulum", "--step", "1/8", "--until", "1000000", "--event", "up: a.vx"}}) {
+        {"run", "chaotic_double_pendulum", "--step", "1/8", "--until", "1000000", "--event", "up: a.vx"},
+        {"run", "chaotic_double_pendulum", "--step", "1/8", "--until", "10000", "--precision", "400", "--horizon"},
+        {"section", "henon_heiles", "--plane", "star.x", "--axes", "star.y", "star.vy", "--step", "1/8", "--until",
+         "1000000"},
+        {"periodic", "four_bars_10", "--until", "100"}}) {
     const Outcome outcome = hbvm(arguments, 60, [](pid_t program) {
       std::this_thread::sleep_for(std::chrono::seconds(2));
       kill(program, SIGINT);

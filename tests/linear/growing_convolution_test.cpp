@@ -42,7 +42,7 @@ void expect_sums(unsigned digits, Index length, const Falls& falls, Index from_a
       // Of a recurrence for b, the coefficient that is not in the sum yet.
       if (n > 0 && from_a == 1) y.set(n - 1, b[n - 1]);
       if (from_a == 0) y.set(n, b[n]);
-      if (n < from_a + from_b || !growing.serves(n)) continue;
+      if (n < from_a + from_b || !growing.by_blocks(n)) continue;
       ++served;
       Mpfr found = 17, exact;
       growing.set(found, x, square ? x : y, n);
@@ -83,7 +83,7 @@ TEST(GrowingConvolutionTest, FallsWithItsSeries) {
   const Vector<Mpfr> a = coefficients(random, length, 4, 0);
   for (Index n = 0; n < length; ++n) {
     x.set(n, a[n]);
-    if (!growing.serves(n)) continue;
+    if (!growing.by_blocks(n)) continue;
     Mpfr found = 0;
     growing.set(found, x, x, n);
     EXPECT_LE(magnitude(found), power_of_two<Mpfr>(16 - std::min(4 * n, Index{1430}))) << n;

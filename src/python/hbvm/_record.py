@@ -3,9 +3,12 @@ from __future__ import annotations
 
 import json
 import re
-from typing import Any, Iterator
+from typing import TYPE_CHECKING, Any, Iterator
 
 from ._number import Number
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _DECIMAL = re.compile(r"-?\d+(\.\d+)?(e[+-]?\d+)?")
 # What these are is a number of the working precision; all other text is a name or words.
@@ -101,6 +104,30 @@ class Shown(Record):
         return type(self), (self._facts, self._text)
 
 
+class Made(Record):
+    """A result that comes with the text that the program prints, and with a figure."""
+
+    def __init__(self, made: dict[str, Any]) -> None:
+        super().__init__(json.loads(made["json"]))
+        self._made = made
+
+    def table(self) -> str:
+        """What the program prints."""
+        return self._made["text"]
+
+    def plot(self) -> Figure:
+        """The picture that the program draws, by matplotlib."""
+        from ._figure import drawn
+
+        return drawn(self._made["figure"])
+
+    def __repr__(self) -> str:
+        return self.table().rstrip("\n")
+
+    def __reduce__(self) -> Any:
+        return type(self), (self._made,)
+
+
 class Listing(list):
     """A list that is shown as the table that the program prints."""
 
@@ -115,4 +142,4 @@ class Listing(list):
         return Listing, (list(self), self.text)
 
 
-Record.__module__ = Shown.__module__ = Listing.__module__ = "hbvm"
+Record.__module__ = Shown.__module__ = Made.__module__ = Listing.__module__ = "hbvm"

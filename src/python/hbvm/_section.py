@@ -2,52 +2,29 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import Sequence
 
 from . import _hbvm
 from ._number import Exact, exact_text
 from ._page import Page
 from ._progress import Bar, Progress
-from ._record import Record, Shown
+from ._record import Made, Shown
 from ._run import Precision
 from ._scene import SceneLike
 from ._scene import scene as scene_of
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-class Section(Record):
+class Section(Made):
     """Points where motions cross a surface: `orbits` has an entry for each start, with its `points`."""
-
-    def __init__(self, made: dict[str, Any]) -> None:
-        super().__init__(json.loads(made["json"]))
-        self._made = made
-
-    def table(self) -> str:
-        """What the program prints."""
-        return self._made["text"]
 
     @property
     def csv(self) -> str:
         """A line a point."""
         return self._made["csv"]
 
-    def plot(self) -> Figure:
-        """The points, by matplotlib."""
-        from ._figure import drawn
-
-        return drawn(self._made["figure"])
-
     def page(self) -> Page:
         """The page on which a click on a point shows its orbit."""
         return Page(self._made["page"])
-
-    def __repr__(self) -> str:
-        return self.table().rstrip("\n")
-
-    def __reduce__(self) -> Any:
-        return Section, (self._made,)
 
 
 class Periodic(Shown):

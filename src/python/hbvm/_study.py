@@ -3,60 +3,27 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import Any, Sequence
 
 from . import _hbvm
 from ._number import Exact, exact_text
 from ._page import Page
 from ._progress import Bar, Progress
-from ._record import Record
+from ._record import Made, Record
 from ._scene import SceneLike
 from ._scene import scene as scene_of
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-class _Shown(Record):
-    """What comes with a text and a figure."""
-
-    def __init__(self, made: dict[str, Any]) -> None:
-        super().__init__(json.loads(made["json"]))
-        self._made = made
-
-    def table(self) -> str:
-        """What the program prints."""
-        return self._made["text"]
-
-    def __repr__(self) -> str:
-        return self.table().rstrip("\n")
-
-    def __reduce__(self) -> Any:
-        return type(self), (self._made,)
-
-
-class Comparison(_Shown):
+class Comparison(Made):
     """Several methods on one scene: `runs` has an entry for each."""
-
-    def plot(self) -> Figure:
-        """Motions over one another and errors, by matplotlib."""
-        from ._figure import drawn
-
-        return drawn(self._made["figure"])
 
     def animate(self) -> Page:
         """The page on which all methods move on one clock."""
         return Page(self._made["page"])
 
 
-class Convergence(_Shown):
+class Convergence(Made):
     """Errors against the step: `methods` has an entry for each method and precision, with its orders."""
-
-    def plot(self) -> Figure:
-        """Errors against the step, with the slopes of the orders."""
-        from ._figure import drawn
-
-        return drawn(self._made["figure"])
 
 
 class Study(Record):

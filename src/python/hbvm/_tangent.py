@@ -1,39 +1,19 @@
 """How a motion changes with its start, and when its events come."""
 from __future__ import annotations
 
-import json
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import Sequence
 
 from . import _hbvm
 from ._number import Exact, Number, exact_text
 from ._progress import Bar, Progress
-from ._record import Record
+from ._record import Made
 from ._run import Precision
 from ._scene import SceneLike
 from ._scene import scene as scene_of
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
-
-class Tangent(Record):
+class Tangent(Made):
     """Lyapunov exponents, digits lost, horizons, and the map of changes of the start to changes of the end."""
-
-    def __init__(self, made: dict[str, Any]) -> None:
-        super().__init__(json.loads(made["json"]))
-        self._made = made
-
-    def plot(self) -> Figure:
-        """How the exponents settle, and digits lost, by matplotlib."""
-        from ._figure import drawn
-
-        return drawn(self._made["figure"])
-
-    def __repr__(self) -> str:
-        return self._made["text"].rstrip("\n")
-
-    def __reduce__(self) -> Any:
-        return Tangent, (self._made,)
 
 
 def tangent(

@@ -6,12 +6,6 @@
 
 namespace hbvm::core {
 
-Mpfr inner(const Vector<Mpfr>& a, const Vector<Mpfr>& b) {
-  Mpfr sum = 0;
-  for (Index j = 0; j < a.size(); ++j) sum += a[j] * b[j];
-  return sum;
-}
-Mpfr norm(const Vector<Mpfr>& a) { return sqrt(inner(a, a)); }
 Vector<Mpfr> cross(const Vector<Mpfr>& a, const Vector<Mpfr>& b) {
   Vector<Mpfr> c(3);
   for (Index j = 0; j < 3; ++j) c[j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];

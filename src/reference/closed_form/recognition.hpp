@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "linear/norm.hpp"
 #include "reference/closed_form/closed_form.hpp"
 
 namespace hbvm::core {
@@ -69,8 +70,6 @@ std::optional<Vector<Mpfr>> plane_of_motion(const Recognition& content, const On
                                             const Vector<Mpfr>& down);
 
 /// Vectors of the plane and of space.
-Mpfr inner(const Vector<Mpfr>& a, const Vector<Mpfr>& b);
-Mpfr norm(const Vector<Mpfr>& a);
 Vector<Mpfr> cross(const Vector<Mpfr>& a, const Vector<Mpfr>& b);
 Matrix<Mpfr> multiplied(const Matrix<Mpfr>& a, const Matrix<Mpfr>& b);
 
