@@ -3,10 +3,23 @@
 #include "linear/arrays.hpp"
 #include "linear/constant_count.hpp"
 #include "linear/mpfr_dot.hpp"
+#include "linear/quad_dot.hpp"
 #include "scalar/in_place.hpp"
 
 namespace hbvm::core {
 namespace {
+
+/// r = sum_i x_i y_i in one go. \return false if there is no such way, or it does not apply
+template <Scalar S>
+bool dot_at_once([[maybe_unused]] S& r, [[maybe_unused]] const S* x, [[maybe_unused]] Index x_stride,
+                 [[maybe_unused]] const S* y, [[maybe_unused]] Index y_stride, [[maybe_unused]] Index n) {
+  if constexpr (std::same_as<S, Mpfr>)
+    return dot(raw(r), x, x_stride, y, y_stride, n);
+  else if constexpr (std::same_as<S, Quad>)
+    return n > 1 && dot(r, x, x_stride, y, y_stride, n);
+  else
+    return false;
+}
 
 /// r = sum_l x_l a_l, column by column of `rows` entries.
 template <Scalar S, class Rows, class Terms>
@@ -37,11 +50,9 @@ void set_times(S* r, const Matrix<S>& a, const S* x, Index x_stride) {
     for (Index i = 0; i < rows; ++i) set_zero(r[i]);
     return;
   }
-  if constexpr (std::same_as<S, Mpfr>) {
-    Index i = 0;
-    while (i < rows && dot(raw(r[i]), a.data() + i, rows, x, x_stride, inner)) ++i;
-    if (i == rows) return;
-  }
+  Index i = 0;
+  while (i < rows && dot_at_once(r[i], a.data() + i, rows, x, x_stride, inner)) ++i;
+  if (i == rows) return;
   with_constant_count<S>(rows, [&](auto count) { add_columns(r, count, a.data(), inner, x, x_stride); });
 }
 
@@ -79,8 +90,7 @@ S dot(const Vector<S>& a, const Vector<S>& b) {
 
 template <Scalar S>
 void set_dot(S& r, const S* x, Index x_stride, const S* y, Index y_stride, Index n) {
-  if constexpr (std::same_as<S, Mpfr>)
-    if (dot(raw(r), x, x_stride, y, y_stride, n)) return;
+  if (dot_at_once(r, x, x_stride, y, y_stride, n)) return;
   S sum = 0, lost = 0, term, rest, next, t;
   for (Index i = 0; i < n; ++i) {
     const S& a = x[i * x_stride];

@@ -15,6 +15,9 @@ long binary_exponent(const S& x) {
   if constexpr (std::same_as<S, Mpfr>) {
     return mpfr_get_exp(raw(x));
   } else {
+    if constexpr (std::same_as<S, Quad>)
+      if (const binary128::Bits bits = bits_of(x); bits.normal())
+        return static_cast<long>(bits.exponent()) - static_cast<long>(binary128::Bits::bias) + 1;
     int exponent = 0;
     using std::frexp;
     frexp(x, &exponent);

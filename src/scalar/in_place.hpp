@@ -175,7 +175,7 @@ void add_product(S& r, const S& a, const S& b, [[maybe_unused]] S& t) {
     mpfr_mul(raw(t), raw(a), raw(b), MPFR_RNDN);
     mpfr_add(raw(r), raw(r), raw(t), MPFR_RNDN);
   } else {
-    r += a * b;
+    r = r + a * b;
   }
 }
 
@@ -185,7 +185,7 @@ void subtract_product(S& r, const S& a, const S& b, [[maybe_unused]] S& t) {
     mpfr_mul(raw(t), raw(a), raw(b), MPFR_RNDN);
     mpfr_sub(raw(r), raw(r), raw(t), MPFR_RNDN);
   } else {
-    r -= a * b;
+    r = r - a * b;
   }
 }
 

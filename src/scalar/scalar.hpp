@@ -86,6 +86,8 @@ BigFloat exactly(const Mpfr& x);
 /// The double next to x, for displays, plots and start values; never for a result.
 template <Scalar S>
 double approximately(const S& x) {
+  if constexpr (std::same_as<S, Quad>)
+    if (double y = 0; binary128::to_double(y, bits_of(x))) return y;
   return static_cast<double>(x);
 }
 

@@ -35,12 +35,29 @@ Row against_papers(const std::string& scene_name, int k, int s, const std::strin
                       microseconds(papers.seconds), own.sweeps, papers.sweeps)};
 }
 
+/// The default solvers of quad and of double, at the same step of 1 / `per_unit`.
+Row quad_over_double(const std::string& scene_name, int k, int s, int per_unit, double limit) {
+  constexpr long steps = 400;
+  const Scene scene = load_scene(scene_name);
+  const StepCost quad = step_cost<Quad>(assemble<Quad>(scene), k, s, Quad(Quad(1) / per_unit), SolverKind::automatic,
+                                        steps),
+                 in_double =
+                     step_cost<double>(assemble<double>(scene), k, s, 1.0 / per_unit, SolverKind::automatic, steps);
+  return {fmt::format("{} {}, h = 1/{}, quad", scene_name, method_text(k, s), per_unit),
+          "double",
+          quad.seconds / in_double.seconds,
+          limit,
+          false,
+          fmt::format("{} and {} a step, {:.1f} and {:.1f} sweeps", microseconds(quad.seconds),
+                      microseconds(in_double.seconds), quad.sweeps, in_double.sweeps)};
+}
+
 }  // namespace
 
 std::vector<Group> groups() {
   return {{"double", "Satellites in double, h = 0.1, against RATTLE at h = 0.1", double_rows},
           {"best", "Satellites to T = 1000 in double, errors of q and p at t = 100 below 1e-9", best_rows},
-          {"quad", "Satellites in quad, h = 0.1", quad_rows},
+          {"quad", "Quad against the paper's iteration with h = 0.1, and against double", quad_rows},
           {"mpfr", "Satellites in more digits, h = 0.1", mpfr_rows},
           {"raw", "Residuals and sweeps against the raw cost of their operations", raw_rows},
           {"nodes", "Gauss-Legendre nodes and weights against Arb", node_rows},
@@ -124,7 +141,11 @@ std::vector<Row> best_rows() {
 
 std::vector<Row> quad_rows() {
   return {against_papers<Quad>(satellites, 5, 3, "quad", 4, 100, 20),
-          against_papers<Quad>(satellites, 16, 12, "quad", 4, 20, 4)};
+          against_papers<Quad>(satellites, 16, 12, "quad", 4, 20, 4),
+          quad_over_double(satellites, 5, 3, 10, 10),
+          quad_over_double(satellites, 12, 8, 10, 8),
+          quad_over_double("double_pendulum", 6, 6, 10, 6),
+          quad_over_double("heavy_top", 4, 4, 10, 5)};
 }
 
 std::vector<Row> mpfr_rows() {
