@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string magic = "hbvm checkpoint ";
-const std::string format = "3";
+const std::string format = "4";
 const std::string checksum_key = "checksum ";
 
 std::string why() { return std::strerror(errno); }

@@ -1,5 +1,7 @@
 #include "solver/automatic.hpp"
 
+#include "solver/newton.hpp"
+
 namespace hbvm::core {
 
 template <Scalar S>
@@ -11,7 +13,8 @@ Automatic<S>::Automatic(const Problem<S>& problem, const Hbvm<S>& method)
 template <Scalar S>
 StageSolver<S>& Automatic<S>::make(int which) {
   std::unique_ptr<StageSolver<S>>& solver = solvers_[static_cast<std::size_t>(which)];
-  if (!solver) solver = make_solver(which == 0 ? SolverKind::fixed_point : SolverKind::newton, problem_, method_);
+  if (!solver && which == 0) solver = make_solver(SolverKind::fixed_point, problem_, method_);
+  if (!solver) solver = std::make_unique<Newton<S>>(problem_, method_, Newton<S>::Start::fixed_point);
   return *solver;
 }
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "solver/stage_solver.hpp"
+#include "solver/fixed_point.hpp"
 
 namespace hbvm::core {
 
@@ -11,9 +11,10 @@ namespace hbvm::core {
 template <Scalar S>
 class Automatic final : public StageSolver<S> {
  public:
-  static constexpr long slow = 25;
+  static constexpr long slow = FixedPoint<S>::slow;
 
-  /// In double the fixed point is preferred, whose sweeps are cheaper; in more digits Newton.
+  /// In double the fixed point is preferred, whose sweeps are cheaper. In more digits Newton is, from where the fixed
+  /// point comes to in double.
   Automatic(const Problem<S>& problem, const Hbvm<S>& method);
 
   long solve(const StepStart<S>& start) override;

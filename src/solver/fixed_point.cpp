@@ -33,6 +33,22 @@ SolverCounts FixedPoint<S>::counts() const {
 }
 
 template <Scalar S>
+std::vector<PartCount> FixedPoint<S>::counts_in_double() const {
+  const SolverCounts all = counts();
+  std::vector<PartCount> parts;
+  const auto& terms = equations_.problem().potential.terms;
+  for (std::size_t t = 0; t < all.effects.size(); ++t) {
+    if (t < terms.size() && terms[t].constant_force) continue;
+    const EffectCount& effect = all.effects[t];
+    parts.push_back(
+        {.name = "effects", .calls = effect.evaluations, .per_call = effect.done(), .seconds = effect.seconds});
+  }
+  parts.insert(parts.end(), all.parts.begin(), all.parts.end());
+  for (PartCount& part : parts) part.in_double = true;
+  return parts;
+}
+
+template <Scalar S>
 long FixedPoint<S>::solve(const StepStart<S>& start) {
   if (start.h != h_) {
     set(h_, start.h);

@@ -24,6 +24,8 @@ template <Scalar S>
 class FixedPoint final : public StageSolver<S> {
  public:
   enum class Order { paper, newest };
+  /// In a step that takes more sweeps, Newton's iteration is the quicker one.
+  static constexpr long slow = 25;
 
   FixedPoint(const Problem<S>& problem, const Hbvm<S>& method, Order order);
 
@@ -31,6 +33,8 @@ class FixedPoint final : public StageSolver<S> {
   const StageUnknowns<S>& unknowns() const override { return x_; }
   const StepChange<S>& change() const override { return change_; }
   SolverCounts counts() const override;
+  /// The same in a step of more digits, effects as parts; not the constant forces, which are evaluated once.
+  std::vector<PartCount> counts_in_double() const;
   /// The multipliers are where those of the next step start from.
   void remember(Archive& archive) override { archive(h_, extrapolation_, x_.lambda, x_.zeta); }
 

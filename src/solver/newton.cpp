@@ -20,7 +20,7 @@ double scaled(const S& x, long exponent) {
     return own - exponent < -1000 ? 0 : std::ldexp(fraction, static_cast<int>(own - exponent));
   } else {
     using std::ldexp;
-    return static_cast<double>(ldexp(x, static_cast<int>(-exponent)));
+    return approximately(S(ldexp(x, static_cast<int>(-exponent))));
   }
 }
 
@@ -64,7 +64,7 @@ Newton<S>::Level::Level(const Problem<S>& full_problem, const Hbvm<S>& full_meth
       p0(problem.m()) {}
 
 template <Scalar S>
-Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method)
+Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method, [[maybe_unused]] Start start)
     : problem_(problem),
       method_(method),
       change_(problem.m()),
@@ -81,6 +81,8 @@ Newton<S>::Newton(const Problem<S>& problem, const Hbvm<S>& method)
   rounded_problem_.emplace(in_double(problem));
   rounded_method_.emplace(in_double(method));
   rounded_.emplace(*rounded_problem_, *rounded_method_, SimplifiedNewton<double>::Wanted::start);
+  if (start == Start::fixed_point)
+    swept_.emplace(*rounded_problem_, *rounded_method_, FixedPoint<double>::Order::newest);
   rounded_q0_.resize(problem.m());
   rounded_p0_.resize(problem.m());
   r_ = {x_.gamma, x_.lambda};
@@ -112,6 +114,25 @@ void Newton<S>::take_step(const S& h) {
   set(h_, h);
   set(rate_, S(1));
   failed_in_double_ = !rounded_ || !fits_double(h_);
+  sweeps_ = true;
+}
+
+template <Scalar S>
+long Newton<S>::start_in_double() {
+  const StepStart<double> start{rounded_q0_, rounded_p0_, approximately(h_)};
+  long sweeps = 0;
+  if (swept_ && sweeps_) {
+    try {
+      sweeps = swept_->solve(start);
+      sweeps_ = sweeps <= FixedPoint<double>::slow;
+      rounded_->adopt(start, swept_->unknowns());
+      return sweeps;
+    } catch (const StageFailure& failure) {
+      sweeps = failure.sweeps();
+      sweeps_ = false;
+    }
+  }
+  return sweeps + rounded_->solve(start);
 }
 
 template <Scalar S>
@@ -130,7 +151,7 @@ long Newton<S>::solve(const StepStart<S>& start) {
         rounded_p0_[j] = approximately(start.p[j]);
       }
       try {
-        sweeps = rounded_->solve({rounded_q0_, rounded_p0_, approximately(h_)});
+        sweeps = start_in_double();
         const auto [corrections, fell] = refine(start);
         sweeps += corrections;
         if (fell) return sweeps;
@@ -278,8 +299,11 @@ SolverCounts Newton<S>::counts() const {
     if (full_) add_counts(sum, full_->counts(), problem_);
     if (!rounded_) return sum;
     sum.parts.insert(sum.parts.end(), {rounding_count_, update_count_});
-    const std::vector<PartCount> in_double = rounded_->counts_in_double();
-    sum.parts.insert(sum.parts.end(), in_double.begin(), in_double.end());
+    const auto add_parts = [&](const std::vector<PartCount>& in_double) {
+      sum.parts.insert(sum.parts.end(), in_double.begin(), in_double.end());
+    };
+    if (swept_) add_parts(swept_->counts_in_double());
+    add_parts(rounded_->counts_in_double());
     return sum;
   }
 }
@@ -287,8 +311,9 @@ SolverCounts Newton<S>::counts() const {
 template <Scalar S>
 void Newton<S>::remember(Archive& archive) {
   bool full = full_ != nullptr;
-  archive(h_, rate_, failed_in_double_, full);
+  archive(h_, rate_, failed_in_double_, full, sweeps_);
   if (rounded_) archive(*rounded_);
+  if (swept_) swept_->remember(archive);
   if (full && !full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_);
   if (full) archive(*full_);
 }

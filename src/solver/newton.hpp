@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "problem/in_double.hpp"
+#include "solver/fixed_point.hpp"
 #include "solver/simplified_newton.hpp"
 
 namespace hbvm::core {
@@ -11,11 +12,12 @@ namespace hbvm::core {
 /// Newton's iteration in mixed precision: the residual in the working precision, the Jacobian and its factors in
 /// double.
 ///
-/// The stage equations are first solved in double. With more digits, the first residual at that solution has all
-/// displacements to the last bit of a double. (Of bodies far from the origin, double itself leaves few.) From these the
-/// Jacobian is evaluated and factored. With it each sweep wins about 15 digits, and its residual needs only the digits
-/// that the correction can use. In Mpfr it is evaluated with problem, method and state rounded to a few more digits
-/// than are to be won.
+/// The stage equations are first solved in double, by Newton's iteration or by the fixed point. The sweeps of that are
+/// cheaper, as long as they are few. With more digits, the first residual at that solution has all displacements to
+/// the last bit of a double. (Of bodies far from the origin, double itself leaves few.) From these the Jacobian is
+/// evaluated and factored. With it each sweep wins about 15 digits, and its residual needs only the digits that the
+/// correction can use. In Mpfr it is evaluated with problem, method and state rounded to a few more digits than are to
+/// be won.
 ///
 /// The last residual is one of the working precision, and StoppingRule says when it is reached.
 ///
@@ -28,7 +30,10 @@ class Newton final : public StageSolver<S> {
   /// What a sweep with the Jacobian in double has to win.
   static constexpr long least_bits = 10;
 
-  Newton(const Problem<S>& problem, const Hbvm<S>& method);
+  /// What solves the equations in double first, where there are more digits.
+  enum class Start { newton, fixed_point };
+
+  Newton(const Problem<S>& problem, const Hbvm<S>& method, Start start = Start::newton);
 
   long solve(const StepStart<S>& start) override;
   const StageUnknowns<S>& unknowns() const override { return x_; }
@@ -55,6 +60,8 @@ class Newton final : public StageSolver<S> {
     std::unique_ptr<Level> level;
   };
 
+  /// Takes rounded_ to the solution of the step from rounded_q0_ and rounded_p0_. \return the number of sweeps
+  long start_in_double();
   /// \return the number of residuals, and whether the corrections fell
   std::pair<long, bool> refine(const StepStart<S>& from);
   long solve_in_full(const StepStart<S>& start);
@@ -76,6 +83,8 @@ class Newton final : public StageSolver<S> {
   std::optional<Problem<double>> rounded_problem_;
   std::optional<Hbvm<double>> rounded_method_;
   std::optional<SimplifiedNewton<double>> rounded_;
+  std::optional<FixedPoint<double>> swept_;    ///< if the fixed point is to start
+  bool sweeps_ = true;                         ///< whether swept_ solves the steps of this size in few sweeps
   std::unique_ptr<SimplifiedNewton<S>> full_;  ///< once double has failed
   Vector<double> rounded_q0_, rounded_p0_;
   std::optional<StageEquations<S>> equations_;  ///< in double those of rounded_ serve

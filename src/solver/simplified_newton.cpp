@@ -74,6 +74,16 @@ long SimplifiedNewton<S>::follow(const StepStart<S>& from) {
 }
 
 template <Scalar S>
+void SimplifiedNewton<S>::adopt(const StepStart<S>& from, const StageUnknowns<S>& solution) {
+  iteration_.begin(from, from.h);
+  StageUnknowns<S>& x = iteration_.unknowns();
+  set(x.gamma, solution.gamma);
+  set(x.lambda, solution.lambda);
+  set(x.psi, solution.psi);
+  set(x.zeta, solution.zeta);
+}
+
+template <Scalar S>
 SolverCounts SimplifiedNewton<S>::counts() const {
   SolverCounts all{equations().effect_counts(), equations().part_counts()};
   const auto add = [&](const std::vector<PartCount>& parts) {

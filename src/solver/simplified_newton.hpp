@@ -27,6 +27,8 @@ class SimplifiedNewton {
   /// \return the number of residuals
   /// \throws StageFailure
   long follow(const StepStart<S>& from);
+  /// Takes this for the solution of the step: that of another solver.
+  void adopt(const StepStart<S>& from, const StageUnknowns<S>& solution);
   /// What was done: by effect and by part of the equations, of the Jacobian and of the iteration.
   SolverCounts counts() const;
   /// The same in a step of more digits, the stage equations as one part.

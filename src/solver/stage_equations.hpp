@@ -109,9 +109,11 @@ class StageEquations {
   const Matrix<S>& node_multipliers(const Matrix<S>& lambda) const {
     return method_.has_coefficients_of_lambda() ? lambda_ : lambda;
   }
+  /// Those where lambda has coefficients.
+  const Matrix<S>& multipliers_at_nodes() const { return lambda_; }
   const ConstraintGradient<S>& constraint_gradient() const { return gradient_; }
   /// Rounds what residual() has found of the same equations in more digits: nodes, their velocities, the constraints'
-  /// gradients.
+  /// gradients, and the multipliers at the nodes.
   template <Scalar T>
   void round(const StageEquations<T>& from) requires std::same_as<S, double> {
     set_in_double(u_, from.node_positions());
@@ -119,6 +121,7 @@ class StageEquations {
     set_in_double(w_, from.node_velocities());
     if (!problem_.forces.empty()) set_in_double(w_hat_, from.quadrature_velocities());
     gradient_.round(from.constraint_gradient());
+    if (method_.has_coefficients_of_lambda()) set_in_double(lambda_, from.multipliers_at_nodes());
   }
 
   /// What was done since construction: by effect, and by part (the forces' own work is in the effects').

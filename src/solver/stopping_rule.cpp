@@ -69,8 +69,8 @@ StoppingRule<S>::StoppingRule(Index coordinates, long roundings, int least_rate_
       coordinates_(static_cast<std::size_t>(coordinates)) {
   shorten<S>(bound_, negligible_, tiny_, least_rate_, coarse_bound_, kappa_, rate_, last_rate_, t_, left_);
   for (Coordinate& x : coordinates_)
-    shorten<S>(x.terms, x.scale, x.position, x.least, x.expected, x.noise, x.rounding, x.negligible, x.coarse, x.far,
-               x.lost, x.open);
+    shorten<S>(x.terms, x.scale, x.position, x.least, x.expected, x.due, x.noise, x.rounding, x.negligible, x.coarse,
+               x.far, x.lost, x.open);
   for (Index j = 0; j < coordinates; ++j) shorten<S>(change_[j], last_[j]);
 }
 
@@ -264,6 +264,7 @@ template <Scalar S>
 [[gnu::always_inline]] inline bool StoppingRule<S>::is_settled_at_first(Coordinate& x, const S& change, const S& rate) {
   HeldScratch<S> left = left_;
   x.risen = x.waiting = x.vanishing = 0;
+  x.fell = false;
   set(x.least, change);
   set(x.expected, change);
   set_product(left, change, rate);
@@ -272,10 +273,11 @@ template <Scalar S>
 }
 
 template <Scalar S>
-[[gnu::always_inline]] inline bool StoppingRule<S>::falls_on(const Coordinate& x, const S& change, const S& last,
-                                                             const S& rate) {
+[[gnu::always_inline]] inline bool StoppingRule<S>::falls_on(Coordinate& x, const S& change, const S& last,
+                                                             const S& rate, bool fast) {
   if (!x.falls || !is_greater(last, change) || !is_greater(change, x.far)) return false;
   HeldScratch<S> left = left_;
+  x.fell = fast;
   set_product(left, change, rate);
   return is_greater(left, x.open);
 }
@@ -286,6 +288,7 @@ template <Scalar S>
   HeldScratch<S> left = t_;
   follow_least(x, change);
   x.vanishing = 0;
+  x.fell = false;
   set_product(left, change, rate);
   if (is_greater(left, x.negligible) && !(fast && is_lost(x, left))) {
     set(x.expected, change);
@@ -293,6 +296,21 @@ template <Scalar S>
     return false;
   }
   return little_is_left(x, change, last, rate, fast);
+}
+
+template <Scalar S>
+[[gnu::always_inline]] inline bool StoppingRule<S>::stops(Coordinate& x, const S& change, const S& last, const S& rate,
+                                                          bool fast) {
+  if (!x.fell) {
+    // Of a last change above rounding, the rate is that of this coordinate, too, or a slower one.
+    x.fell = fast && is_greater(last, x.rounding);
+    set(x.due, change);
+    return false;
+  }
+  HeldScratch<S> bound = left_;
+  set_product(x.due, x.due, rate);
+  set_product(bound, x.due, far_above_);
+  return is_greater(change, bound);
 }
 
 template <Scalar S>
@@ -306,9 +324,10 @@ template <Scalar S>
   x.waiting = by_chance(lower) ? 0 : x.waiting + 1;
   set_sum(twice, change, change);
   x.vanishing = by_chance(is_greater(x.scale, twice)) ? 0 : x.vanishing + 1;
+  const bool stopped = stops(x, change, last, rate, fast);
   const bool little = little_is_left(x, change, last, rate, fast);
   const bool stands_still = x.waiting >= 2, vanishes = x.vanishing >= (fast ? 1 : 2);
-  return little | stands_still | x.settled | vanishes | (fast & x.small);
+  return little | stands_still | stopped | x.settled | vanishes | (fast & x.small);
 }
 
 template <Scalar S>
@@ -318,6 +337,7 @@ template <Scalar S>
     x.falls = false;
     set(x.least, last);
     set(x.expected, last);
+    set(x.due, last);
   }
   return is_greater(change, x.far) ? is_settled_above_rounding(x, change, last, rate, fast)
                                    : is_settled_within_rounding(x, change, last, rate, fast);
@@ -337,7 +357,7 @@ typename StoppingRule<S>::Verdict StoppingRule<S>::judge() {
   for (Index j = 0; j < change_.size(); ++j) {
     Coordinate& x = at(j);
     const Held<S> change = change_[j], last = last_[j];
-    if (!first && falls_on(x, change, last, rate)) {  // as most do in most sweeps: nothing has to be noted
+    if (!first && falls_on(x, change, last, rate, fast)) {  // as most do in most sweeps: nothing has to be noted
       all = false;
       continue;
     }

@@ -20,6 +20,7 @@ namespace hbvm::core {
 ///     position       what rounding of its positions amounts to, over epsilon
 ///     least          its least change; it begins anew with a change of more than 16 times that, a rise
 ///     expected       its change, or if that is not above noise what its last one above would be by now, at the rate
+///     due            once it fell fast from above rounding, what its last change then would be by now, at the rate
 ///
 /// (h zeta is what the other terms leave. Multipliers may run wild, but that is no reason to ask for less.) From these
 /// follow bounds, where C bounds the roundings of a sweep, and kappa the factor by which constraints magnify them:
@@ -44,7 +45,7 @@ namespace hbvm::core {
 ///     |                 | (and > lost, if it is small)     |                                              |
 ///     | above rounding  | else, change > far               | if little is left                            |
 ///     | within rounding | change <= far                    | if little is left, or it was settled before, |
-///     |                 |                                  | or stands still, or vanishes,                |
+///     |                 |                                  | or stands still, or stops, or vanishes,      |
 ///     |                 |                                  | or is small and changes fall fast            |
 ///
 /// Little is left
@@ -55,8 +56,11 @@ namespace hbvm::core {
 ///   its own. So a change above noise has to satisfy this with change / last for the rate, too.
 /// - if it is small, changes fall fast and rate expected is not above lost.
 ///
-/// It stands still if its change was not below its least for two sweeps. It vanishes if it changes by half of its scale
-/// or more for two sweeps, or for one if changes fall fast. Its scale goes to 0 with it then, and no bound is reached.
+/// It stands still if its change was not below its least for two sweeps. It stops if its change is above 2^12 times
+/// what is due. Then it is rounding, and the error that is left is 2^-12 of it. So it is with the momentum of a body
+/// far from the origin, in a direction in which nothing moves. Rounding of its position is in it, and may be much
+/// greater than negligible. It vanishes if it changes by half of its scale or more for two sweeps, or for one if
+/// changes fall fast. Its scale goes to 0 with it then, and no bound is reached.
 ///
 /// The verdict is the first of these that holds:
 ///
@@ -114,7 +118,7 @@ class StoppingRule {
  private:
   struct Coordinate {
     S terms = 0;  ///< shown since the last judgement
-    S scale = 0, position = 0, least = 0, expected = 0;
+    S scale = 0, position = 0, least = 0, expected = 0, due = 0;
     S noise = 0, rounding = 0, negligible = 0, far = 0, lost = 0;
     S coarse = 0;        ///< 2^-10 scale, or far if that is larger
     S open = 0;          ///< negligible, or lost if it is small and that is larger
@@ -122,9 +126,10 @@ class StoppingRule {
     long risen = 0;      ///< rises
     long vanishing = 0;  ///< sweeps in which it changed by half of its scale
     bool settled = false, small = false;
-    /// In the case "falls on" so far: `least` and `expected` are its last change then, and are not written down before
-    /// that ends.
+    /// In the case "falls on" so far: `least`, `expected` and `due` are its last change then, and are not written down
+    /// before that ends.
     bool falls = false;
+    bool fell = false;  ///< fast, from above rounding
   };
   Coordinate& at(Index j) { return coordinates_[static_cast<std::size_t>(j)]; }
   const S& last(const Coordinate& x) const { return last_[&x - coordinates_.data()]; }
@@ -133,13 +138,15 @@ class StoppingRule {
   bool look_at_changes();
   /// The cases of a coordinate.
   bool is_settled_at_first(Coordinate& x, const S& change, const S& rate);
-  bool falls_on(const Coordinate& x, const S& change, const S& last, const S& rate);
+  bool falls_on(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
   bool is_settled(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
   bool is_settled_above_rounding(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
   bool is_settled_within_rounding(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
   /// Updates what is expected of it.
   bool little_is_left(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
   bool is_lost(const Coordinate& x, const S& left) const;
+  /// Whether its change, which is within rounding, has become greater than it could be if it still fell.
+  bool stops(Coordinate& x, const S& change, const S& last, const S& rate, bool fast);
   /// Its least change, its rises, and for how long there was no change below the least.
   void follow_least(Coordinate& x, const S& change);
   bool grows() const;
@@ -153,7 +160,7 @@ class StoppingRule {
   bool fast_ = false;
   S bound_, negligible_, tiny_, least_rate_;  // C epsilon, 2^-12 epsilon, C times the least number
   S coarse_bound_, kappa_ = 1, rate_ = 1, last_rate_ = 1;
-  S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16;
+  S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16, far_above_ = 4096;
   const Vector<S>* p0_ = nullptr;
   Vector<S> change_, last_;  ///< of each coordinate: shown since the last judgement, and before
   std::vector<Coordinate> coordinates_;

@@ -245,9 +245,9 @@ TEST_F(CheckpointFile, IsRefusedWithEveryByteFlippedAndCutAnywhere) {
 
 TEST_F(CheckpointFile, IsRefusedIfItIsNoneOrOfAnotherVersion) {
   expect_refused("dimension = 2\n", "no checkpoint");
-  expect_refused(sealed("hbvm checkpoint 4\n1\n"), "format '4' of another version");
-  expect_refused(sealed("hbvm checkpoint 2\n1\n"), "format '2' of another version");
-  expect_refused(sealed("hbvm checkpoint 3\n5\n"), "fit");
+  expect_refused(sealed("hbvm checkpoint 5\n1\n"), "format '5' of another version");
+  expect_refused(sealed("hbvm checkpoint 3\n1\n"), "format '3' of another version");
+  expect_refused(sealed("hbvm checkpoint 4\n5\n"), "fit");
   EXPECT_THROW(read_checkpoint(folder / "none"), InputError);
   EXPECT_THROW(read_checkpoint(folder / ""), InputError);
 }

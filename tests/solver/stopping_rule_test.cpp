@@ -201,6 +201,47 @@ TYPED_TEST(StoppingRuleTest, AsksNoMoreOfWhatIsRoundingThanOfItsPositions) {
   EXPECT_GT(sweeps(4, below_rounding), 8);   // after which 2^-14 epsilon is left
 }
 
+/// Rounding of a position is in changes that are no longer those of the iteration. They may go on to become a little
+/// smaller, sweep by sweep, and never stand still.
+TYPED_TEST(StoppingRuleTest, EndsWhereAFastFallStopsWithinRounding) {
+  using S = TypeParam;
+  const long places = significand_bits<S>() - 1;
+  // Of a position 2^20 as large as its momentum. Three changes fall by 2^-bits to `end` epsilon, and go on from 2^16.
+  const auto sweeps_beyond = [&](long bits, long end) {
+    Sequence<S> sequence({S(1)}, 30);
+    sequence.positions()[0] = power_of_two<S>(20);
+    S rounding = power_of_two<S>(16 - places);
+    const auto change = [&](long n, Index) {
+      return n <= 3 ? power_of_two<S>(end - places + bits * (3 - n)) : rounding = rounding * 7 / 8;
+    };
+    EXPECT_EQ(sequence.run(999, change), Sequence<S>::Verdict::converged);
+    return sequence.rule.sweeps() - 3;
+  };
+  EXPECT_EQ(sweeps_beyond(14, 17), 1);  // 8 epsilon is due
+  EXPECT_EQ(sweeps_beyond(11, 17), 2);  // 64 epsilon, and then 2^-5
+  EXPECT_EQ(sweeps_beyond(11, 28), 3);  // from above rounding, which is 100 2^20 epsilon
+  // Where they fell slowly, or were within rounding from the first, they may be those of a body that hardly moves.
+  EXPECT_GT(sweeps_beyond(9, 20), 40);
+  EXPECT_GT(sweeps_beyond(4, 17), 40);
+  Sequence<S> beside({S(1), S(1)}, 30);
+  beside.positions()[1] = power_of_two<S>(20);
+  S slow = power_of_two<S>(16 - places);
+  EXPECT_EQ(beside.run(999, [&](long n, Index j) { return j == 0 ? power_of_two<S>(-20 * n) : slow = slow * 7 / 8; }),
+            Sequence<S>::Verdict::converged);
+  EXPECT_GT(beside.rule.sweeps(), 40);
+}
+
+/// What is due falls on: a change within rounding that is no greater than that is one of the iteration.
+TYPED_TEST(StoppingRuleTest, AFastFallWithinRoundingIsFollowedToItsEnd) {
+  using S = TypeParam;
+  const long round_off = significand_bits<S>() - 1 + 12, bits = 11;
+  Sequence<S> sequence({S(1)}, 30);
+  sequence.positions()[0] = power_of_two<S>(20);
+  EXPECT_EQ(sequence.run(999, [&](long n, Index) { return power_of_two<S>(-bits * n); }),
+            Sequence<S>::Verdict::converged);
+  EXPECT_EQ(sequence.rule.sweeps(), (round_off + bits - 1) / bits - 1);
+}
+
 /// A change that may be rounding says nothing of how far an iteration has come, however small its coordinate is.
 TYPED_TEST(StoppingRuleTest, ChangesThatAreRoundingAreNotCoarse) {
   using S = TypeParam;
