@@ -8,10 +8,6 @@ namespace {
 
 __extension__ using Signed = __int128;
 
-constexpr double power_of_two(int exponent) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
-}
-
 /// x^2 cut by 2^64, modulo 2^128.
 Wide square_without_lowest(Wide x) {
   const std::uint64_t high = high_of(x), low = low_of(x);
@@ -131,9 +127,10 @@ bool square_root(Bits& r, const Bits& a) {
   const unsigned odd = (a.exponent() + 1) & 1;
   // x / 2^126 is in [1, 4); y / 2^64 its root's reciprocal to 50 bits.
   const Wide x = wide(a.significand_high(), a.low) << (14 + odd);
-  const double reciprocal = 1 / std::sqrt(static_cast<double>(high_of(x) >> 11) * power_of_two(-51));
+  constexpr auto two_to_51 = static_cast<double>(std::uint64_t{1} << 51);
+  const double reciprocal = 1 / std::sqrt(static_cast<double>(high_of(x) >> 11) / two_to_51);
   const std::uint64_t y =
-      reciprocal < 1 ? static_cast<std::uint64_t>(reciprocal * power_of_two(53)) << 11 : ~std::uint64_t{0} << 11;
+      reciprocal < 1 ? static_cast<std::uint64_t>(4 * two_to_51 * reciprocal) << 11 : ~std::uint64_t{0} << 11;
   // The root in units of 2^-126, and two corrections (x - root^2) / (2 root).
   Wide root = Wide{high_of(x)} * y + high_of(Wide{low_of(x)} * y);
   const std::uint64_t high = high_of(root), low = low_of(root);

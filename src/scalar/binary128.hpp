@@ -167,7 +167,8 @@ inline bool to_double(double& r, const Bits& a) {
   const std::uint64_t kept = low_of(significand >> cut), lost = a.low & ((std::uint64_t{1} << cut) - 1);
   const std::uint64_t up = (std::uint64_t{1} << (cut - 1)) - 1 + (kept & 1);
   const std::uint64_t bits = kept + ((lost + up) >> cut) + (std::uint64_t{exponent - 1} << double_places);
-  r = std::bit_cast<double>(bits | (a.high & Bits::sign));
+  const std::uint64_t with_sign = bits | (a.high & Bits::sign);
+  std::memcpy(&r, &with_sign, sizeof r);
   return true;
 }
 

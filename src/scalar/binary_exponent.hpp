@@ -11,13 +11,13 @@ namespace hbvm::core {
 inline constexpr long exponent_of_zero = std::numeric_limits<long>::min() / 4;
 template <Scalar S>
 long binary_exponent(const S& x) {
+  if constexpr (std::same_as<S, Quad>)
+    if (const binary128::Bits bits = bits_of(x); bits.normal())
+      return static_cast<long>(bits.exponent()) - static_cast<long>(binary128::Bits::bias) + 1;
   if (x == 0) return exponent_of_zero;
   if constexpr (std::same_as<S, Mpfr>) {
     return mpfr_get_exp(raw(x));
   } else {
-    if constexpr (std::same_as<S, Quad>)
-      if (const binary128::Bits bits = bits_of(x); bits.normal())
-        return static_cast<long>(bits.exponent()) - static_cast<long>(binary128::Bits::bias) + 1;
     int exponent = 0;
     using std::frexp;
     frexp(x, &exponent);

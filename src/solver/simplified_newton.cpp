@@ -1,5 +1,6 @@
 #include "solver/simplified_newton.hpp"
 
+#include "linear/arrays.hpp"
 #include "scalar/in_place.hpp"
 #include "solver/step_growth.hpp"
 
