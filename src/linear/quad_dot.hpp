@@ -6,8 +6,8 @@
 
 namespace hbvm::core {
 
-/// r = sum_i x_i y_i for i < n <= 256, where x_i stands at x[i * x_stride], in one go. Products are cut 2^-119 below
-/// the greatest binade of any, and the sum is rounded once. So the error is that of one rounding plus n 2^-119 of the
+/// r = sum_i x_i y_i for i < n <= 256, where x_i stands at x[i * x_stride], in one go. Products are cut 2^-183 below
+/// the greatest of them, and the sum is rounded once. So the error is that of one rounding, plus n 2^-183 of the
 /// greatest product. It takes a quarter of the time of products and sums one after the other, each of which waits for
 /// the one before.
 ///

@@ -59,6 +59,7 @@ template <Scalar S>
 StoppingRule<S>::StoppingRule(Index coordinates, long roundings, int least_rate_bits)
     :  // To the last digit at a rate of 0.95.
       max_sweeps_(100 + 14 * significand_bits<S>()),
+      even_(least_rate_bits > usual_rate_bits),
       bound_(S(roundings) * epsilon<S>()),
       negligible_(power_of_two<S>(-12) * epsilon<S>()),
       tiny_(S(roundings) * least_number<S>()),
@@ -277,7 +278,7 @@ template <Scalar S>
                                                              const S& rate, bool fast) {
   if (!x.falls || !is_greater(last, change) || !is_greater(change, x.far)) return false;
   HeldScratch<S> left = left_;
-  x.fell = fast;
+  x.fell = fast & even_;
   set_product(left, change, rate);
   return is_greater(left, x.open);
 }
@@ -303,7 +304,7 @@ template <Scalar S>
                                                           bool fast) {
   if (!x.fell) {
     // Of a last change above rounding, the rate is that of this coordinate, too, or a slower one.
-    x.fell = fast && is_greater(last, x.rounding);
+    x.fell = even_ && fast && is_greater(last, x.rounding);
     set(x.due, change);
     return false;
   }

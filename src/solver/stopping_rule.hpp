@@ -20,7 +20,8 @@ namespace hbvm::core {
 ///     position       what rounding of its positions amounts to, over epsilon
 ///     least          its least change; it begins anew with a change of more than 16 times that, a rise
 ///     expected       its change, or if that is not above noise what its last one above would be by now, at the rate
-///     due            once it fell fast from above rounding, what its last change then would be by now, at the rate
+///     due            where changes fall evenly, and once it fell fast from above rounding: what its last change then
+///                    would be by now, at the rate
 ///
 /// (h zeta is what the other terms leave. Multipliers may run wild, but that is no reason to ask for less.) From these
 /// follow bounds, where C bounds the roundings of a sweep, and kappa the factor by which constraints magnify them:
@@ -77,8 +78,11 @@ class StoppingRule {
   enum class Verdict { go_on, converged, stagnant, endless, not_finite };
   static constexpr long patience = 40;
 
-  /// \param least_rate_bits the least rate is 2^-least_rate_bits
-  StoppingRule(Index coordinates, long roundings, int least_rate_bits = 10);
+  /// \param least_rate_bits the least rate is 2^-least_rate_bits. More than the usual ones are for changes that fall
+  /// evenly, as those of Newton's iteration with the Jacobian of the solution do. The fixed point's may fall fast once,
+  /// and slowly from then on.
+  static constexpr int usual_rate_bits = 10;
+  StoppingRule(Index coordinates, long roundings, int least_rate_bits = usual_rate_bits);
 
   /// A new iteration.
   /// \param positions what rounding of the positions amounts to, over epsilon, for each coordinate
@@ -157,7 +161,7 @@ class StoppingRule {
 
   long sweeps_ = 0, max_sweeps_;
   bool coarse_ = true, changes_shown_ = false, terms_shown_ = false, finite_ = true, rate_shown_ = false;
-  bool fast_ = false;
+  bool fast_ = false, even_;                  ///< whether changes fall fast; evenly
   S bound_, negligible_, tiny_, least_rate_;  // C epsilon, 2^-12 epsilon, C times the least number
   S coarse_bound_, kappa_ = 1, rate_ = 1, last_rate_ = 1;
   S t_ = 0, left_ = 0, one_ = 1, sixteen_ = 16, far_above_ = 4096;

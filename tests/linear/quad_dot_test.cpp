@@ -49,7 +49,7 @@ TEST(QuadDot, IsTheExactSumRoundedOnce) {
         }
         mpfr_sub(raw(error), raw(sum), raw(exactly(r)), MPFR_RNDN);
         BigFloat bound(100), unit(100);
-        mpfr_set_ui_2exp(raw(bound), static_cast<unsigned long>(n), greatest - 119, MPFR_RNDU);
+        mpfr_set_ui_2exp(raw(bound), static_cast<unsigned long>(n), greatest - 183, MPFR_RNDU);
         if (r != 0) {
           mpfr_set_ui_2exp(raw(unit), 1, binary_exponent(r) - 114, MPFR_RNDU);
           mpfr_add(raw(bound), raw(bound), raw(unit), MPFR_RNDU);
