@@ -31,7 +31,7 @@ inline void set_bits(Quad& x, const binary128::Bits& bits) { binary128::set_bits
 }  // namespace hbvm::core
 
 // For operators and functions of Quad: that of binary128.hpp or, where it does not answer, that of the library. They
-// must stand in Boost's namespace, where they are preferred to Boost's templates. Operators take numbers by value: to
+// must stand in Boost's namespace, where they are preferred to Boost's templates. Arithmetic takes numbers by value: to
 // references, those templates would be preferred that take a number that is moved from.
 #define HBVM_QUAD_OPERATOR(op, ours, ...)                                                                 \
   inline hbvm::core::Quad operator op(hbvm::core::Quad a, hbvm::core::Quad b) {                           \
@@ -42,7 +42,7 @@ inline void set_bits(Quad& x, const binary128::Bits& bits) { binary128::set_bits
     return a;                                                                                             \
   }
 #define HBVM_QUAD_COMPARISON(op, ours) \
-  inline bool operator op(hbvm::core::Quad a, hbvm::core::Quad b) { return ours; }
+  inline bool operator op(const hbvm::core::Quad& a, const hbvm::core::Quad& b) { return ours; }
 #define HBVM_QUAD_FUNCTION(name, ours, library)              \
   inline hbvm::core::Quad name(const hbvm::core::Quad& a) {  \
     hbvm::core::binary128::Bits r;                           \
