@@ -67,15 +67,15 @@ bool reduce(Angle& angle, const Bits& a) {
   const unsigned exponent = a.exponent();
   if (exponent < least || exponent >= most) return false;
   const Wide significand = wide(a.significand_high(), a.low);
+  const int whole = static_cast<int>(exponent) - static_cast<int>(Bits::bias);
   // In units of 2^-127, modulo 2: r is within a quarter of a turn.
-  const int shift = static_cast<int>(exponent) - static_cast<int>(Bits::bias) + 15;
+  const int shift = whole + 15;
   const Wide x = shift >= 0 ? significand << shift : significand >> -shift;
   // pi/2 in the same units, and 64 bits more.
-  constexpr Wide fraction = (Wide{0x243f6a8885a308d3} << 64) | 0x13198a2e03707344;  // of pi
-  constexpr Wide quarter = (Wide{3} << 126) | (fraction >> 2);
-  constexpr std::uint64_t quarter_rest = (static_cast<std::uint64_t>(fraction) << 62) | (0xa4093822299f31d0 >> 2);
+  constexpr Wide pi_fraction = (Wide{0x243f6a8885a308d3} << 64) | 0x13198a2e03707344;
+  constexpr Wide quarter = (Wide{3} << 126) | (pi_fraction >> 2);
+  constexpr std::uint64_t quarter_rest = (static_cast<std::uint64_t>(pi_fraction) << 62) | (0xa4093822299f31d0 >> 2);
   constexpr std::uint64_t quarters_a_unit = 0xa2f9836e4e441529;  // 2/pi in units of 2^-64
-  const int whole = static_cast<int>(exponent) - static_cast<int>(Bits::bias);
   // |a| 2/pi, rounded to the nearest whole number, by the first 64 bits of a.
   const std::uint64_t leading = (a.significand_high() << 15) | (a.low >> 49);
   const std::uint64_t product = high_of(Wide{leading} * quarters_a_unit);  // a 2/pi 2^(63 - whole)
@@ -87,24 +87,23 @@ bool reduce(Angle& angle, const Bits& a) {
   return true;
 }
 
-/// Rounds x in units of 2^-128. \return false if that leaves too few bits
-bool take(Bits& r, Wide x, bool negative) {
-  constexpr int most = 8;
-  if (high_of(x) >> (64 - most) == 0) return false;
+/// x > 0 in units of 2^-128, rounded.
+Bits fraction(Wide x, std::uint64_t sign) {
   const int zeros = leading_zeros(x);
-  r = rounded(x << zeros, Bits::bias - 1 - static_cast<unsigned>(zeros), negative ? Bits::sign : 0);
+  return rounded(x << zeros, Bits::bias - 1 - static_cast<unsigned>(zeros), sign);
+}
+
+/// r = sin(quarters pi/2 + r of the angle), with the other sign if `negative`. \return false where too few bits are
+/// left of it
+bool take_sine(Bits& r, const Angle& angle, unsigned quarters, bool negative) {
+  const Wide square = high_product(angle.size, angle.size);
+  const bool of_cosine = quarters % 2 != 0;
+  const Wide size = of_cosine ? -cosine_series(square) : angle.size - high_product(angle.size, sine_series(square));
+  constexpr int least_bits = 8;
+  if (high_of(size) >> (64 - least_bits) == 0) return false;
+  const bool changes = (quarters & 2) != 0, below = !of_cosine && angle.negative;
+  r = fraction(size, negative != (changes != below) ? Bits::sign : 0);
   return true;
-}
-
-bool take_cosine(Bits& r, const Angle& angle, bool negative) {
-  const Wide lost = cosine_series(high_product(angle.size, angle.size));
-  if (lost == 0) return false;
-  return take(r, -lost, negative);
-}
-
-bool take_sine(Bits& r, const Angle& angle, bool negative) {
-  const Wide lost = high_product(angle.size, sine_series(high_product(angle.size, angle.size)));
-  return take(r, angle.size - lost, negative != angle.negative);
 }
 
 /// a - a times what the series takes away, which is small and needs few bits.
@@ -114,10 +113,8 @@ bool take_small_sine(Bits& r, const Angle& angle, const Bits& a) {
     r = a;
     return true;
   }
-  const int zeros = leading_zeros(lost);
   Bits product;
-  return multiply(product, a, rounded(lost << zeros, Bits::bias - 1 - static_cast<unsigned>(zeros), 0)) &&
-         add(r, a, product, Bits::sign);
+  return multiply(product, a, fraction(lost, 0)) && add(r, a, product, Bits::sign);
 }
 
 }  // namespace
@@ -149,33 +146,13 @@ bool square_root(Bits& r, const Bits& a) {
 
 bool cosine(Bits& r, const Bits& a) {
   Angle angle;
-  if (!reduce(angle, a)) return false;
-  switch (angle.quarters) {
-    case 0:
-      return take_cosine(r, angle, false);
-    case 1:
-      return take_sine(r, angle, true);
-    case 2:
-      return take_cosine(r, angle, true);
-    default:
-      return take_sine(r, angle, false);
-  }
+  return reduce(angle, a) && take_sine(r, angle, angle.quarters + 1, false);
 }
 
 bool sine(Bits& r, const Bits& a) {
   Angle angle;
-  if (!reduce(angle, a)) return false;
-  const bool negative = a.high >> 63 != 0;
-  switch (angle.quarters) {
-    case 0:
-      return take_sine(r, angle, negative) || (angle.own && take_small_sine(r, angle, a));
-    case 1:
-      return take_cosine(r, angle, negative);
-    case 2:
-      return take_sine(r, angle, !negative);
-    default:
-      return take_cosine(r, angle, !negative);
-  }
+  return reduce(angle, a) &&
+         (take_sine(r, angle, angle.quarters, a.high >> 63 != 0) || (angle.own && take_small_sine(r, angle, a)));
 }
 
 }  // namespace hbvm::core::binary128

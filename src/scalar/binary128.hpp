@@ -16,7 +16,7 @@ namespace hbvm::core::binary128 {
 struct Bits {
   std::uint64_t low, high;
 
-  static constexpr unsigned exponent_mask = 0x7fff, bias = 0x3fff, places = 112;
+  static constexpr unsigned exponent_mask = 0x7fff, bias = 0x3fff;
   static constexpr std::uint64_t sign = std::uint64_t{1} << 63, lead = std::uint64_t{1} << 48;
 
   unsigned exponent() const { return static_cast<unsigned>(high >> 48) & exponent_mask; }
@@ -24,6 +24,7 @@ struct Bits {
   bool finite() const { return exponent() != exponent_mask; }
   /// Neither 0 nor subnormal, infinite or NaN.
   bool normal() const { return exponent() - 1 < exponent_mask - 1; }
+  Bits magnitude() const { return {low, high & ~sign}; }
   /// The higher half of the significand.
   std::uint64_t significand_high() const { return (high & (lead - 1)) | lead; }
 };
@@ -172,14 +173,8 @@ inline bool to_double(double& r, const Bits& a) {
   return true;
 }
 
-/// r = |a|.
-inline bool magnitude(Bits& r, const Bits& a) {
-  r = {a.low, a.high & ~Bits::sign};
-  return true;
-}
-
 /// Whether a = b and a < b, of any numbers: NaN is neither, and 0 is -0.
-inline Wide size_of(const Bits& a) { return wide(a.high & ~Bits::sign, a.low); }
+inline Wide size_of(const Bits& a) { return wide(a.magnitude().high, a.low); }
 inline bool is_nan(const Bits& a) { return size_of(a) > wide(std::uint64_t{Bits::exponent_mask} << 48, 0); }
 inline bool equal(const Bits& a, const Bits& b) {
   if (is_nan(a)) return false;

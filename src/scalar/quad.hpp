@@ -61,10 +61,13 @@ HBVM_QUAD_COMPARISON(==, equal(hbvm::core::bits_of(a), hbvm::core::bits_of(b)))
 HBVM_QUAD_COMPARISON(!=, !equal(hbvm::core::bits_of(a), hbvm::core::bits_of(b)))
 HBVM_QUAD_COMPARISON(<, less(hbvm::core::bits_of(a), hbvm::core::bits_of(b)))
 HBVM_QUAD_COMPARISON(>, less(hbvm::core::bits_of(b), hbvm::core::bits_of(a)))
-HBVM_QUAD_FUNCTION(abs, magnitude, fabsq)
 HBVM_QUAD_FUNCTION(sqrt, square_root, sqrtq)
 HBVM_QUAD_FUNCTION(sin, sine, sinq)
 HBVM_QUAD_FUNCTION(cos, cosine, cosq)
+inline hbvm::core::Quad abs(hbvm::core::Quad a) {
+  hbvm::core::set_bits(a, hbvm::core::bits_of(a).magnitude());
+  return a;
+}
 inline bool isfinite(const hbvm::core::Quad& a) { return hbvm::core::bits_of(a).finite(); }
 inline hbvm::core::Quad ldexp(hbvm::core::Quad a, int exponent) {
   hbvm::core::binary128::Bits r;

@@ -38,10 +38,7 @@ Continuation<S>::Continuation(const Hbvm<S>& method, std::vector<Index> body, In
 template <Scalar S>
 void Continuation<S>::keep(const StageUnknowns<S>& solution) {
   const PartCall counted(part_);
-  set(last_.gamma, solution.gamma);
-  set(last_.psi, solution.psi);
-  set(last_.zeta, solution.zeta);
-  set(last_.lambda, solution.lambda);
+  set(last_, solution);
   known_ = true;
   find_degree();
 }

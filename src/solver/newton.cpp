@@ -168,10 +168,7 @@ template <Scalar S>
 long Newton<S>::solve_in_full(const StepStart<S>& start) {
   if (!full_) full_ = std::make_unique<SimplifiedNewton<S>>(problem_, method_);
   const long sweeps = full_->solve(start);
-  set(x_.gamma, full_->unknowns().gamma);
-  set(x_.lambda, full_->unknowns().lambda);
-  set(x_.psi, full_->unknowns().psi);
-  set(x_.zeta, full_->unknowns().zeta);
+  set(x_, full_->unknowns());
   change_ = full_->change();
   return sweeps;
 }

@@ -113,11 +113,7 @@ void NewtonIteration<S>::evaluate_residual(long sweep) {
     equations_.residual(x_, residual_);
   }
   set(momentum_, residual_.momentum);
-  if (sweep > 1) return;
-  set(start_.gamma, x_.gamma);
-  set(start_.lambda, x_.lambda);
-  set(start_.psi, x_.psi);
-  set(start_.zeta, x_.zeta);
+  if (sweep == 1) set(start_, x_);
 }
 
 template <Scalar S>

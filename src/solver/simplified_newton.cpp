@@ -1,6 +1,5 @@
 #include "solver/simplified_newton.hpp"
 
-#include "linear/arrays.hpp"
 #include "scalar/in_place.hpp"
 #include "solver/step_growth.hpp"
 
@@ -77,11 +76,7 @@ long SimplifiedNewton<S>::follow(const StepStart<S>& from) {
 template <Scalar S>
 void SimplifiedNewton<S>::adopt(const StepStart<S>& from, const StageUnknowns<S>& solution) {
   iteration_.begin(from, from.h);
-  StageUnknowns<S>& x = iteration_.unknowns();
-  set(x.gamma, solution.gamma);
-  set(x.lambda, solution.lambda);
-  set(x.psi, solution.psi);
-  set(x.zeta, solution.zeta);
+  set(iteration_.unknowns(), solution);
 }
 
 template <Scalar S>

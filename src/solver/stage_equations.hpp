@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "linear/arrays.hpp"
 #include "linear/in_double.hpp"
 #include "linear/lu.hpp"
 #include "linear/ordering.hpp"
@@ -21,6 +22,14 @@ struct StageUnknowns {
   Matrix<S> zeta;    ///< s x m: coefficients of grad g lambda, (49)
   Matrix<S> lambda;  ///< s x nu: multipliers at the nodes c_i, or their coefficients if there are more nodes than s
 };
+
+template <Scalar S>
+void set(StageUnknowns<S>& to, const StageUnknowns<S>& from) {
+  set(to.gamma, from.gamma);
+  set(to.psi, from.psi);
+  set(to.zeta, from.zeta);
+  set(to.lambda, from.lambda);
+}
 
 /// What is left of the stage equations at some unknowns, 0 at a solution:
 ///

@@ -16,6 +16,12 @@ std::string microseconds(double seconds) {
   return seconds < 1e-3 ? fmt::format("{:.3g} us", seconds * 1e6) : fmt::format("{:.3g} ms", seconds * 1e3);
 }
 
+/// What both took.
+std::string costs_text(const StepCost& a, const StepCost& b) {
+  return fmt::format("{} and {} a step, {:.1f} and {:.1f} sweeps", microseconds(a.seconds), microseconds(b.seconds),
+                     a.sweeps, b.sweeps);
+}
+
 std::string method_text(int k, int s) { return fmt::format("HBVM({},{})", k, s); }
 
 /// The paper's iteration against the default solver.
@@ -31,8 +37,7 @@ Row against_papers(const std::string& scene_name, int k, int s, const std::strin
           papers.seconds / own.seconds,
           limit,
           true,
-          fmt::format("{} and {} a step, {:.1f} and {:.1f} sweeps", microseconds(own.seconds),
-                      microseconds(papers.seconds), own.sweeps, papers.sweeps)};
+          costs_text(own, papers)};
 }
 
 /// The default solvers of quad and of double, at the same step of 1 / `per_unit`.
@@ -48,8 +53,7 @@ Row quad_over_double(const std::string& scene_name, int k, int s, int per_unit, 
           quad.seconds / in_double.seconds,
           limit,
           false,
-          fmt::format("{} and {} a step, {:.1f} and {:.1f} sweeps", microseconds(quad.seconds),
-                      microseconds(in_double.seconds), quad.sweeps, in_double.sweeps)};
+          costs_text(quad, in_double)};
 }
 
 }  // namespace
